@@ -1,0 +1,86 @@
+"""The paper's allowable movements T_z, T_phi, T_z_phi, T_xy_phi, T_theta_phi, T_theta_phi_psi (Section 3) in JAX.
+
+Each movement displaces a local frame; `x, y, z` are translations along and `theta, phi, psi` rotations about its axes.
+The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is written once,
+as a product of elementary ones (`MOVEMENTS`); its 4x4 matrix and everything that the solver needs follow from that.
+`T_screw`, the helical pair, and `I`, no movement, are not in the paper.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+Matrices = Float[Array, "*poses 4 4"]
+
+
+@dataclass(frozen=True)
+class Element:
+    """An elementary movement along or about one axis of the local frame."""
+
+    kind: Literal["translate", "rotate", "screw"]
+    """A screw turns by its coordinate q and advances by pitch q / 2 pi."""
+    axis: int
+    """0, 1, 2 for x, y, z."""
+    coordinate: int
+    """Which coordinate of the movement drives it."""
+
+
+@dataclass(frozen=True)
+class Movement:
+    """An allowable movement: the names of its coordinates and its elementary movements, leftmost factor first."""
+
+    coordinates: tuple[str, ...]
+    elements: tuple[Element, ...]
+    ball: bool = False
+    """True where the elements are the three angles of a ball: solved without angles, since they lock at phi = 90 deg."""
+
+
+def _translate(axis: int, coordinate: int) -> Element:
+    return Element("translate", axis, coordinate)
+
+
+def _rotate(axis: int, coordinate: int) -> Element:
+    return Element("rotate", axis, coordinate)
+
+
+MOVEMENTS: dict[str, Movement] = {
+    "I": Movement((), ()),
+    "T_z": Movement(("z",), (_translate(2, 0),)),
+    "T_phi": Movement(("phi",), (_rotate(2, 0),)),
+    "T_screw": Movement(("phi",), (Element("screw", 2, 0),)),
+    "T_z_phi": Movement(("z", "phi"), (_translate(2, 0), _rotate(2, 1))),
+    "T_xy_phi": Movement(("x", "y", "phi"), (_translate(0, 0), _translate(1, 1), _rotate(2, 2))),
+    "T_theta_phi": Movement(("theta", "phi"), (_rotate(1, 1), _rotate(0, 0))),
+    "T_theta_phi_psi": Movement(("theta", "phi", "psi"), (_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)), ball=True),
+}
+
+
+@partial(jax.jit, static_argnames="movement")
+def movement_matrix(movement: str, q: Float[Array, "*poses k"], pitch: Float[Array, ""] | float = 0.0) -> Matrices:
+    """The matrix T of a movement for coordinates `q`, whose last axis follows `MOVEMENTS[movement].coordinates`.
+
+    Angles in radians, translations in the unit of the mechanism, `pitch` in that unit per turn (only `T_screw`).
+    """
+    q = jnp.asarray(q)
+    matrix = jnp.broadcast_to(jnp.eye(4, dtype=q.dtype), (*q.shape[:-1], 4, 4))
+    for element in MOVEMENTS[movement].elements:
+        matrix = matrix @ _element_matrix(element, q[..., element.coordinate], pitch)
+    return matrix
+
+
+def _element_matrix(element: Element, q: Float[Array, "*poses"], pitch: Float[Array, ""] | float) -> Matrices:
+    i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
+    matrix = jnp.broadcast_to(jnp.eye(4, dtype=q.dtype), (*q.shape, 4, 4))
+    if element.kind == "translate":
+        return matrix.at[..., i, 3].set(q)
+    cos, sin = jnp.cos(q), jnp.sin(q)
+    matrix = matrix.at[..., j, j].set(cos).at[..., j, k].set(-sin).at[..., k, j].set(sin).at[..., k, k].set(cos)
+    if element.kind == "screw":
+        matrix = matrix.at[..., i, 3].set(q * pitch / (2 * jnp.pi))
+    return matrix

@@ -1,0 +1,59 @@
+"""Parts as the solids give them: named sets of analytic faces with the triangles that bound them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.surfaces import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """One face of a part: its infinite surface, and the triangles that say where on it the face lies."""
+
+    name: str
+    """Unique within the part, such as "face 7"."""
+    surface: Surface
+    triangles: Float[np.ndarray, "triangles 3 3"]
+    """Corners in world coordinates at the assembled pose, in the unit of the assembly, wound outwards."""
+
+    @cached_property
+    def box(self) -> Float[np.ndarray, "2 3"]:
+        """Lowest and highest corner of the bounding box."""
+        corners = self.triangles.reshape(-1, 3)
+        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    @cached_property
+    def area(self) -> float:
+        edges = self.triangles[:, 1:] - self.triangles[:, :1]
+        return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=-1).sum() / 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A rigid part in its assembled pose, in world coordinates and in the unit of the assembly."""
+
+    name: str
+    faces: tuple[Face, ...]
+    triangles: Float[np.ndarray, "triangles 3 3"]
+    """All triangles of the part, analytic or not: for drawing."""
+    color: tuple[float, float, float] | None = None
+    """Red, green, blue in 0..1 where the file gives a colour."""
+    notes: tuple[str, ...] = field(default=())
+    """What of this part could not be read as one of the four surfaces, in words."""
+
+    @cached_property
+    def box(self) -> Float[np.ndarray, "2 3"]:
+        """Lowest and highest corner of the bounding box."""
+        corners = self.triangles.reshape(-1, 3)
+        return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+
+def size(parts: tuple[Part, ...]) -> float:
+    """The diagonal of the box around all parts: the length that tolerances are relative to."""
+    boxes = np.stack([part.box for part in parts])
+    return float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))

@@ -1,0 +1,58 @@
+"""Rigid poses as 4x4 matrices, on the host (float64).
+
+A pose `F` maps local coordinates to world coordinates; a displacement `D` moves points of the world. The displacement
+that a motion `T` of a local frame makes in the world is `F T F^-1` (the paper's `M^-1 T M` with `M = F^-1`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+Vector = Float[np.ndarray, "3"]
+Points = Float[np.ndarray, "*batch 3"]
+Pose = Float[np.ndarray, "4 4"]
+
+
+def unit(vector: Vector) -> Vector:
+    """The vector divided by its length; a zero vector is refused with ValueError."""
+    vector = np.asarray(vector, float)
+    length = float(np.linalg.norm(vector))
+    if not np.isfinite(length) or length == 0.0:
+        raise ValueError(f"a direction must be a finite vector of non-zero length, got {vector.tolist()}")
+    return vector / length
+
+
+def perpendicular(direction: Vector) -> Vector:
+    """A unit vector perpendicular to a unit direction, chosen by a fixed rule: equal input gives equal output."""
+    least = np.eye(3)[int(np.argmin(np.abs(direction)))]
+    return unit(least - (least @ direction) * direction)
+
+
+def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
+    """The pose of a right-handed frame with the given z axis; `x` is projected perpendicular to it if given."""
+    z = unit(z)
+    x = perpendicular(z) if x is None else unit(np.asarray(x, float) - (np.asarray(x, float) @ z) * z)
+    pose = np.eye(4)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2], pose[:3, 3] = x, np.cross(z, x), z, origin
+    return pose
+
+
+def inverse(pose: Pose) -> Pose:
+    """The inverse of a rigid pose, by transposition."""
+    result = np.eye(4)
+    result[:3, :3] = pose[:3, :3].T
+    result[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
+    return result
+
+
+def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:
+    """The rotation matrix about a unit axis through the origin, right-hand rule (Rodrigues)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+
+
+def apply(pose: Pose, points: Points) -> Points:
+    """Points moved by the pose."""
+    return points @ pose[:3, :3].T + pose[:3, 3]

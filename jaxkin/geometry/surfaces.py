@@ -1,0 +1,116 @@
+"""The four analytic surfaces of the paper (assumption 3, Section 2): plane, cylinder, cone, sphere.
+
+Host code, float64. Directions are unit vectors. `side` is +1 where the material is inside (a pin, a ball) and -1 where
+it is outside (a hole, a socket), so that `normals` always points out of the material.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from jaxkin.geometry.pose import Points, Pose, Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    point: Vector
+    normal: Vector
+    """Outward: it points out of the material."""
+    kind: ClassVar[str] = "plane"
+
+    def distance(self, points: Points) -> np.ndarray:
+        """Height over the plane, positive outside the material."""
+        return (points - self.point) @ self.normal
+
+    def normals(self, points: Points) -> Points:
+        """Outward normals at points of the surface."""
+        return np.broadcast_to(self.normal, points.shape)
+
+    def moved(self, pose: Pose) -> Plane:
+        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        return Plane(pose[:3, :3] @ self.point + pose[:3, 3], pose[:3, :3] @ self.normal)
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinder:
+    point: Vector
+    """A point of the axis."""
+    axis: Vector
+    radius: float
+    side: int
+    kind: ClassVar[str] = "cylinder"
+
+    def distance(self, points: Points) -> np.ndarray:
+        """Distance from the surface, positive outside the material."""
+        return self.side * (np.linalg.norm(_radial(points, self.point, self.axis), axis=-1) - self.radius)
+
+    def normals(self, points: Points) -> Points:
+        """Outward normals at points of the surface."""
+        return self.side * _unit(_radial(points, self.point, self.axis))
+
+    def moved(self, pose: Pose) -> Cylinder:
+        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        return replace(self, point=pose[:3, :3] @ self.point + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class Cone:
+    apex: Vector
+    axis: Vector
+    """From the apex into the half of the double cone that the face lies on."""
+    half_angle: float
+    """Radians, 0 < half_angle < pi/2."""
+    side: int
+    kind: ClassVar[str] = "cone"
+
+    def distance(self, points: Points) -> np.ndarray:
+        """Distance from the surface (exact on the side of the rulings), positive outside the material."""
+        height = (points - self.apex) @ self.axis
+        radius = np.linalg.norm(_radial(points, self.apex, self.axis), axis=-1)
+        return self.side * (radius * np.cos(self.half_angle) - height * np.sin(self.half_angle))
+
+    def normals(self, points: Points) -> Points:
+        """Outward normals at points of the surface."""
+        radial = _unit(_radial(points, self.apex, self.axis))
+        return self.side * (radial * np.cos(self.half_angle) - self.axis * np.sin(self.half_angle))
+
+    def moved(self, pose: Pose) -> Cone:
+        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        return replace(self, apex=pose[:3, :3] @ self.apex + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere:
+    centre: Vector
+    radius: float
+    side: int
+    kind: ClassVar[str] = "sphere"
+
+    def distance(self, points: Points) -> np.ndarray:
+        """Distance from the surface, positive outside the material."""
+        return self.side * (np.linalg.norm(points - self.centre, axis=-1) - self.radius)
+
+    def normals(self, points: Points) -> Points:
+        """Outward normals at points of the surface."""
+        return self.side * _unit(points - self.centre)
+
+    def moved(self, pose: Pose) -> Sphere:
+        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        return replace(self, centre=pose[:3, :3] @ self.centre + pose[:3, 3])
+
+
+Surface = Plane | Cylinder | Cone | Sphere
+
+
+def _radial(points: Points, origin: Vector, axis: Vector) -> Points:
+    """The part of `points - origin` that is perpendicular to the axis."""
+    offset = points - origin
+    return offset - (offset @ axis)[..., None] * axis
+
+
+def _unit(vectors: Points) -> Points:
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / np.where(length > 0, length, 1.0)  # a point on the axis has no normal: zero, not NaN

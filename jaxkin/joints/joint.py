@@ -1,0 +1,62 @@
+"""A joint: a chain of the paper's movements between two parts (Table 2).
+
+The displacement of part 2 relative to part 1, in world coordinates, is the product over the frames of the chain of
+`before[i] T_i after[i]^-1`. At the assembled pose `before == after` and the joint is the paper's `M_i^-1 T_i M_i`.
+The two copies of a frame move with different parts, so that link lengths can change independently.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.motions import MOVEMENTS
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A joint between two parts. A pytree: its frames and its pitch are leaves, all else is static."""
+
+    name: str
+    parts: tuple[str, str]
+    kind: str
+    """"revolute", "prismatic", ..., or "contact b" for a contact state of the paper."""
+    movements: tuple[str, ...]
+    """Keys of `MOVEMENTS`, one a frame."""
+    before: Float[Array, "frames 4 4"]
+    """Pose of each frame on the side of part 1, in world coordinates of the assembled pose."""
+    after: Float[Array, "frames 4 4"]
+    """Pose of each frame on the side of part 2; equal to `before` unless lengths were changed."""
+    pitch: Float[Array, ""]
+    """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the joint's coordinates; a name that its chain holds twice is numbered: phi1, phi2."""
+        names = [name for movement in self.movements for name in MOVEMENTS[movement].coordinates]
+        seen: Counter[str] = Counter()
+        result = []
+        for name in names:
+            seen[name] += 1
+            result.append(f"{name}{seen[name]}" if names.count(name) > 1 else name)
+        return tuple(result)
+
+    @property
+    def freedoms(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+
+jax.tree_util.register_dataclass(
+    Joint, data_fields=["before", "after", "pitch"], meta_fields=["name", "parts", "kind", "movements"]
+)
+
+
+def joint(name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames, pitch: float = 0.0) -> Joint:
+    """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose."""
+    frames = jnp.asarray(frames, dtype=float).reshape(-1, 4, 4)
+    return Joint(name, parts, kind, movements, frames, frames, jnp.asarray(pitch, dtype=float))
