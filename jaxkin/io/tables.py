@@ -1,0 +1,61 @@
+"""A motion as arrays (`motion.npz`) and as a table (`motion.csv`)."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from jaxkin.motion.motion import Motion
+from jaxkin.motion.writers import register
+from jaxkin.solve.status import Status
+
+
+@register("motion.npz", table=True)
+def write_arrays(motion: Motion, path: Path) -> None:
+    """Write all arrays of a motion, in its own precision, for `numpy.load(path)`; nothing in it is pickled.
+
+    - `input:<joint>.<coordinate>` (poses,): driven displacements
+    - `joint:<joint>` (poses, k): displacements of a joint, and `coordinates:<joint>` (k,): their names
+    - `part:<part>` (poses, 4, 4): displacement of a part from its assembled pose, in world coordinates
+    - `status` (poses,): codes, `status_names[status]` says them in words
+    - `residual` (poses,): square root of Eq. 12 with lengths over the characteristic length
+    - `unit`: of all lengths; angles are in radians
+    """
+    arrays = {f"input:{name}": values for name, values in motion.inputs.items()}
+    for name, joint in motion.mechanism.joints.items():
+        arrays[f"joint:{name}"] = motion.coordinates[name]
+        arrays[f"coordinates:{name}"] = np.array(joint.coordinates, dtype=str)
+    arrays |= {f"part:{name}": transforms for name, transforms in motion.transforms.items()}
+    arrays["status"], arrays["status_names"] = motion.status, np.array([status.name for status in Status])
+    arrays["residual"], arrays["unit"] = motion.residual, np.array(motion.mechanism.unit)
+    np.savez(path, **{key: np.asarray(array) for key, array in arrays.items()})
+
+
+@register("motion.csv", table=True)
+def write_table(motion: Motion, path: Path) -> None:
+    """Write a motion as comma-separated values, one row a pose: inputs, joint displacements, status, residual.
+
+    The first row names the columns and their units, such as `crank-coupler.phi [rad]`. Every number is the shortest
+    decimal that reads back as the same number of the motion's precision.
+    """
+    columns: dict[str, np.ndarray] = {"pose": np.arange(len(motion))}
+    for name, values in motion.inputs.items():
+        columns[f"input:{_heading(name, motion.mechanism.unit)}"] = np.asarray(values)
+    for name, joint in motion.mechanism.joints.items():
+        for index, coordinate in enumerate(joint.coordinates):
+            heading = _heading(f"{name}.{coordinate}", motion.mechanism.unit)
+            columns[heading] = np.asarray(motion.coordinates[name])[:, index]
+    columns["status"] = np.array([status.name for status in Status])[np.asarray(motion.status)]
+    columns["residual"] = np.asarray(motion.residual)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(columns)
+        writer.writerows(zip(*(column.astype(str).tolist() for column in columns.values()), strict=True))
+
+
+def _heading(name: str, unit: str) -> str:
+    """The name of a coordinate with its unit: x, y, z are lengths, theta, phi, psi are angles."""
+    coordinate = name.rpartition(".")[2].rstrip("0123456789")
+    return f"{name} [{unit if coordinate in ('x', 'y', 'z') else 'rad'}]"
