@@ -15,7 +15,7 @@ Pose = Float[np.ndarray, "4 4"]
 
 
 def unit(vector: Vector) -> Vector:
-    """The vector divided by its length; a zero vector is refused with ValueError."""
+    """The vector divided by its length; a zero or non-finite vector is refused with ValueError."""
     vector = np.asarray(vector, float)
     length = float(np.linalg.norm(vector))
     if not np.isfinite(length) or length == 0.0:

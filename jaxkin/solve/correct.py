@@ -1,0 +1,117 @@
+"""The damped corrector: brings poses onto closed loops by least-norm Gauss-Newton steps, many poses at once.
+
+Levenberg-Marquardt with a damping that vanishes with the residual (Fan and Yuan 2005), so that convergence stays
+quadratic where the Jacobian is singular but the equations consistent. A step that does not lessen the merit is refused
+and the damping raised; each pose is accepted, refused and finished on its own.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jax import lax, tree
+from jaxtyping import Array, Bool, Float
+
+from jaxkin.solve.closure import Closure, Geometry, closure
+from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.state import State, retract
+from jaxkin.solve.system import LoopSystem
+
+LONGEST_STEP = 0.5
+"""Radians, or characteristic lengths: what a linear model of a rotation is good for."""
+
+
+class Corrected(NamedTuple):
+    state: State
+    closure: Closure
+    stationary: Bool[Array, " poses"]
+    """The residual cannot be lessened any more to first order."""
+
+
+class _Iterate(NamedTuple):
+    count: Array
+    state: State
+    closure: Closure
+    trust: Float[Array, " poses"]
+    done: Bool[Array, " poses"]
+    trial: State
+
+
+def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equations free poses"]:
+    """The columns of the coordinates that are solved for."""
+    return closed.jacobian[:, jnp.array(system.free, int)]
+
+
+def spread(system: LoopSystem, free: Float[Array, "free poses"]) -> Float[Array, "columns poses"]:
+    """A change of the free coordinates as a change of all, the driven ones at rest."""
+    return jnp.zeros((system.columns, *free.shape[1:]), free.dtype).at[jnp.array(system.free, int)].set(free, unique_indices=True)
+
+
+def floor(dtype) -> float:
+    """Least damping relative to the scale of J J^T: above rounding, far below every singular value that matters."""
+    return 1e-14 if jnp.finfo(dtype).bits == 64 else 1e-6
+
+
+def newton_step(system: LoopSystem, closed: Closure) -> Float[Array, "columns poses"]:
+    """The least-norm Gauss-Newton step, damped only at the floor."""
+    jacobian = free_jacobian(system, closed)
+    return spread(system, -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian)))
+
+
+def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int) -> Corrected:
+    """Poses brought as near to closure as the damped steps get; the loop ends when every pose is done."""
+    dtype = state.x.dtype
+    eps = float(jnp.finfo(dtype).eps)
+
+    def running(iterate: _Iterate) -> Array:
+        return (iterate.count <= iterations) & jnp.any(~iterate.done)
+
+    def step(iterate: _Iterate) -> _Iterate:
+        # the closure is evaluated at one place only: the compiled program holds its code once
+        trial = closure(system, geometry, iterate.trial)
+        first = iterate.count == 0
+        better = (trial.merit < iterate.closure.merit) & ~iterate.done
+        taken = better | first
+        chosen_state, chosen = choose(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
+        lower, higher = jnp.maximum(0.3 * iterate.trust, 1e-2), jnp.minimum(8 * iterate.trust, 1e12)
+        trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
+        jacobian = free_jacobian(system, chosen)
+        damping = (trust * jnp.minimum(2 * chosen.merit, 1.0) + floor(dtype)) * scale(jacobian)
+        delta = -least_norm(jacobian, chosen.residual, damping)
+        length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
+        delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))
+        # below 32 eps^2 of the merit, and for steps of a few eps, only rounding is left
+        exhausted = ~taken & (length < 4 * eps)
+        done = iterate.done | (chosen.merit < 32 * eps**2) | exhausted | ~jnp.isfinite(chosen.merit)
+        return _Iterate(
+            iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, spread(system, delta))
+        )
+
+    poses = state.x.shape[-1]
+    nothing = Closure(
+        jnp.zeros((system.equations, poses), dtype),
+        jnp.zeros((system.equations, system.columns, poses), dtype),
+        jnp.full(poses, jnp.inf, dtype),
+        jnp.full(poses, jnp.inf, dtype),
+    )
+    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), jnp.zeros(poses, bool), state)
+    last = lax.while_loop(running, step, start)
+    return Corrected(last.state, last.closure, _stationary(system, last.closure))
+
+
+def _stationary(system: LoopSystem, closed: Closure) -> Bool[Array, " poses"]:
+    """Whether what is left of the residual cannot be reached by the free coordinates, to first order.
+
+    At a least residual J^T r = 0. Gauss-Newton gets there linearly where the residual is large, so the test is on the
+    angle between the residual and the range of J, which a pose that is still under way does not meet.
+    """
+    jacobian = free_jacobian(system, closed)
+    reach = jnp.sum(jacobian * closed.residual[:, None], axis=0)
+    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (jnp.sum(jacobian**2, axis=(0, 1)) * 2 * closed.merit + 1e-300))
+    return cosine < 1e-3
+
+
+def choose(mask: Bool[Array, " poses"], yes, no):
+    """Pose by pose the arrays of `yes` where the mask holds, else those of `no`."""
+    return tree.map(lambda a, b: jnp.where(mask, a, b), yes, no)

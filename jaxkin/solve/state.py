@@ -1,0 +1,135 @@
+"""The configuration of a loop system: its coordinates, with the turn of every ball pair as a unit quaternion.
+
+The three angles of a ball lock at phi = 90 deg, so the solver never uses them: a ball turns by `exp(delta)` applied on
+the left of its present turn, and its angles are only read off at the end. Structure of arrays: poses stand last.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.solve.system import LoopSystem
+
+Coordinates = Float[Array, "columns poses"]
+Quaternions = Float[Array, "balls 4 poses"]
+
+
+class State(NamedTuple):
+    """Coordinates of all joints (radians and scaled lengths; the columns of balls are unused) and turns of the balls."""
+
+    x: Coordinates
+    turns: Quaternions
+    """Quaternions (w, x, y, z) of part 2 relative to part 1."""
+
+
+def assembled(system: LoopSystem, poses: int, dtype) -> State:
+    """The assembled pose: no displacement anywhere."""
+    turn = jnp.array([1.0, 0.0, 0.0, 0.0], dtype)[None, :, None]
+    return State(jnp.zeros((system.columns, poses), dtype), jnp.broadcast_to(turn, (len(system.balls), 4, poses)))
+
+
+def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
+    """The state moved by `delta`: added to coordinates, applied as a rotation vector on the left of each ball's turn."""
+    x, turns = state.x + delta, state.turns
+    for ball, first in _free_balls(system):
+        turn = multiply(exponential(delta[first : first + 3]), turns[ball])
+        turns = turns.at[ball].set(turn / jnp.sqrt(jnp.sum(turn * turn, axis=0)))
+        x = x.at[first : first + 3].set(0.0)
+    return State(x, turns)
+
+
+def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
+    """The derivative of `retract(state, t delta)` at t = 0, as a tangent of the state's arrays."""
+    turns = jnp.zeros_like(state.turns)
+    for ball, first in _free_balls(system):
+        spin = jnp.concatenate([jnp.zeros_like(delta[:1]), delta[first : first + 3]])
+        turns = turns.at[ball].set(0.5 * multiply(spin, state.turns[ball]))
+        delta = delta.at[first : first + 3].set(0.0)
+    return State(delta, turns)
+
+
+def difference(a: State, b: State) -> Float[Array, " poses"]:
+    """Largest difference of two states: of coordinates, and of turns as an angle (twice that of the quaternions)."""
+    largest = jnp.max(jnp.abs(a.x - b.x), axis=0)
+    return jnp.maximum(largest, 2 * jnp.max(jnp.abs(a.turns - b.turns), axis=(0, 1), initial=0.0))
+
+
+def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]) -> State:
+    """The state with the driven coordinates set; a ball is driven by its three angles theta, phi, psi."""
+    if not system.driven:
+        return state
+    state = State(state.x.at[jnp.array(system.driven)].set(inputs, unique_indices=True), state.turns)
+    for ball, first in enumerate(system.balls):
+        if first in system.driven:
+            turn = from_angles(state.x[first : first + 3])
+            state = State(state.x, state.turns.at[ball].set(turn))
+    return state
+
+
+def _free_balls(system: LoopSystem) -> list[tuple[int, int]]:
+    return [(ball, first) for ball, first in enumerate(system.balls) if first not in system.driven]
+
+
+def multiply(a: Float[Array, "4 poses"], b: Float[Array, "4 poses"]) -> Float[Array, "4 poses"]:
+    """Product of quaternions: the turn b, then the turn a."""
+    aw, ax, ay, az = a
+    bw, bx, by, bz = b
+    return jnp.stack(
+        [
+            aw * bw - ax * bx - ay * by - az * bz,
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+        ]
+    )
+
+
+def exponential(vector: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
+    """The quaternion of a rotation vector."""
+    square = jnp.sum(vector * vector, axis=0)
+    small = square < 1e-6
+    angle = jnp.sqrt(jnp.where(small, 1.0, square))  # sqrt has no derivative at zero: the other branch is the series
+    half_sinc = jnp.where(small, 0.5 - square / 48.0, jnp.sin(0.5 * angle) / angle)
+    cos = jnp.where(small, 1.0 - square / 8.0 + square * square / 384.0, jnp.cos(0.5 * angle))
+    return jnp.concatenate([cos[None], half_sinc * vector])
+
+
+def from_angles(angles: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
+    """The quaternion of T_theta_phi_psi = Rz(psi) Ry(phi) Rx(theta)."""
+    half = 0.5 * angles
+    (ct, cp, cs), (st, sp, ss) = jnp.cos(half), jnp.sin(half)
+    return jnp.stack(
+        [
+            ct * cp * cs + st * sp * ss,
+            st * cp * cs - ct * sp * ss,
+            ct * sp * cs + st * cp * ss,
+            ct * cp * ss - st * sp * cs,
+        ]
+    )
+
+
+def rotation_matrix(turn: Float[Array, "4 poses"]) -> list[list[Array]]:
+    """Columns of the rotation matrix of a unit quaternion: entry [column][row]."""
+    w, x, y, z = turn
+    return [
+        [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
+        [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
+        [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
+    ]
+
+
+def angles(turn: Float[Array, "4 poses"]) -> Float[Array, "3 poses"]:
+    """The paper's theta, phi, psi of a unit quaternion; at phi = +-90 deg, where they lock, theta is taken as zero."""
+    columns = rotation_matrix(turn)
+    sin_phi = jnp.clip(-columns[0][2], -1.0, 1.0)
+    locked = jnp.abs(sin_phi) > 1.0 - 1e-14
+    one = jnp.ones_like(sin_phi)
+    theta = jnp.where(locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, columns[1][2]), jnp.where(locked, one, columns[2][2])))
+    psi_sin = jnp.where(locked, -columns[1][0], columns[0][1])
+    psi_cos = jnp.where(locked, columns[1][1], columns[0][0])
+    cos_phi = jnp.sqrt(jnp.where(locked, 1.0, columns[0][0] ** 2 + columns[0][1] ** 2))
+    phi = jnp.where(locked, jnp.sign(sin_phi) * (0.5 * jnp.pi), jnp.arctan2(sin_phi, cos_phi))
+    return jnp.stack([theta, phi, jnp.arctan2(psi_sin, psi_cos)])

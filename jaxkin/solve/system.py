@@ -1,0 +1,70 @@
+"""A system of closed loops as the solver sees it: static, hashable, without numbers.
+
+The joints of one structure element (a single or multiple closed loop) and the loops that run through them, with the
+coordinates that are driven. Coordinates of all joints stand one after another as columns of the Jacobian.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from jaxkin.geometry.motions import MOVEMENTS
+
+EQUATIONS = 6
+"""Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11)."""
+
+
+@dataclass(frozen=True)
+class LoopSystem:
+    """Loops that share joints, and which of their coordinates are given."""
+
+    movements: tuple[tuple[str, ...], ...]
+    """For each joint the keys of `MOVEMENTS` of its frames."""
+    loops: tuple[tuple[tuple[int, int], ...], ...]
+    """For each loop its joints in order of travel with +1, or -1 where travelled from part 2 to part 1."""
+    driven: tuple[int, ...]
+    """Columns whose values are given."""
+
+    @cached_property
+    def chains(self) -> tuple[tuple[tuple[str, int, int, int], ...], ...]:
+        """For each joint its movements: key of `MOVEMENTS`, frame, first column, number of balls before it."""
+        column, balls, chains = 0, 0, []
+        for movements in self.movements:
+            chain = []
+            for frame, name in enumerate(movements):
+                chain.append((name, frame, column, balls))
+                column += len(MOVEMENTS[name].coordinates)
+                balls += MOVEMENTS[name].ball
+            chains.append(tuple(chain))
+        return tuple(chains)
+
+    @cached_property
+    def is_length(self) -> tuple[bool, ...]:
+        """For each column whether it is a translation."""
+        return tuple(
+            name in ("x", "y", "z")
+            for movements in self.movements
+            for movement in movements
+            for name in MOVEMENTS[movement].coordinates
+        )
+
+    @property
+    def columns(self) -> int:
+        """Number of coordinates."""
+        return len(self.is_length)
+
+    @property
+    def equations(self) -> int:
+        """Number of rows of the Jacobian."""
+        return EQUATIONS * len(self.loops)
+
+    @cached_property
+    def balls(self) -> tuple[int, ...]:
+        """First columns of the coordinates of ball pairs."""
+        return tuple(column for chain in self.chains for name, _, column, _ in chain if MOVEMENTS[name].ball)
+
+    @cached_property
+    def free(self) -> tuple[int, ...]:
+        """Columns to be solved for."""
+        return tuple(column for column in range(self.columns) if column not in self.driven)
