@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose
 
 if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
 
-_SLIMNESS = 0.014
+_SLIMNESS = 0.016
 """Radius of a bar over the diagonal of the box around all joints."""
+
+_SLIMMER = 0.8
+"""Radius of a bar of a fixed part over that of the others: a moving bar that passes over it hides it."""
+
+_LAYER, _POST = 2.4, 1.1
+"""Distance of two layers of parts, and radius of the posts between them, in radii of a bar."""
 
 Triangles = Float[np.ndarray, "triangles 3 3"]
 
@@ -39,7 +47,7 @@ class _Ball(NamedTuple):
 
 _Shape = _Round | _Block | _Ball
 
-_ROD = _Round(2, 0.7, 36.0)
+_ROD = _Round(2, 0.7, 32.0)
 """Half as long as the mechanism, since the joint does not know how far it will slide."""
 
 _SHAPES: dict[str, tuple[tuple[_Shape, ...], tuple[_Shape, ...]]] = {
@@ -59,41 +67,73 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """The parts of a mechanism as bars from joint to joint, with pins, rails and balls that show what the joints do.
 
     In world coordinates of the assembled pose and in the unit of the mechanism, in the order of `mechanism.parts`.
-    Up to three joints of a part are linked pair by pair, more of them to their middle.
+    Up to three joints of a part are linked pair by pair, more of them to their middle. Where all axes are parallel, the
+    parts lie in layers one above the other, fixed ones lowest, as in a linkage that one could build.
     """
-    ends: dict[str, list[tuple[Pose, tuple[_Shape, ...]]]] = {part: [] for part in mechanism.parts}
-    for joint in mechanism.joints.values():
-        first, second = joint.parts
-        ends[first].append((np.asarray(joint.before[0], float), _SHAPES[joint.movements[0]][0]))
-        ends[second].append((np.asarray(joint.after[-1], float), _SHAPES[joint.movements[-1]][1]))
-    origins = np.array([pose[:3, 3] for part in ends.values() for pose, _ in part])
+    joints = mechanism.joints.values()
+    origins = np.array(
+        [frames[end][:3, 3] for joint in joints for frames, end in ((joint.before, 0), (joint.after, -1))]
+    )
     radius = _SLIMNESS * (float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0)
-    return tuple(Part(part, (), _sticks(ends[part], radius)) for part in mechanism.parts)
+    moving = [part for part in mechanism.parts if part not in mechanism.fixed]
+    layers = {part: _LAYER * radius * (1 + moving.index(part) if part in moving else 0) for part in mechanism.parts}
+    up = _common_axis(mechanism)
+
+    ends: dict[str, list[Float[np.ndarray, "3"]]] = {part: [] for part in mechanism.parts}
+    pieces: dict[str, list[Triangles]] = {part: [] for part in mechanism.parts}
+    for joint in joints:
+        for part, frames, index in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True):
+            pose = np.array(frames[index], float)
+            end = pose[:3, 3] + layers[part] * up
+            pose[:3, 3] += layers[joint.parts[0]] * up
+            pieces[part] += [_shape(shape, pose, radius) for shape in _SHAPES[joint.movements[index]][index]]
+            if np.linalg.norm(end - pose[:3, 3]) > 0:
+                pieces[part].append(_rod(pose[:3, 3], end, _POST * radius))
+            ends[part].append(end)
+    for part in mechanism.parts:
+        pieces[part] += _bars(ends[part], radius if part in moving else _SLIMMER * radius)
+    return tuple(Part(part, (), np.concatenate(pieces[part])) for part in mechanism.parts)
 
 
-def _sticks(ends: list[tuple[Pose, tuple[_Shape, ...]]], radius: float) -> Triangles:
-    from trimesh.creation import cylinder, icosphere
+def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:
+    """The direction of all axes of rotation if they are parallel, otherwise zero."""
+    axes = [
+        np.asarray(frame, float)[:3, element.axis]
+        for joint in mechanism.joints.values()
+        for movement, frame in zip(joint.movements, joint.before, strict=True)
+        for element in MOVEMENTS[movement].elements
+        if element.kind != "translate"
+    ]
+    parallel = axes and all(np.linalg.norm(np.cross(axis, axes[0])) < 1e-6 for axis in axes)  # 1e-6: as drawn
+    return axes[0] if parallel else np.zeros(3)
 
-    origins = _distinct(np.array([pose[:3, 3] for pose, _ in ends]), radius)
-    if len(origins) > 3:
-        origins = np.vstack([origins.mean(axis=0), origins])
-        bars = [(0, end) for end in range(1, len(origins))]
+
+def _bars(ends: list[Float[np.ndarray, "3"]], radius: float) -> list[Triangles]:
+    from trimesh.creation import icosphere
+
+    points = _distinct(ends, radius)
+    if len(points) > 3:
+        points = [np.mean(points, axis=0), *points]
+        pairs = [(points[0], end) for end in points[1:]]
     else:
-        bars = [(start, end) for end in range(len(origins)) for start in range(end)]
-    pieces = [icosphere(subdivisions=2, radius=radius).triangles + origin for origin in origins]
-    for start, end in bars:
-        pieces.append(cylinder(radius=radius, segment=origins[[start, end]], sections=24).triangles)
-    pieces += [_shape(shape, pose, radius) for pose, shapes in ends for shape in shapes]
-    return np.concatenate(pieces)
+        pairs = list(combinations(points, 2))
+    balls = [icosphere(subdivisions=2, radius=radius).triangles + point for point in points]
+    return balls + [_rod(start, end, radius) for start, end in pairs]
 
 
-def _distinct(points: Float[np.ndarray, "points 3"], distance: float) -> Float[np.ndarray, "distinct 3"]:
+def _rod(start: Float[np.ndarray, "3"], end: Float[np.ndarray, "3"], radius: float) -> Triangles:
+    from trimesh.creation import cylinder
+
+    return cylinder(radius=radius, segment=np.stack([start, end]), sections=24).triangles
+
+
+def _distinct(points: list[Float[np.ndarray, "3"]], distance: float) -> list[Float[np.ndarray, "3"]]:
     """The points without those that lie within the distance of an earlier one: a bar would have no length."""
     kept: list[np.ndarray] = []
     for point in points:
         if all(np.linalg.norm(point - other) > distance for other in kept):
             kept.append(point)
-    return np.array(kept)
+    return kept
 
 
 def _shape(shape: _Shape, pose: Pose, radius: float) -> Triangles:

@@ -38,7 +38,9 @@ def filenames() -> tuple[str, ...]:
     return (*_tables, *_others)
 
 
-def save(motion: Motion, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
+def save(
+    motion: Motion, directory: str | os.PathLike[str], only: str | Collection[str] | None = None
+) -> tuple[Path, ...]:
     """Write the motion's files into a directory, made if it is not there; `only` chooses some of `filenames()`.
 
     Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name,
@@ -50,7 +52,9 @@ def save(motion: Motion, directory: str | os.PathLike[str], only: str | Collecti
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):
-        raise NotADirectoryError(f"cannot save into {str(directory)!r}: it is, or lies in, a file; name a directory") from None
+        raise NotADirectoryError(
+            f"cannot save into {str(directory)!r}: it is, or lies in, a file; name a directory"
+        ) from None
     return tuple(_write(motion, directory, filename) for filename in chosen)
 
 
