@@ -18,7 +18,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
 from jaxkin.solve.continuation import RESCUE_STEPS, Orientation, arrived, orientation_sign, start, substep, visit
-from jaxkin.solve.correct import correct, free_jacobian, newton_step
+from jaxkin.solve.correct import choose, correct, free_jacobian, newton_step
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.state import State, angles, assembled, difference, drive, rate, retract
 from jaxkin.solve.status import Status, classify, is_closed, tolerance
@@ -118,7 +118,11 @@ def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 pos
     trusted = (gap <= tolerance(gap.dtype)) & near & good[left] & good[left + 1]
     status = jnp.maximum(knots.status[left], knots.status[left + 1])
     covered = (values >= knots.at[0]) & (values <= knots.at[-1])
-    settled = _rescue(system, geometry, bases, knots, left, _Poses(state, status, gap), inputs, ~trusted & covered)
+    between = good[left] & good[left + 1]
+    nearest = jnp.where(good[left] | ~good[left + 1], left, left + 1)
+    begin = choose(between, predicted, jax.tree.map(lambda knot: knot[..., nearest], knots.state))
+    poses = _Poses(state, status, gap)
+    settled = _rescue(system, geometry, bases, drive(system, begin, inputs), between, poses, ~trusted & covered)
     return settled._replace(status=jnp.where(covered, settled.status, Status.STALLED.value))
 
 
@@ -158,25 +162,28 @@ def _rescue(
     system: LoopSystem,
     geometry: Geometry,
     bases: Orientation,
-    knots: _Knots,
-    left: Int[Array, " poses"],
+    begin: State,
+    between: Bool[Array, " poses"],
     poses: _Poses,
-    inputs: Float[Array, "1 poses"],
     open_: Bool[Array, " poses"],
 ) -> _Poses:
-    """The open poses, a group at a time, by the damped corrector from the nearest knot that closes."""
-    good, count = is_closed(knots.status), open_.shape[0]
-    source = jnp.where(good[left] | ~good[left + 1], left, left + 1)
+    """The open poses, a group at a time, by the damped corrector.
+
+    `between` tells the poses that lie between two closed knots: those are on their branch if they end near where they
+    began, at the interpolation. Of the others the orientation tells the branch.
+    """
+    count = open_.shape[0]
 
     def settle(carry):
         open_, poses = carry
         group = jnp.nonzero(open_, size=GROUP, fill_value=count)[0]
         chosen = jnp.minimum(group, count - 1)
-        begin = jax.tree.map(lambda row: row[..., source[chosen]], knots.state)
-        found = correct(system, geometry, drive(system, begin, inputs[:, chosen]), RESCUE_STEPS)
+        guess = jax.tree.map(lambda row: row[..., chosen], begin)
+        found = correct(system, geometry, guess, RESCUE_STEPS)
+        near = difference(found.state, guess) <= 5 * FARTHEST_CORRECTION
         sign = orientation_sign(bases, free_jacobian(system, found.closure))
-        status = classify(found.closure.gap, found.stationary, sign >= 0)
-        settled = _Poses(found.state, status, found.closure.gap)
+        same = jnp.where(between[chosen] & near, poses.status[chosen] != Status.JUMPED.value, sign >= 0)
+        settled = _Poses(found.state, classify(found.closure.gap, found.stationary, same), found.closure.gap)
         merged = jax.tree.map(lambda old, new: old.at[..., group].set(new, mode="drop"), poses, settled)
         return open_.at[group].set(False, mode="drop"), merged
 
@@ -193,7 +200,12 @@ def _hermite(system: LoopSystem, knots: _Knots, left: Int[Array, " poses"], valu
         parts = (x[..., left], d[..., left], x[..., left + 1], d[..., left + 1])
         return sum(weight * part for weight, part in zip(weights, parts, strict=True))
 
-    state = jax.tree.map(blend, knots.state, knots.slope)
+    curve = jax.tree.map(blend, knots.state, knots.slope)
+    first, last = (jax.tree.map(lambda x: x[..., knot], knots.state) for knot in (left, left + 1))
+    chord = jax.tree.map(lambda a, b: a + t * (b - a), first, last)
+    # at a change point the tangent is not unique and the slope of its knot says nothing: keep to the chord there
+    smooth = difference(curve, chord) <= 0.25 * difference(first, last)
+    state = choose(smooth, curve, chord)
     return retract(system, state, jnp.zeros_like(state.x))
 
 
