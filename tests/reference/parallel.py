@@ -1,0 +1,50 @@
+"""Closed forms of parallel robots: the inputs that a pose of the platform needs; as in `reference.planar` otherwise."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from reference.spatial import half_turns
+
+Array = np.ndarray
+
+
+class Hexapod(NamedTuple):
+    base: Array
+    """Centres of the balls of the base (6, 3), in the plane z = 0."""
+    platform: Array
+    """Centres of the balls of the platform (6, 3), in coordinates of the platform."""
+
+    def legs(self, rotations: Array, positions: Array) -> Array:
+        """Lengths of the legs (poses, 6) for rotations (poses, 3, 3) and positions (poses, 3) (Stewart, 1965)."""
+        ends = self.platform @ np.swapaxes(rotations, -1, -2) + positions[..., None, :]
+        return np.linalg.norm(ends - self.base, axis=-1)
+
+
+def hexapod(base_radius=200.0, platform_radius=120.0, base_gap=0.25, platform_gap=0.35) -> Hexapod:
+    """Balls in pairs at thirds of a turn, half a gap (radians) to either side; the platform's thirds stand between."""
+    thirds = 2 * np.pi / 3 * np.arange(3)[:, None]
+    base = (thirds + base_gap * np.array([-1, 1])).ravel()
+    platform = (thirds + (np.pi / 3 - platform_gap) * np.array([-1, 1])).ravel()
+    return Hexapod(_ring(base_radius, base), _ring(platform_radius, platform))
+
+
+def _ring(radius: float, angles: Array) -> Array:
+    return np.stack([radius * np.cos(angles), radius * np.sin(angles), np.zeros(angles.shape)], axis=-1)
+
+
+def delta(positions: Array, base_radius=200.0, platform_radius=45.0, arm=240.0, forearm=560.0) -> Array:
+    """Angles of the three arms (poses, 3) of Clavel's Delta for platform centres (poses, 3) (Clavel, 1990).
+
+    Arm k swings about the tangent of the base circle at k thirds of a turn; a positive angle lowers it towards -z.
+    """
+    x, y, z = np.moveaxis(np.asarray(positions), -1, 0)
+    angles = []
+    for turn in 2 * np.pi / 3 * np.arange(3):
+        outward = np.cos(turn) * x + np.sin(turn) * y + platform_radius - base_radius
+        across = -np.sin(turn) * x + np.cos(turn) * y
+        reach = outward**2 + across**2 + z**2 + arm**2 - forearm**2
+        angles.append(half_turns(2 * arm * outward, -2 * arm * z, reach, -1))
+    return np.stack(angles, axis=-1)
