@@ -50,31 +50,28 @@ def write_animation(motion: Motion, path: Path) -> None:
     tree, data = _unpack(_meshes(parts, centres))
 
     mesh_of = {node["name"]: node["mesh"] for node in tree["nodes"] if "mesh" in node}
-    nodes = [{"name": f"z up, {mechanism.unit}", "matrix": _root_matrix(mechanism.unit, middle)}]
-    nodes[0]["children"] = list(range(1, len(parts) + 1))
+    root = {"name": f"z up, {mechanism.unit}", "matrix": _root_matrix(mechanism.unit, middle)}
+    nodes = [root | {"children": list(range(1, len(parts) + 1))}]
     for index, part in enumerate(parts):
-        place = (centres[index] - middle).tolist()
-        nodes.append({"name": part.name, "mesh": mesh_of[str(index)], "translation": place})
-        _finish(tree, tree["meshes"][mesh_of[str(index)]]["primitives"][0], material=index)
+        mesh = mesh_of[str(index)]
+        nodes.append({"name": part.name, "mesh": mesh, "translation": (centres[index] - middle).tolist()})
+        _finish(tree, tree["meshes"][mesh]["primitives"][0], material=index)
     tree |= {"nodes": nodes, "scenes": [{"nodes": [0]}], "materials": [_material(part) for part in parts]}
     tree["asset"] = {"version": "2.0", "generator": "jaxkin with trimesh"}
 
     poses = keyframes(np.asarray(motion.closed))
     moving = [index for index, part in enumerate(parts) if part.name not in mechanism.fixed]
     if len(poses) and moving:
-        times = np.linspace(0.0, DURATION, len(poses))
-        animation = {"name": ", ".join(motion.inputs), "channels": [], "samplers": []}
-        clock = _append(tree, data, times[:, None])
+        clock = _append(tree, data, np.linspace(0.0, DURATION, len(poses))[:, None])
+        channels, samplers = [], []
         for index in moving:
             transforms = np.asarray(motion.transforms[parts[index].name], float)[poses]
             places = transforms[:, :3, :3] @ centres[index] + transforms[:, :3, 3] - middle
             turns = quaternions(transforms[:, :3, :3])
             for target, values in (("translation", places), ("rotation", turns)):
-                channel = {"sampler": len(animation["samplers"]), "target": {"node": index + 1, "path": target}}
-                animation["channels"].append(channel)
-                output = _append(tree, data, values)
-                animation["samplers"].append({"input": clock, "output": output, "interpolation": "LINEAR"})
-        tree["animations"] = [animation]
+                channels.append({"sampler": len(samplers), "target": {"node": index + 1, "path": target}})
+                samplers.append({"input": clock, "output": _append(tree, data, values), "interpolation": "LINEAR"})
+        tree["animations"] = [{"name": ", ".join(motion.inputs), "channels": channels, "samplers": samplers}]
     path.write_bytes(_pack(tree, data))
 
 

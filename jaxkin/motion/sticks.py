@@ -70,10 +70,8 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     Up to three joints of a part are linked pair by pair, more of them to their middle. Where all axes are parallel, the
     parts lie in layers one above the other, fixed ones lowest, as in a linkage that one could build.
     """
-    joints = mechanism.joints.values()
-    origins = np.array(
-        [frames[end][:3, 3] for joint in joints for frames, end in ((joint.before, 0), (joint.after, -1))]
-    )
+    frames = _frames(mechanism)
+    origins = np.array([pose[:3, 3] for poses in frames.values() for pose in poses])
     radius = _SLIMNESS * (float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0)
     moving = [part for part in mechanism.parts if part not in mechanism.fixed]
     layers = {part: _LAYER * radius * (1 + moving.index(part) if part in moving else 0) for part in mechanism.parts}
@@ -81,9 +79,8 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
 
     ends: dict[str, list[Float[np.ndarray, "3"]]] = {part: [] for part in mechanism.parts}
     pieces: dict[str, list[Triangles]] = {part: [] for part in mechanism.parts}
-    for joint in joints:
-        for part, frames, index in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True):
-            pose = np.array(frames[index], float)
+    for name, joint in mechanism.joints.items():
+        for part, pose, index in zip(joint.parts, frames[name], (0, -1), strict=True):
             end = pose[:3, 3] + layers[part] * up
             pose[:3, 3] += layers[joint.parts[0]] * up
             pieces[part] += [_shape(shape, pose, radius) for shape in _SHAPES[joint.movements[index]][index]]
@@ -93,6 +90,27 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     for part in mechanism.parts:
         pieces[part] += _bars(ends[part], radius if part in moving else _SLIMMER * radius)
     return tuple(Part(part, (), np.concatenate(pieces[part])) for part in mechanism.parts)
+
+
+def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
+    """For each joint the frame at its end of part 1 and that of part 2, copied.
+
+    A fixed joint is nowhere in particular: it goes to the middle of the other joints of its parts, if they have any.
+    """
+    frames = {
+        name: (np.array(joint.before[0], float), np.array(joint.after[-1], float))
+        for name, joint in mechanism.joints.items()
+    }
+    somewhere = {name: joint for name, joint in mechanism.joints.items() if joint.movements != ("I",)}
+    for name, joint in mechanism.joints.items():
+        if name not in somewhere:
+            near = [other for other, neighbour in somewhere.items() if set(joint.parts) & set(neighbour.parts)]
+            places = [frames[other][0][:3, 3] for other in near or somewhere]
+            middle = np.mean(places, axis=0) if places else np.zeros(3)
+            first, second = frames[name]
+            offset = np.linalg.solve(first, np.append(middle, 1.0))
+            first[:3, 3], second[:3, 3] = middle, (second @ offset)[:3]
+    return frames
 
 
 def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:
