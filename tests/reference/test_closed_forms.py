@@ -66,7 +66,7 @@ def test_scotch_yoke_keeps_the_pin_in_the_slot():
 
 
 def test_quick_return_time_ratio():
-    """The arm turns back where the crank is perpendicular to it: slow over quick = (pi + 2k) / (pi - 2k), see Norton."""
+    """The arm turns back where the crank is perpendicular to it: slow over quick is (pi + 2k) / (pi - 2k) (Norton)."""
     theta = np.linspace(0.0, 2 * np.pi, 3601)
     arm = planar.quick_return(theta).arm
     slow = (np.diff(arm) > 0).mean()
