@@ -10,8 +10,12 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points, Pose, Vector
+
+Distances = Float[np.ndarray, "*batch"] | np.floating
+"""One for each point; numpy gives a scalar for a single point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,7 +25,7 @@ class Plane:
     """Outward: it points out of the material."""
     kind: ClassVar[str] = "plane"
 
-    def distance(self, points: Points) -> np.ndarray:
+    def distance(self, points: Points) -> Distances:
         """Height over the plane, positive outside the material."""
         return (points - self.point) @ self.normal
 
@@ -43,7 +47,7 @@ class Cylinder:
     side: int
     kind: ClassVar[str] = "cylinder"
 
-    def distance(self, points: Points) -> np.ndarray:
+    def distance(self, points: Points) -> Distances:
         """Distance from the surface, positive outside the material."""
         return self.side * (np.linalg.norm(_radial(points, self.point, self.axis), axis=-1) - self.radius)
 
@@ -66,7 +70,7 @@ class Cone:
     side: int
     kind: ClassVar[str] = "cone"
 
-    def distance(self, points: Points) -> np.ndarray:
+    def distance(self, points: Points) -> Distances:
         """Distance from the surface (exact on the side of the rulings), positive outside the material."""
         height = (points - self.apex) @ self.axis
         radius = np.linalg.norm(_radial(points, self.apex, self.axis), axis=-1)
@@ -89,7 +93,7 @@ class Sphere:
     side: int
     kind: ClassVar[str] = "sphere"
 
-    def distance(self, points: Points) -> np.ndarray:
+    def distance(self, points: Points) -> Distances:
         """Distance from the surface, positive outside the material."""
         return self.side * (np.linalg.norm(points - self.centre, axis=-1) - self.radius)
 
