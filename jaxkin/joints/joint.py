@@ -8,13 +8,17 @@ The two copies of a frame move with different parts, so that link lengths can ch
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import jax
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+import numpy as np
+from jaxtyping import Float
 
 from jaxkin.geometry.motions import MOVEMENTS
+
+Array = np.ndarray | jax.Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +60,14 @@ jax.tree_util.register_dataclass(
 )
 
 
-def joint(name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames, pitch: float = 0.0) -> Joint:
-    """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose."""
-    frames = jnp.asarray(frames, dtype=float).reshape(-1, 4, 4)
-    return Joint(name, parts, kind, movements, frames, frames, jnp.asarray(pitch, dtype=float))
+def joint(
+    name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames: Sequence[Array] | Array, pitch: float | Array = 0.0
+) -> Joint:
+    """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
+
+    Numbers stay float64 on the host until JAX computes with them; numbers that JAX traces stay traced.
+    """
+    leaves = jax.tree.leaves((frames, pitch))
+    xp = jnp if any(isinstance(leaf, jax.core.Tracer) for leaf in leaves) else np
+    poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
+    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float))

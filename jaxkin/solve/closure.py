@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
+from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS, Element
@@ -139,12 +139,17 @@ def _conjugate(turn: Float[Array, "4 poses"], sign: int) -> Float[Array, "4 pose
 
 
 def loop_geometry(
-    system: LoopSystem, before: tuple[Array, ...], after: tuple[Array, ...], pitch: tuple[Array, ...], length, centre
-) -> Geometry:
-    """The constants of the loops from the frames of the joints, one entry a joint.
+    system: LoopSystem, before: tuple[Array, ...], after: tuple[Array, ...], pitch: tuple[Array, ...]
+) -> tuple[Geometry, Float[Array, ""]]:
+    """The constants of the loops from the frames of the joints, one entry a joint, and the characteristic length.
 
-    Frames are taken from `centre` and lengths over `length`, so that the result depends on neither unit nor origin.
+    Frames are taken from their centroid and lengths over their root-mean-square distance from it, so that the result
+    depends on neither unit nor origin. Both are held constant in derivatives: they cancel.
     """
+    origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in before]))
+    centre = jnp.mean(origins, axis=0)
+    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
+    length = jnp.where(radius > 0, radius, 1.0)
 
     def scaled(frames: Float[Array, "frames 4 4"]) -> Float[Array, "frames 4 4"]:
         return frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
@@ -163,7 +168,7 @@ def loop_geometry(
         entered = jnp.stack([sides[side][frame] for side, frame in enter])
         left = _inverses(jnp.stack([sides[side][frame] for side, frame in leave]))
         between.append(jnp.concatenate([identity, left]) @ jnp.concatenate([entered, identity]))
-    return Geometry(tuple(between), jnp.stack(pitch) / length)
+    return Geometry(tuple(between), jnp.stack(pitch) / length), length
 
 
 def _inverses(poses: Float[Array, "poses 4 4"]) -> Float[Array, "poses 4 4"]:

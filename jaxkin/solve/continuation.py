@@ -134,8 +134,9 @@ def substep(
     next_stage = jnp.where(reentered | mirroring, FOLLOW, next_stage)
     next_stage = jnp.where(wrong, MIRROR, next_stage)
     secant = jax.tree.map(lambda new, old: (new - old) / jnp.where(moved > 0, moved, 1.0), found.state, front.state)
-    driven = found.closure.jacobian[:, jnp.array(system.driven[:1], int)].sum(axis=1)
-    slope = spread(system, -least_norm(jacobian, driven, 1e-10 * scale(jacobian))).at[system.driven[0]].set(1.0)
+    first = jnp.array(system.driven[:1], int)
+    driven = jnp.sum(found.closure.jacobian[:, first], axis=1)
+    slope = spread(system, -least_norm(jacobian, driven, 1e-10 * scale(jacobian))).at[first].set(1.0)
     final = good | (in_gap & ~wrong) | (stage == START) | mirroring
     return (
         Front(
@@ -185,4 +186,4 @@ def _orientation(jacobian: Float[Array, "equations free"]) -> Orientation:
 
 
 def _distance(system: LoopSystem, front: Front, target: Float[Array, "driven lanes"]) -> Float[Array, " lanes"]:
-    return jnp.max(jnp.abs(target - front.state.x[jnp.array(system.driven, int)]), axis=0)
+    return jnp.max(jnp.abs(target - front.state.x[jnp.array(system.driven, int)]), axis=0, initial=0.0)

@@ -69,11 +69,7 @@ def solve_system(
 
     Frames as in `Joint`, one entry a joint; inputs in the order of `system.driven`, radians and lengths.
     """
-    origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in before]))
-    centre = jnp.mean(origins, axis=0)
-    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
-    length = jnp.where(radius > 0, radius, 1.0)
-    geometry = loop_geometry(system, before, after, pitch, length, centre)
+    geometry, length = loop_geometry(system, before, after, pitch)
     lengths = jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
     scaled = inputs / lengths[jnp.array(system.driven, int)]
 
@@ -90,7 +86,7 @@ def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
         poses = _Poses(state, classify(gap, finite, finite), gap)
-    elif len(system.driven) > 1:
+    elif len(system.driven) != 1:
         states, status, gap = visit(system, geometry, inputs.T[:, :, None])
         poses = _Poses(State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), status[:, 0], gap[:, 0])
     else:

@@ -1,0 +1,131 @@
+"""Joints written by hand: the lower pairs, and the contact states of the paper, in world coordinates.
+
+All points and directions are those of the assembled pose. Part 2 moves relative to part 1: positive along and about the
+given axis by the right-hand rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from jaxkin.contacts.states import find_state
+from jaxkin.geometry.pose import frame
+from jaxkin.joints.joint import Joint, joint
+
+Triple = Sequence[float] | np.ndarray | jax.Array
+
+
+def revolute(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
+    """A hinge about the axis through the point. Coordinate: phi."""
+    return joint(name, (part1, part2), "revolute", ("T_phi",), [_frame(name, point, axis)])
+
+
+def prismatic(name: str, part1: str, part2: str, *, axis: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
+    """A slide along the axis; the point only says where it is drawn. Coordinate: z."""
+    return joint(name, (part1, part2), "prismatic", ("T_z",), [_frame(name, point, axis)])
+
+
+def cylindrical(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
+    """A pin that slides in its hole, contact state (e). Coordinates: z, phi."""
+    return joint(name, (part1, part2), "cylindrical", ("T_z_phi",), [_frame(name, point, axis)])
+
+
+def planar(name: str, part1: str, part2: str, *, normal: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
+    """A plane on a plane, contact state (a), about the point. Coordinates: x, y, phi."""
+    return joint(name, (part1, part2), "planar", ("T_xy_phi",), [_frame(name, point, normal, "normal")])
+
+
+def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
+    """A ball in its socket, contact state (o), about axes parallel to the world's. Coordinates: theta, phi, psi."""
+    return joint(name, (part1, part2), "spherical", ("T_theta_phi_psi",), [_frame(name, point, (0.0, 0.0, 1.0))])
+
+
+def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple) -> Joint:
+    """A cross: it turns in part 1 about axis1 (phi) and part 2 turns on it about axis2 (theta), perpendicular to axis1.
+
+    The movement is T_theta_phi with its y axis along axis1 and its x axis along axis2. Raises ValueError where the axes
+    are not perpendicular within 1e-6.
+    """
+    pose = _frame(name, point, axis1, "axis1")
+    x = _frame(name, point, axis2, "axis2")[:3, 2]
+    y = pose[:3, 2]
+    if not _traced(point, axis1, axis2) and abs(float(x @ y)) > 1e-6:
+        raise ValueError(
+            f"joint {name!r}: axis1 and axis2 of a universal joint must be perpendicular, the cosine between them is "
+            f"{float(x @ y):.3g}; use two revolute joints and a part between them for a skew cross"
+        )
+    xp = jnp if isinstance(pose, jax.Array) else np
+    x = x - (x @ y) * y
+    x = x / xp.linalg.norm(x)
+    columns = [xp.append(column, 0.0) for column in (x, y, xp.cross(x, y))]
+    pose = xp.stack([*columns, pose[:, 3]], axis=1)
+    return joint(name, (part1, part2), "universal", ("T_theta_phi",), [pose])
+
+
+def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float) -> Joint:
+    """A helical pair that advances by `pitch` a turn (positive: right-handed). Coordinate: phi."""
+    return joint(name, (part1, part2), "screw", ("T_screw",), [_frame(name, point, axis)], pitch)
+
+
+def fixed(name: str, part1: str, part2: str) -> Joint:
+    """No movement at all. No coordinates."""
+    return joint(name, (part1, part2), "fixed", ("I",), [np.eye(4)])
+
+
+def contact_joint(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    state: str,
+    frames: Sequence[np.ndarray] | np.ndarray | jax.Array,
+    region: Literal["circle"] | None = None,
+) -> Joint:
+    """One of the paper's sixteen contact states, "a" to "p" (Table 2 as corrected).
+
+    `frames` are the 4x4 poses that Table 1 prescribes, in world coordinates; surface 1 of the table belongs to part 1.
+    `region="circle"` selects the contacts on a circle: a ball that fills a bore (j), a ball seated in a cone (n).
+    """
+    try:
+        movements = find_state(state, region).movements
+    except ValueError as error:
+        raise ValueError(f"joint {name!r}: {error}") from None
+    if len(frames) != len(movements):
+        raise ValueError(
+            f"joint {name!r}: contact state ({state}) has {len(movements)} frames (Table 1), got {len(frames)}"
+        )
+    return joint(name, (part1, part2), f"contact {state}", movements, frames)
+
+
+def _traced(*values: object) -> bool:
+    return any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(values))
+
+
+def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:
+    """The frame with its z axis along the axis; numbers that JAX traces are taken as they are, others are checked."""
+    if _traced(point, axis):
+        return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
+    checked = {}
+    for label, value in (("point", point), (what, axis)):
+        array = np.asarray(value, float)
+        if array.shape != (3,) or not np.all(np.isfinite(array)):
+            raise ValueError(f"joint {name!r}: {label} must be three finite numbers (x, y, z), got {value!r}")
+        checked[label] = array
+    if not np.any(checked[what]):
+        raise ValueError(f"joint {name!r}: {what} must be a direction, got the zero vector")
+    return frame(checked["point"], checked[what])
+
+
+def _traced_frame(point: jax.Array, axis: jax.Array) -> jax.Array:
+    """`frame` for traced numbers."""
+    z = axis / jnp.linalg.norm(axis)
+    least = jnp.eye(3)[jnp.argmin(jnp.abs(z))]
+    x = least - (least @ z) * z
+    x = x / jnp.linalg.norm(x)
+    rotation = jnp.stack([x, jnp.cross(z, x), z, point], axis=1)
+    return jnp.concatenate([rotation, jnp.array([[0.0, 0.0, 0.0, 1.0]])])

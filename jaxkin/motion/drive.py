@@ -1,0 +1,106 @@
+"""Which coordinates are driven: names such as "A" or "j5.z" resolved, arrays checked."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.topology.names import nearest
+
+
+class Driven(NamedTuple):
+    """A driven coordinate."""
+
+    joint: int
+    coordinate: int
+    values: Float[Array, " poses"]
+
+
+def resolve(mechanism: Mechanism, drive: Mapping[str, jax.typing.ArrayLike]) -> dict[str, Driven]:
+    """The driven coordinates by their full names "joint.coordinate", in the order given.
+
+    Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
+    numbers that are not finite, and a ball of which only some angles are driven.
+    """
+    if not drive:
+        raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
+    driven: dict[str, Driven] = {}
+    for key, values in drive.items():
+        joint, coordinate = _coordinate(mechanism, key)
+        name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[coordinate]}"
+        if name in driven:
+            raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
+        driven[name] = Driven(joint, coordinate, _values(key, values))
+    lengths = {name: entry.values.shape[0] for name, entry in driven.items()}
+    if len(set(lengths.values())) > 1:
+        listed = ", ".join(f"{name!r}: {length}" for name, length in lengths.items())
+        raise ValueError(f"driven arrays must have equal length, one value a pose, got {listed}")
+    _whole_balls(mechanism, driven)
+    return driven
+
+
+def _coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
+    names = [joint.name for joint in mechanism.all_joints]
+    if key in names:
+        joint = mechanism.all_joints[names.index(key)]
+        if joint.freedoms != 1:
+            choices = " or ".join(repr(f"{key}.{coordinate}") for coordinate in joint.coordinates)
+            what = f"has {joint.freedoms} coordinates: write {choices}" if choices else "has no coordinate to drive"
+            raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
+        return names.index(key), 0
+    name, _, coordinate = key.rpartition(".")
+    if name in names:
+        joint = mechanism.all_joints[names.index(name)]
+        if coordinate not in joint.coordinates:
+            known = ", ".join(joint.coordinates) or "none"
+            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {coordinate!r}; it has: {known}")
+        return names.index(name), joint.coordinates.index(coordinate)
+    if len(pair := _pair(mechanism, name or key)) > 1:
+        raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
+    raise ValueError(f"there is no joint {key!r} to drive{nearest(name if '.' in key and name else key, names)}")
+
+
+def _pair(mechanism: Mechanism, name: str) -> list[str]:
+    """Names of parallel joints "p-q:a", "p-q:e" for the name "p-q" of their pair of parts."""
+    return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
+
+
+def _values(key: str, values: jax.typing.ArrayLike) -> Float[Array, " poses"]:
+    if not isinstance(values, jax.Array):
+        try:
+            values = np.asarray(values, float)
+        except (TypeError, ValueError):
+            raise ValueError(f"drive {key!r}: the displacements must be numbers, got {values!r}") from None
+    if values.ndim != 1:
+        raise ValueError(
+            f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "
+            f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
+        )
+    if not isinstance(values, jax.core.Tracer) and not np.all(np.isfinite(np.asarray(values))):
+        first = int(np.flatnonzero(~np.isfinite(np.asarray(values)))[0])
+        raise ValueError(
+            f"drive {key!r}: pose {first} is {float(values[first])}; all displacements must be finite numbers"
+        )
+    return jnp.asarray(values, float)
+
+
+def _whole_balls(mechanism: Mechanism, driven: dict[str, Driven]) -> None:
+    """A ball's angles are one rotation: all three are driven or none."""
+    for index, joint in enumerate(mechanism.all_joints):
+        column = 0
+        for movement in joint.movements:
+            from jaxkin.geometry.motions import MOVEMENTS
+
+            count = len(MOVEMENTS[movement].coordinates)
+            given = [entry.coordinate for entry in driven.values() if entry.joint == index]
+            chosen = [c for c in range(column, column + count) if c in given]
+            if MOVEMENTS[movement].ball and 0 < len(chosen) < count:
+                names = [f"{joint.name}.{joint.coordinates[c]}" for c in range(column, column + count)]
+                raise ValueError(f"joint {joint.name!r} is a ball: drive all of {', '.join(map(repr, names))}, or none")
+            column += count

@@ -1,0 +1,122 @@
+"""The motion of a mechanism over a range: what a sweep gives back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
+from jaxkin.joints.joint import Joint
+from jaxkin.motion import writers
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.solve.status import Status
+from jaxkin.topology.names import nearest
+from jaxkin.topology.structure import Structure
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The poses of a mechanism for a range of inputs. A pytree; every array has the poses as its first axis.
+
+    Poses that did not close are there too: their displacements are those of least residual, `status` says what became
+    of them, and their derivatives are zero.
+    """
+
+    mechanism: Mechanism
+    inputs: dict[str, Float[Array, " poses"]]
+    """Driven displacements by "joint.coordinate", in radians and in the unit of the mechanism."""
+    displacements: tuple[Float[Array, "poses coordinates"], ...]
+    """Displacements of all joints, in the order of `mechanism.joints`."""
+    status: Int[Array, " poses"]
+    """Codes of `Status`."""
+    residual: Float[Array, " poses"]
+    """Square root of Eq. 12, lengths over the characteristic length of the loops."""
+
+    def __len__(self) -> int:
+        return self.status.shape[0]
+
+    @property
+    def closed(self) -> Bool[Array, " poses"]:
+        """Which poses are closed on the branch of the assembled pose."""
+        return self.status == Status.CLOSED.value
+
+    @cached_property
+    def coordinates(self) -> Mapping[str, Float[Array, "poses coordinates"]]:
+        """Displacements of each joint, in the order of its `coordinates`; angles count full turns."""
+        return dict(zip(self.mechanism.joints, self.displacements, strict=True))
+
+    @cached_property
+    def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
+        """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
+        matrices = _transforms(self.mechanism.structure, self.mechanism.all_joints, self.displacements)
+        return dict(zip(self.mechanism.parts, matrices, strict=True))
+
+    def points(self, part: str, point: jax.typing.ArrayLike) -> Float[Array, "poses 3"]:
+        """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
+        if part not in self.transforms:
+            raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
+        transforms = self.transforms[part]
+        point = jnp.asarray(point, float)
+        if point.shape != (3,):
+            raise ValueError(f"a point must be three numbers (x, y, z), got shape {point.shape}")
+        return jnp.einsum("pij,j->pi", transforms[:, :3, :3], point) + transforms[:, :3, 3]
+
+    def save(
+        self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None
+    ) -> tuple[Path, ...]:
+        """Write tables, animation and pictures into a directory; returns the paths. See `jaxkin.motion.writers.save`."""
+        return writers.save(self, directory, only)
+
+    def __str__(self) -> str:
+        counts = np.bincount(np.asarray(self.status), minlength=len(Status))
+        lines = [f"Motion of {len(self.mechanism.parts)} parts over {len(self)} poses, driven by {', '.join(self.inputs)}"]
+        lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
+        if counts[Status.CLOSED]:
+            largest = float(np.max(np.asarray(self.residual)[np.asarray(self.closed)]))
+            lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
+        return "\n".join(lines)
+
+
+jax.tree_util.register_dataclass(
+    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=[]
+)
+
+
+@partial(jax.jit, static_argnums=0)
+def _transforms(
+    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses coordinates"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
+    poses = displacements[0].shape[0]
+    identity = jnp.broadcast_to(jnp.eye(4, dtype=displacements[0].dtype), (poses, 4, 4))
+    found = dict.fromkeys(structure.fixed, identity)
+    for part, parent, joint, sign in structure.tree:
+        matrix = joint_matrix(joints[joint], displacements[joint])
+        found[part] = found[parent] @ (matrix if sign > 0 else _inverse(matrix))
+    return tuple(found[part] for part in structure.part_names)
+
+
+def joint_matrix(joint: Joint, q: Float[Array, "poses coordinates"]) -> Float[Array, "poses 4 4"]:
+    """Displacement J of part 2 relative to part 1 in world coordinates: product of `before T after^-1` (Table 2)."""
+    matrix, first = jnp.eye(4, dtype=q.dtype), 0
+    for frame, movement in enumerate(joint.movements):
+        count = len(MOVEMENTS[movement].coordinates)
+        turned = movement_matrix(movement, q[:, first : first + count], jnp.asarray(joint.pitch, q.dtype))
+        before, after = (jnp.asarray(side[frame], q.dtype) for side in (joint.before, joint.after))
+        matrix = matrix @ before @ turned @ _inverse(after)
+        first += count
+    return jnp.broadcast_to(matrix, (q.shape[0], 4, 4))
+
+
+def _inverse(pose: Float[Array, "*poses 4 4"]) -> Float[Array, "*poses 4 4"]:
+    turned = jnp.swapaxes(pose[..., :3, :3], -1, -2)
+    moved = -jnp.einsum("...ij,...j->...i", turned, pose[..., :3, 3])
+    return pose.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)
