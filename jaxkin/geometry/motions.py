@@ -61,6 +61,11 @@ MOVEMENTS: dict[str, Movement] = {
 }
 
 
+def is_length(coordinate: str) -> bool:
+    """Whether a coordinate of a joint, by its name, is a length (x, y, z) and not an angle (theta, phi, psi)."""
+    return coordinate.rstrip("0123456789") in ("x", "y", "z")
+
+
 @partial(jax.jit, static_argnames="movement")
 def movement_matrix(movement: str, q: Float[Array, "*poses k"], pitch: Float[Array, ""] | float = 0.0) -> Matrices:
     """The matrix T of a movement for coordinates `q`, whose last axis follows `MOVEMENTS[movement].coordinates`.

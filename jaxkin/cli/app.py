@@ -1,0 +1,125 @@
+"""The commands and their options."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from jaxkin.cli.drives import parse_drives, to_radians
+from jaxkin.cli.errors import one_line_errors
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    help="Kinematics of mechanisms: from solid models to joints, loops and motion.",
+)
+
+File = Annotated[Path, typer.Argument(metavar="FILE", help="A STEP file of the assembled mechanism.")]
+Fixed = Annotated[
+    list[str], typer.Option("--fixed", metavar="PART", help="A part that does not move; may be given several times.")
+]
+Drive = Annotated[
+    list[str],
+    typer.Option(
+        "--drive",
+        metavar="JOINT=RANGE",
+        help="A joint, or joint.coordinate, and its displacements from the assembled pose, START:STOP:COUNT or a list "
+        "with commas: degrees for angles, the unit of the file for lengths. May be given several times; all ranges "
+        "need the same number of poses.",
+    ),
+]
+Out = Annotated[Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for the files written.")]
+Combine = Annotated[
+    bool,
+    typer.Option(
+        " /--no-combine",
+        help="Keep one joint per contact, as in the paper, instead of one per pair of parts.",
+    ),
+]
+
+
+@app.command(epilog="Example:  jaxkin demo --out motion")
+def demo(out: Out = Path("jaxkin-demo")) -> None:
+    """Sweep the four-bar linkage that comes with jaxkin through a full turn, and write its motion."""
+    from jaxkin.examples import EXAMPLES, path
+
+    example = EXAMPLES["fourbar"]
+    with one_line_errors():
+        _sweep(path("fourbar"), list(example.fixed), [f"{'-'.join(example.drive)}=0:360:361"], out, combine=True)
+
+
+@app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground")
+def inspect(file: File, fixed: Fixed = [], combine: Combine = True) -> None:  # noqa: B006
+    """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
+    with one_line_errors():
+        import jaxkin as jk
+        from jaxkin.cli import report
+
+        with _progress(2) as step:
+            step(f"reading {file.name}")
+            assembly = jk.load(file)
+            step("finding contacts")
+            contacts = assembly.contacts()
+        report.say(f"{file.name}: {len(assembly.parts)} parts, lengths in {assembly.unit}\n")
+        report.print_parts(assembly.parts)
+        report.say()
+        report.print_contacts(contacts)
+        report.say()
+        report.say(str(assembly.mechanism(fixed=fixed, combine=combine)))
+
+
+@app.command(epilog="Example:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion")
+def sweep(file: File, out: Out, fixed: Fixed = [], drive: Drive = [], combine: Combine = True) -> None:  # noqa: B006
+    """Move an assembly through a range of displacements of some joints, and write its motion.
+
+    Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
+    (motion.html) and a picture (motion.png).
+    """
+    with one_line_errors():
+        _sweep(file, fixed, drive, out, combine)
+
+
+def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, combine: bool) -> None:
+    drives = parse_drives(drive)
+    start = time.perf_counter()
+    import jax
+
+    import jaxkin as jk
+    from jaxkin.cli import report
+    from jaxkin.motion.writers import filenames
+
+    with _progress(3 + len(filenames())) as step:
+        step(f"reading {file.name}")
+        assembly = jk.load(file)
+        step("finding contacts and joints")
+        mechanism = assembly.mechanism(fixed=fixed, combine=combine)
+        drives = to_radians(mechanism, drives)
+        step("solving")
+        motion = jax.block_until_ready(mechanism.sweep(drives))
+        paths = []
+        for filename in filenames():
+            step(f"writing {filename}")
+            paths += motion.save(out, only=filename)
+    report.say(f"{file.name}: {mechanism.mobility()}")
+    report.print_motion(motion)
+    report.say()
+    report.print_files(paths)
+    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. Open {out / 'motion.html'} in a browser.")
+
+
+@contextmanager
+def _progress(steps: int) -> Iterator[Callable[[str], None]]:
+    """A bar on the terminal, gone when done; call what it yields at the beginning of each step."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    console = Console(stderr=True)
+    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+        task = progress.add_task("", total=steps, completed=-1)
+        yield lambda text: progress.update(task, description=text, advance=1)
