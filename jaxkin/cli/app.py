@@ -35,12 +35,9 @@ Drive = Annotated[
     ),
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for the files written.")]
-Combine = Annotated[
+PerContact = Annotated[
     bool,
-    typer.Option(
-        " /--no-combine",
-        help="Keep one joint per contact, as in the paper, instead of one per pair of parts.",
-    ),
+    typer.Option("--no-combine", help="Keep one joint per contact, as in the paper, not one per pair of parts."),
 ]
 
 
@@ -55,7 +52,7 @@ def demo(out: Out = Path("jaxkin-demo")) -> None:
 
 
 @app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground")
-def inspect(file: File, fixed: Fixed = [], combine: Combine = True) -> None:  # noqa: B006
+def inspect(file: File, fixed: Fixed = [], no_combine: PerContact = False) -> None:  # noqa: B006
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
     with one_line_errors():
         import jaxkin as jk
@@ -71,21 +68,21 @@ def inspect(file: File, fixed: Fixed = [], combine: Combine = True) -> None:  # 
         report.say()
         report.print_contacts(contacts)
         report.say()
-        report.say(str(assembly.mechanism(fixed=fixed, combine=combine)))
+        report.say(str(assembly.mechanism(fixed=fixed, combine=not no_combine)))
 
 
 @app.command(epilog="Example:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion")
-def sweep(file: File, out: Out, fixed: Fixed = [], drive: Drive = [], combine: Combine = True) -> None:  # noqa: B006
+def sweep(file: File, out: Out, fixed: Fixed = [], drive: Drive = [], no_combine: PerContact = False) -> None:  # noqa: B006
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
     Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
     (motion.html) and a picture (motion.png).
     """
     with one_line_errors():
-        _sweep(file, fixed, drive, out, combine)
+        _sweep(file, fixed, drive, out, combine=not no_combine)
 
 
-def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, combine: bool) -> None:
+def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, *, combine: bool) -> None:
     drives = parse_drives(drive)
     start = time.perf_counter()
     import jax
