@@ -22,7 +22,7 @@ def one_line_errors() -> Iterator[None]:
 
 
 def _about_input(error: BaseException) -> bool:
-    """Files, and what jaxkin itself refuses; a ValueError from within numpy or JAX is a defect: it keeps its traceback."""
+    """Files, and what jaxkin itself refuses; a ValueError out of numpy or JAX is a defect: it keeps its traceback."""
     if isinstance(error, OSError):
         return error.__cause__ is None or _about_input(error.__cause__)
     if not isinstance(error, ValueError | KeyError) or (trace := error.__traceback__) is None:
