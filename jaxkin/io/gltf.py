@@ -25,6 +25,9 @@ DURATION = 6.0
 KEYFRAMES = 360
 """At most so many: 60 a second, what a screen shows."""
 
+METRES = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3, "in": 0.0254, "ft": 0.3048, "": 1.0}
+"""Metres in a unit; where no unit was said, lengths are taken for metres."""
+
 _CREASE = np.radians(30.0)
 """Edges sharper than this are drawn sharp; facets of a round face meet at less."""
 
@@ -50,7 +53,7 @@ def write_animation(motion: Motion, path: Path) -> None:
     tree, data = _unpack(_meshes(parts, centres))
 
     mesh_of = {node["name"]: node["mesh"] for node in tree["nodes"] if "mesh" in node}
-    root = {"name": f"z up, {mechanism.unit}", "matrix": _root_matrix(mechanism.unit, middle)}
+    root = {"name": f"z up, {mechanism.unit or 'm'}", "matrix": _root_matrix(mechanism.unit, middle)}
     nodes = [root | {"children": list(range(1, len(parts) + 1))}]
     for index, part in enumerate(parts):
         mesh = mesh_of[str(index)]
@@ -127,10 +130,12 @@ def _material(part: Part) -> dict[str, Any]:
 
 def _root_matrix(unit: str, middle: Float[np.ndarray, "3"]) -> list[float]:
     """Moves the middle of the mechanism, which the nodes count from, to its place; turns z up; goes to metres."""
-    from trimesh.units import unit_conversion
-
+    if unit not in METRES:
+        raise ValueError(
+            f"unit {unit!r} of the mechanism is not one of {', '.join(filter(None, METRES))}: an animation is in metres"
+        )
     root = np.eye(4)
-    root[:3, :3] = _UP * unit_conversion(unit, "m")
+    root[:3, :3] = _UP * METRES[unit]
     root[:3, 3] = root[:3, :3] @ middle
     return root.T.ravel().tolist()  # glTF goes down the columns
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from jaxkin.geometry.motions import is_length
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.solve.status import Status
@@ -56,6 +57,7 @@ def write_table(motion: Motion, path: Path) -> None:
 
 
 def _heading(name: str, unit: str) -> str:
-    """The name of a coordinate with its unit: x, y, z are lengths, theta, phi, psi are angles."""
-    coordinate = name.rpartition(".")[2].rstrip("0123456789")
-    return f"{name} [{unit if coordinate in ('x', 'y', 'z') else 'rad'}]"
+    """The name of a coordinate with its unit, which for lengths may not be known."""
+    if not is_length(name.rpartition(".")[2]):
+        return f"{name} [rad]"
+    return f"{name} [{unit}]" if unit else name
