@@ -1,0 +1,118 @@
+"""From where a mechanism is looked at: along the normal of its plane of motion, or obliquely when it moves in space."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Points, Vector, frame, unit
+from jaxkin.view.raster import rasterise
+
+FLAT = 1e-3  # a motion this much thinner than it is wide is plane: far above rounding, and not to be seen in a picture
+PREFERENCE = 1.1  # another side must show so many times more of the moving parts to be chosen instead of the first
+THUMBNAIL = 120  # pixels across the trial pictures that compare the sides
+
+Displacements = Mapping[str, Float[np.ndarray, "poses 4 4"]]
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """An orthographic view of the world."""
+
+    axes: Float[np.ndarray, "3 3"]
+    """Rows: unit vectors to the right, upwards and towards the viewer, in world coordinates; right-handed."""
+    planar: bool
+    """Whether all parts move parallel to the picture."""
+
+    def project(self, points: Points) -> Points:
+        """World coordinates to coordinates of the view (right, up, towards the viewer): same unit, same origin."""
+        return points @ self.axes.T
+
+
+def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Displacements) -> View:
+    """The view that shows most of the moving parts: of the two sides of the plane of motion, or of eight oblique ones.
+
+    `displacements` are of closed poses, at least one. A plane of motion that two world axes lie in is drawn with these
+    axes to the right and up; any other with the longer side of the fixed parts level and the moving parts above them.
+    Depends neither on the unit nor on the origin.
+    """
+    moving = [part for part in parts if part.name not in fixed]
+    normal = _normal(parts, moving, displacements)
+    if normal is None:
+        azimuths, rise = np.deg2rad(np.arange(8) * 45.0 - 60.0), np.deg2rad(30.0)
+        outs = [np.array([np.cos(a) * np.cos(rise), np.sin(a) * np.cos(rise), np.sin(rise)]) for a in azimuths]
+        up = np.array([0.0, 0.0, 1.0])
+    else:
+        axis = int(np.argmax(np.abs(normal)))
+        aligned = abs(normal[axis]) > 1 - FLAT**2
+        out = normal * np.sign(normal[axis]) * (-1 if aligned and axis == 1 else 1)  # x to the right, z up: from -y
+        up = np.eye(3)[1 if axis == 2 else 2] if aligned else _upwards(out, parts, moving, fixed, displacements)
+        outs = [out, -out]
+    views = [View(frame(np.zeros(3), out, np.cross(up, out))[:3, :3].T, normal is not None) for out in outs]
+    triangles, owners = _middle(parts, displacements)
+    is_moving = np.array([part not in fixed for part in owners])
+    seen = [_seen(view, triangles, is_moving) for view in views]
+    best = int(np.argmax(seen))
+    return views[best] if seen[best] > PREFERENCE * seen[0] else views[0]
+
+
+def move(displacements: Displacements, part: str, points: Points) -> Float[np.ndarray, "poses *points 3"]:
+    """World coordinates of points of a part, given where they are at the assembled pose, at all poses."""
+    pose = displacements[part]
+    turned = np.einsum("pij,...j->p...i", pose[:, :3, :3], np.asarray(points, float))
+    return turned + pose[:, :3, 3].reshape(-1, *(1,) * (turned.ndim - 2), 3)
+
+
+def _normal(parts: Sequence[Part], moving: Sequence[Part], displacements: Displacements) -> Vector | None:
+    """Normal of the plane that everything moves parallel to, None in space.
+
+    Where the motion leaves a choice (along one line, or none at all) the mechanism is seen from its flattest side.
+    """
+    cloud = np.concatenate([part.triangles.reshape(-1, 3) for part in parts])
+    cloud = cloud - cloud.mean(axis=0)
+    size = np.linalg.norm(np.ptp(cloud, axis=0))
+    probes = [(part.name, np.stack(np.meshgrid(*part.box.T), axis=-1).reshape(-1, 3)) for part in moving]
+    steps = [(move(displacements, name, points) - points).reshape(-1, 3) for name, points in probes]
+    _, widths, directions = np.linalg.svd(np.concatenate([*steps, np.zeros((3, 3))]), full_matrices=False)
+    rank = int((widths > max(FLAT * widths[0], 1e-9 * size)).sum())
+    if rank == 3:
+        return None
+    free = directions[rank:]
+    return unit(np.linalg.svd(cloud @ free.T, full_matrices=False)[2][-1] @ free)
+
+
+def _upwards(
+    out: Vector, parts: Sequence[Part], moving: Sequence[Part], fixed: Sequence[str], displacements: Displacements
+) -> Vector:
+    """The direction across the longer side of the fixed parts (of all, if none is drawn), towards the moving ones."""
+    from trimesh.bounds import oriented_bounds_2D
+
+    still = [part for part in parts if part.name in fixed]
+    corners = np.concatenate([part.triangles.reshape(-1, 3) for part in still or parts])
+    plane = frame(np.zeros(3), out)[:3, :2]
+    to_rectangle, _ = oriented_bounds_2D(corners @ plane / np.ptp(corners, axis=0).max())  # it has absolute tolerances
+    short = plane @ to_rectangle[1, :2]
+    if not still or not moving:
+        return short * np.sign(short[np.argmax(np.abs(short))])
+    middles = [move(displacements, part.name, part.box.mean(axis=0)).mean(axis=0) for part in moving]
+    above = (np.mean(middles, axis=0) - corners.mean(axis=0)) @ short
+    return short * (1 if above >= 0 else -1)
+
+
+def _middle(parts: Sequence[Part], displacements: Displacements) -> tuple[np.ndarray, list[str]]:
+    """All triangles at the pose in the middle, and the part that each is of."""
+    middle = {name: poses[[len(poses) // 2]] for name, poses in displacements.items()}
+    triangles = [move(middle, part.name, part.triangles)[0] for part in parts]
+    return np.concatenate(triangles), [part.name for part in parts for _ in part.triangles]
+
+
+def _seen(view: View, triangles: np.ndarray, wanted: np.ndarray) -> int:
+    """How many pixels of a small picture show a wanted triangle."""
+    points = view.project(triangles)
+    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())
+    return int(wanted[(raster := rasterise(pixels, THUMBNAIL, THUMBNAIL).triangle)[raster >= 0]].sum())

@@ -1,0 +1,133 @@
+"""A mechanism drawn as an illustration: plain colours, outlines, and soft shadows between its layers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Bool, Float, UInt8
+
+from jaxkin.view.camera import View
+from jaxkin.view.raster import Raster, normals, rasterise
+
+FINE = 3  # pixels drawn along one pixel of the picture, for smooth edges
+PAPER, INK, FAINT_INK = (1.0, 1.0, 1.0), (0.13, 0.15, 0.18), (0.58, 0.60, 0.63)
+HATCH = (5, 1)  # distance between the hatching lines of fixed parts and their width, in pixels along x
+HATCHED = 0.93  # brightness of a hatching line
+LIGHT = np.array([-0.35, -0.55, 0.76], np.float32)  # in pixels, y downwards: from the upper left
+CONTRAST = 0.45
+CREASE = float(np.cos(np.deg2rad(38)))  # more than a tessellated round face turns from one triangle to the next
+STEP = 2.0  # depth between neighbours, in pixels drawn and over the slope, that no plane has: a step
+SHADOW, REACH = 0.26, 7.0  # darkest shadow; how far it reaches and how deep a layer lies to be in it, in pixels
+
+
+@dataclass(frozen=True, eq=False)
+class Canvas:
+    """Where the picture lies in the view."""
+
+    view: View
+    corner: Float[np.ndarray, "2"]
+    """Upper left corner of the picture, in coordinates of the view."""
+    scale: float
+    """Pixels over the unit of length."""
+    height: int
+    width: int
+
+    def pixels(self, points: Float[np.ndarray, "*batch 3"]) -> Float[np.ndarray, "*batch 3"]:
+        """World coordinates to pixels: to the right, downwards, towards the viewer."""
+        return (self.view.project(points) - [*self.corner, 0.0]) * [self.scale, -self.scale, self.scale]
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """Some of the parts, drawn at FINE times the size of the picture."""
+
+    present: Bool[np.ndarray, "height width"]
+    depth: Float[np.ndarray, "height width"]
+    """In pixels drawn, towards the viewer; -inf where nothing is present."""
+    color: Float[np.ndarray, "height width 3"]
+    outline: Bool[np.ndarray, "height width"]
+    """Around each part; beyond its edge as well."""
+    crease: Bool[np.ndarray, "height width"]
+    """Along the edges within a part."""
+
+
+def draw(
+    canvas: Canvas, parts: Sequence[Float[np.ndarray, "triangles 3 3"]], colors: Sequence[Sequence[float]]
+) -> Layer:
+    """Draw parts given by their triangles in world coordinates; a face that faces the viewer keeps its colour."""
+    from scipy.ndimage import binary_dilation
+
+    points = canvas.pixels(np.concatenate([*parts, np.zeros((0, 3, 3))])) * FINE
+    raster = rasterise(points, canvas.height * FINE, canvas.width * FINE)
+    # One row a triangle, and a last one for index -1, where there is none.
+    owners = np.append(np.repeat(np.arange(len(parts)), [len(triangles) for triangles in parts]), -1)
+    normal = np.vstack([normals(points), [0.0, 0.0, 1.0]]).astype(np.float32)
+    light = 1 + CONTRAST * (normal @ LIGHT - LIGHT[2])
+    color = np.clip(np.array([*colors, PAPER], np.float32)[owners] * light[:, None], 0, 1)
+    outline, crease = _edges(raster, owners, normal)
+    return Layer(raster.triangle >= 0, raster.depth, color[raster.triangle], binary_dilation(outline), crease)
+
+
+def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "height width 3"]:
+    """The picture: fixed parts hatched in grey, moving parts, and the outlines of a ghost behind these.
+
+    What a fixed part hides of a moving one shows through it, so that a housing does not hide the mechanism.
+    """
+    from scipy.ndimage import binary_dilation
+
+    image = fixed.color.copy()
+    rows, columns = np.indices(fixed.present.shape, sparse=True)
+    image[fixed.present & ((rows + columns) % (HATCH[0] * FINE) < HATCH[1] * FINE)] *= HATCHED
+    _ink(image, fixed.crease, FAINT_INK, 0.5)
+    _ink(image, fixed.outline, FAINT_INK, 1.0)
+    _ink(image, ghost.outline, INK, 0.22)
+    front = moving.present & (moving.depth >= fixed.depth)
+    behind = moving.present & ~front
+    image[front] = moving.color[front]
+    image[behind] = 0.7 * image[behind] + 0.3 * moving.color[behind]
+    image *= 1 - _shadow(np.where(front, moving.depth, fixed.depth))[..., None]
+    covered = binary_dilation(behind, iterations=2) & ~binary_dilation(front, iterations=2)
+    _ink(image, moving.crease & front, INK, 0.45)
+    _ink(image, moving.outline & ~covered, INK, 0.9)
+    _ink(image, moving.outline & covered, INK, 0.25)
+    height, width = image.shape[0] // FINE, image.shape[1] // FINE
+    return np.rint(255 * image.reshape(height, FINE, width, FINE, 3).mean(axis=(1, 3))).astype(np.uint8)
+
+
+def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pixels at the border of two parts, and those where one part has a crease or a step; both sides of each."""
+    outline, crease = np.zeros(raster.triangle.size, bool), np.zeros(raster.triangle.size, bool)
+    places = np.arange(raster.triangle.size).reshape(raster.triangle.shape)
+    face, depth = raster.triangle.ravel(), raster.depth.ravel()
+    for one, other in ((places[1:], places[:-1]), (places[:, 1:], places[:, :-1])):
+        change = face[one] != face[other]
+        one, other = one[change], other[change]
+        border = owners[face[one]] != owners[face[other]]
+        outline[one] |= border
+        outline[other] |= border
+        one, other = one[~border], other[~border]
+        first, second = normal[face[one]], normal[face[other]]
+        level = np.minimum(first[:, 2], second[:, 2])
+        inner = ((first * second).sum(axis=1) < CREASE) | (np.abs(depth[one] - depth[other]) * level > STEP)
+        crease[one] |= inner
+        crease[other] |= inner
+    return outline.reshape(places.shape), crease.reshape(places.shape)
+
+
+def _ink(image: Float[np.ndarray, "height width 3"], where: np.ndarray, ink: Sequence[float], strength: float) -> None:
+    """Blend an ink into the picture, in place."""
+    image[where] = (1 - strength) * image[where] + strength * np.asarray(ink, np.float32)
+
+
+def _shadow(depth: Float[np.ndarray, "height width"]) -> Float[np.ndarray, "height width"]:
+    """How much darker a pixel is for lying deeper than its surroundings (the depth buffer through an unsharp mask)."""
+    from scipy.ndimage import gaussian_filter
+
+    coarse = depth[FINE // 2 :: FINE, FINE // 2 :: FINE] / FINE
+    solid = np.isfinite(coarse)
+    weight = gaussian_filter(solid.astype(np.float32), REACH)
+    around = gaussian_filter(np.where(solid, coarse, 0), REACH) / np.maximum(weight, 1e-6)
+    deeper = np.where(solid, np.maximum(around - np.where(solid, coarse, 0), 0), 0)
+    return np.kron(SHADOW * (1 - np.exp(-deeper / REACH)), np.ones((FINE, FINE), np.float32))

@@ -1,0 +1,73 @@
+"""Driven displacements in words: degrees for angles, the unit of the mechanism for lengths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.motion.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Input:
+    """One driven displacement, as people read it."""
+
+    name: str
+    """The joint, with the coordinate where the joint has several."""
+    values: Float[np.ndarray, " poses"]
+    """In degrees or in the unit of the mechanism."""
+    suffix: str
+    """The unit, with the space that belongs before it."""
+
+    def at(self, pose: int) -> str:
+        """The value at a pose with its unit, rounded to 0.1 degree or to four digits."""
+        value = float(self.values[pose])
+        number = f"{value:.1f}".removesuffix(".0") if self.suffix == "°" else f"{value:.4g}"
+        return f"{'0' if number == '-0' else number.replace('-', '−')}{self.suffix}"
+
+
+def inputs(motion: Motion) -> tuple[Input, ...]:
+    """The driven displacements of a motion, in its order."""
+    return tuple(_input(motion, key, np.asarray(values, float)) for key, values in motion.inputs.items())
+
+
+def title(inputs: tuple[Input, ...], pose: int) -> str:
+    """All driven displacements at a pose: the bare value if there is one only."""
+    if len(inputs) == 1:
+        return inputs[0].at(pose)
+    return ",  ".join(f"{entry.name} {entry.at(pose)}" for entry in inputs)
+
+
+def headline(motion: Motion) -> tuple[str, str]:
+    """What drives the motion over which range, and how many of its poses could be closed."""
+    drives = "; ".join(f"{entry.name}, {_range(entry)}" for entry in inputs(motion))
+    status = np.asarray(motion.status)[~np.asarray(motion.closed)]
+    facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]
+    if len(status):
+        codes, numbers = np.unique(status, return_counts=True)
+        causes = (f"{number} {Status(code).name.lower()}" for code, number in zip(codes, numbers, strict=True))
+        facts.append(f"not drawn: {', '.join(causes)}")
+    facts.append(f"lengths in {motion.mechanism.unit or 'the unit of the input'}")
+    return f"Motion driven by {drives}", "  ·  ".join(facts)
+
+
+def _range(entry: Input) -> str:
+    finite = np.flatnonzero(np.isfinite(entry.values))
+    if not len(finite):
+        return "nowhere"
+    low, high = (entry.at(int(finite[pick(entry.values[finite])])) for pick in (np.argmin, np.argmax))
+    return low if low == high else f"{low} to {high}"
+
+
+def _input(motion: Motion, key: str, values: Float[np.ndarray, " poses"]) -> Input:
+    joint, _, coordinate = key.rpartition(".")
+    name = joint if len(motion.mechanism.joints[joint].coordinates) == 1 else key
+    if coordinate.rstrip("0123456789") in ("x", "y", "z"):
+        return Input(name, values, f" {motion.mechanism.unit}".rstrip())
+    return Input(name, np.rad2deg(values), "°")

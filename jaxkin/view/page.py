@@ -1,0 +1,103 @@
+"""`motion.html`: the animated mechanism in one page that needs nothing else, neither a network nor a server."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.part import Part
+from jaxkin.motion.writers import register
+from jaxkin.solve.status import Status
+from jaxkin.view.labels import headline, inputs, title
+from jaxkin.view.mesh import shaded_mesh
+from jaxkin.view.scene import Scene, make_scene
+
+if TYPE_CHECKING:
+    from jaxkin.motion.motion import Motion
+
+MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
+TILT = (0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
+RISE = 0.52  # pitch that one in space is first seen from
+
+
+@register("motion.html")
+def page(motion: Motion, path: Path, points: Mapping[str, object] | None = None) -> None:
+    """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
+
+    `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
+    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn.
+
+    Raises KeyError for an unknown part and ValueError for points that are not such.
+    """
+    texts = {name: resources.files(__package__).joinpath(name).read_text("utf-8") for name in ("page.html", "page.js")}
+    data = json.dumps(_content(motion, make_scene(motion, points)), ensure_ascii=False, separators=(",", ":"))
+    text = texts["page.html"].replace("{{script}}", texts["page.js"])
+    Path(path).write_text(text.replace("{{motion}}", data.replace("<", "\\u003c")), "utf-8")  # no name ends the script
+
+
+def _content(motion: Motion, scene: Scene) -> dict:
+    """What `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
+    low, high = scene.bounds
+    centre, scale = scene.view.axes.T @ (low + high) / 2, float(np.linalg.norm(high - low) / 2)
+    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MOST)).astype(int))]
+    axes, yaw, pitch = scene.view.axes, *TILT
+    if not scene.view.planar:  # the turntable stands upright in the world
+        up = np.array([0.0, 0.0, 1.0])
+        axes, yaw, pitch = np.stack([axes[0], up, np.cross(axes[0], up)]), 0.0, RISE
+    corners = np.stack(np.meshgrid(*(scene.bounds - (low + high) / 2).T), axis=-1).reshape(-1, 3) @ scene.view.axes
+    first, second = headline(motion)
+    status, entries = np.asarray(motion.status), inputs(motion)
+    colors = {part.name: [round(value, 4) for value in part.color or (0.6, 0.6, 0.6)] for part in scene.parts}
+    return {
+        "title": first,
+        "subtitle": second,
+        "labels": [title(entries, int(pose)) for pose in shown],
+        "problems": [_problem(Status(int(status[pose]))) for pose in shown],
+        "cyclic": scene.cyclic,
+        "planar": scene.view.planar,
+        "centre": centre.tolist(),
+        "scale": scale,
+        "axes": axes.tolist(),
+        "corners": (corners / scale).tolist(),
+        "yaw": yaw,
+        "pitch": pitch,
+        "parts": [_part(part, scene, shown, centre, scale, colors[part.name]) for part in scene.parts],
+        "paths": [
+            {"part": trace.part, "color": colors[trace.part], "points": _base64((trace.path[shown] - centre) / scale)}
+            for trace in scene.traces
+        ],
+    }
+
+
+def _problem(status: Status) -> str:
+    return "" if status is Status.CLOSED else f"{status.name.lower()}: {status.message}"
+
+
+def _part(part: Part, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: list[float]) -> dict:
+    mesh = shaded_mesh((part.triangles - centre) / scale)
+    normals = np.zeros((len(mesh.normals), 4))  # four bytes a corner, as graphics cards want them
+    normals[:, :3] = 127 * mesh.normals
+    poses = scene.displacements[part.name][shown, :3, :].copy()
+    poses[..., 3] += poses[..., :3] @ centre - centre
+    poses[..., 3] /= scale
+    return {
+        "name": part.name,
+        "fixed": part.name in scene.fixed,
+        "color": color,
+        "points": _base64(mesh.points),
+        "normals": _base64(np.rint(normals), "i1"),
+        "triangles": _base64(mesh.triangles, "<u4"),
+        "edges": _base64(mesh.edges),
+        "poses": "" if part.name in scene.fixed else _base64(poses),
+    }
+
+
+def _base64(array: Float[np.ndarray, "..."], kind: str = "<f4") -> str:
+    return b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")

@@ -1,0 +1,107 @@
+"""What is drawn of a motion: coloured parts, a view, paths of points, and the closed poses in order of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Points
+from jaxkin.motion.drawing import drawn_parts
+from jaxkin.view.camera import Displacements, View, choose_view, move
+from jaxkin.view.traces import default_marks, given_marks
+
+if TYPE_CHECKING:
+    from jaxkin.motion.motion import Motion
+
+PROBES = 60  # poses that the view and the points are chosen from
+CLOSED = 1e-4  # the ends of a motion so near to each other, over its size, are one pose: safe in float32
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """The path of one point of a part."""
+
+    part: str
+    path: Float[np.ndarray, "poses 3"]
+    """World coordinates at every pose, NaN where it failed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """All that the pictures of one motion share."""
+
+    parts: tuple[Part, ...]
+    fixed: frozenset[str]
+    displacements: Displacements
+    """Of every part at every pose, in world coordinates from the assembled pose; failed poses included."""
+    order: Int[np.ndarray, " poses"]
+    """Indices of all poses: by the driven displacement if there is one, as given if there are several."""
+    closed: Int[np.ndarray, " closed"]
+    """Those of them that are closed."""
+    cyclic: bool
+    """Whether the last closed pose is the first again."""
+    view: View
+    traces: tuple[Trace, ...]
+    bounds: Float[np.ndarray, "2 3"]
+    """Lowest and highest coordinates in the view, to the right, up and towards the viewer, of all that is ever drawn."""
+
+    def moved(self, part: Part, points: Points, poses: Sequence[int] | np.ndarray) -> Float[np.ndarray, "poses *n 3"]:
+        """World coordinates of points of a part at some poses, given where they are in the assembled pose."""
+        return move({part.name: self.displacements[part.name][np.asarray(poses)]}, part.name, points)
+
+
+def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Scene:
+    """The scene of a motion; `points[part]`: (x, y, z) in the assembled pose, one or several, instead of the default.
+
+    Raises KeyError for a part that does not exist and ValueError for points that are not such.
+    """
+    mechanism = motion.mechanism
+    parts = drawn_parts(mechanism)
+    fixed = frozenset(mechanism.fixed)
+    displacements = {part.name: np.asarray(motion.transforms[part.name], float) for part in parts}
+    order = np.arange(len(motion))
+    if len(motion.inputs) == 1:
+        (values,) = motion.inputs.values()
+        order = np.argsort(np.asarray(values), kind="stable")
+    closed = order[np.asarray(motion.closed)[order]]
+    probes = closed[np.unique(np.linspace(0, len(closed) - 1, PROBES).astype(int))] if len(closed) else closed
+    sample = {name: poses[probes] if len(probes) else np.eye(4)[None] for name, poses in displacements.items()}
+    view = choose_view(parts, mechanism.fixed, sample)
+    size = float(np.linalg.norm(np.ptp(np.concatenate([part.box for part in parts]), axis=0)))
+    marks = default_marks(mechanism, parts, view, sample) if points is None else given_marks(points, mechanism.parts)
+    kept = np.asarray(motion.closed)[:, None]
+    traces = tuple(Trace(part, np.where(kept, move(displacements, part, point), np.nan)) for part, point in marks)
+    bounds = _bounds(parts, sample, view, traces)
+    return Scene(parts, fixed, displacements, order, closed, _returns(parts, sample, size), view, traces, bounds)
+
+
+def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> bool:
+    """Whether the last pose of the sample is the first one, after another in between."""
+    gaps = [np.ptp(move(sample, part.name, part.box)[[0, -1]], axis=0).max() for part in parts]
+    return len(sample[parts[0].name]) > 2 and bool(max(gaps) < CLOSED * size)
+
+
+def _bounds(
+    parts: tuple[Part, ...], sample: Displacements, view: View, traces: tuple[Trace, ...]
+) -> Float[np.ndarray, "2 3"]:
+    """The assembled pose, a sample of poses that includes both ends, and the paths at all poses."""
+    clouds = [trace.path[np.isfinite(trace.path).all(axis=1)] for trace in traces]
+    for part in parts:
+        corners = _extremes(part.triangles.reshape(-1, 3))
+        clouds += [corners, *move(sample, part.name, corners)]
+    points = view.project(np.concatenate(clouds))
+    return np.stack([points.min(axis=0), points.max(axis=0)])
+
+
+def _extremes(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "extremes 3"]:
+    """The corners of the convex hull, where that saves work."""
+    if len(points) < 1000:
+        return points
+    from scipy.spatial import ConvexHull
+
+    return points[ConvexHull(points, qhull_options="QJ").vertices]  # joggled: a flat sheet has no hull otherwise
