@@ -1,0 +1,120 @@
+"""Several contacts of the same two parts, combined exactly into the one lower pair that they amount to.
+
+A displacement keeps all contacts if it lies in the displacement set of each. To first order those sets are spaces of
+twists, and their intersection names the only lower pair that may be meant. That pair is then verified where it
+matters, at finite displacements: contact of the four surfaces is algebraic, so a pair that keeps the contacts at a
+displacement drawn at random keeps them everywhere; and no larger set can, since none has more freedoms at the pose.
+
+A screw is never the result: its helix is not algebraic, so contacts that allow it also allow turning and sliding alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.pose import Pose, Vector, frame, inverse
+from jaxkin.joints.regularise import AXIS, CENTRE, Noise, movements
+from jaxkin.joints.screws import Screws, chain, freedoms, misfit
+
+# Freedoms of rotation and of pure translation tell the lower pairs apart: (kind, movement).
+LOWER_PAIRS = {
+    (0, 0): ("fixed", "I"),
+    (0, 1): ("prismatic", "T_z"),
+    (1, 0): ("revolute", "T_phi"),
+    (1, 1): ("cylindrical", "T_z_phi"),
+    (1, 2): ("planar", "T_xy_phi"),
+    (3, 0): ("spherical", "T_theta_phi_psi"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class LowerPair:
+    """One of the six lower pairs of the four surfaces, between two parts."""
+
+    kind: str
+    movement: str
+    """Key of `MOVEMENTS`."""
+    frame: Pose
+    """In world coordinates at the assembled pose."""
+    margin: float
+    """How clearly the contacts forbid all else: the least violation by a unit twist outside the pair, in radians or
+    lengths per size of the assembly. Little above the noise, it tells of contacts that were perhaps meant to agree."""
+
+
+def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
+    """The lower pair that the contacts of two parts amount to; None if there is none.
+
+    The contacts may name the two parts in either order. The origin of the pair is the nearest place to the origin of
+    the first contact, where the pair leaves it free, and x is that of the first contact frame with the same z axis.
+    """
+    centre, size = contacts[0].frames[0, :3, 3], noise.size
+    scaled = [_scaled(contact.frames, centre, size) for contact in contacts]
+    allowed = [
+        chain(movements(c), f, np.zeros(freedoms(movements(c))))[1] for c, f in zip(contacts, scaled, strict=True)
+    ]
+    # a few sums of entries that are each within the noise
+    tolerance = 4 * noise.angle
+    forbidden = np.vstack([_complement(screws) for screws in allowed])
+    _, strengths, twists = np.linalg.svd(forbidden, full_matrices=True)
+    rank = int(np.sum(strengths > tolerance))
+    candidate = _candidate(twists[rank:].T, np.concatenate(scaled), tolerance)
+    if candidate is None:
+        return None
+    kind, movement, pose = candidate
+    coordinates = freedoms([movement])
+    screws = chain([movement], pose[None], np.zeros(coordinates))[1]
+    if np.abs(forbidden @ screws).max(initial=0.0) > tolerance:
+        return None
+    for q in np.random.default_rng(0).uniform(-0.5, 0.5, (2, coordinates)):
+        displacement = chain([movement], pose[None], q)[0]
+        for contact, frames in zip(contacts, scaled, strict=True):
+            wanted = displacement if contact.parts == contacts[0].parts else inverse(displacement)
+            if misfit(movements(contact), frames, wanted) > tolerance:
+                return None
+    pose = pose.copy()
+    pose[:3, 3] = centre + size * pose[:3, 3]
+    return LowerPair(kind, movement, pose, float(strengths[:rank].min(initial=1.0)))
+
+
+def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
+    result = frames.copy()
+    result[:, :3, 3] = (result[:, :3, 3] - centre) / size
+    return result
+
+
+def _complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
+    """An orthonormal basis of what a contact forbids: all rows vanish on the twists that it allows."""
+    basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
+    return basis[:, int(np.sum(strengths > 1e-9)) :].T
+
+
+def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[str, str, Pose] | None:
+    """The lower pair with as many freedoms of rotation and of translation, through the same axis or centre."""
+    directions, strengths, mixes = np.linalg.svd(twists[:3], full_matrices=True)
+    rotations = int(np.sum(strengths > tolerance))
+    slides = (twists @ mixes[rotations:].T)[3:]
+    if (rotations, slides.shape[1]) not in LOWER_PAIRS:
+        return None
+    kind, movement = LOWER_PAIRS[rotations, slides.shape[1]]
+    turns = twists @ mixes[:rotations].T
+    origin, z = frames[0, :3, 3], frames[0, :3, 2]
+    if rotations == 1:
+        z = directions[:, 0]
+    elif slides.size:
+        z = slides[:, 0]
+    if movement in AXIS + CENTRE:
+        # A turn w about the point p moves the origin of the world by v = p x w.
+        crosses = np.vstack([-_cross_matrix(w) for w in turns[:3].T])
+        point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
+        origin = point + z * ((origin - point) @ z) if movement in AXIS else point
+    same = [pose for pose in frames if np.linalg.norm(np.cross(pose[:3, 2], z)) <= tolerance]
+    return kind, movement, frame(origin, same[0][:3, 2], same[0][:3, 0]) if same else frame(origin, z)
+
+
+def _cross_matrix(vector: Vector) -> np.ndarray:
+    return np.cross(vector, np.eye(3)).T

@@ -1,0 +1,77 @@
+"""Directions that are parallel or perpendicular but for noise, made exactly so (host code, float64)."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+Directions = Float[np.ndarray, "directions 3"]
+
+
+def components(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]]:
+    """The connected components of the graph whose symmetric adjacency matrix is given, as lists of its nodes."""
+    from scipy.sparse.csgraph import connected_components
+
+    count, label = connected_components(near, directed=False)
+    return [np.flatnonzero(label == k) for k in range(count)]
+
+
+def clusters(near: Bool[np.ndarray, "n n"], spread) -> list[Int[np.ndarray, "members"]]:
+    """Components whose `spread(members)` is true, and all other nodes alone.
+
+    Nearness is not transitive: a chain of small steps may join what is far apart. Such a chain is no noise and no
+    cluster, and none of its members is moved.
+    """
+    found = []
+    for members in components(near):
+        found.extend([members] if len(members) == 1 or spread(members) else members[:, None])
+    return found
+
+
+def align_directions(directions: Directions, noise: float) -> Directions:
+    """Unit vectors near to the given ones: those parallel or perpendicular within `noise` (radians) are exactly so.
+
+    Parallel directions come back as one vector, up to their signs; perpendicular ones have a dot product of rounding
+    size (2e-16). No direction moves by more than `noise` to become parallel and as much again to become perpendicular;
+    where that is not enough, the directions stay as they are.
+    """
+    if len(directions) == 0:
+        return directions
+    # 1 - |cos| = angle^2 / 2 resolves angles down to 2e-8 rad in float64, enough to decide what is noise.
+    near = 1.0 - np.abs(directions @ directions.T) < noise**2 / 2
+
+    def turned(members) -> Directions:
+        return directions[members] * np.where(directions[members] @ directions[members[0]] < 0, -1.0, 1.0)[:, None]
+
+    def mean(members) -> np.ndarray:
+        total = turned(members).sum(axis=0)
+        return total / np.linalg.norm(total)
+
+    found = clusters(near, lambda members: np.all(np.linalg.norm(turned(members) - mean(members), axis=1) <= noise))
+    means = make_perpendicular(np.array([mean(members) for members in found]), noise)
+    aligned = np.empty_like(directions)
+    for members, direction in zip(found, means, strict=True):
+        aligned[members] = np.where(directions[members] @ direction < 0, -1.0, 1.0)[:, None] * direction
+    return aligned
+
+
+def make_perpendicular(directions: Directions, noise: float) -> Directions:
+    """The nearest unit vectors of which those pairs are exactly perpendicular that are so within `noise`.
+
+    Newton's method on all dot products that should vanish, with the least change of the vectors in each step.
+    """
+    result = directions.copy()
+    right = np.abs(directions @ directions.T) < noise
+    for members in components(right):
+        pairs = [(i, j) for i in range(len(members)) for j in range(i) if right[members[i], members[j]]]
+        moved = directions[members]
+        for _ in range(3 if pairs else 0):  # quadratic: 1e-6, 1e-12, then rounding
+            slopes = np.zeros((len(pairs), len(members), 3))
+            for row, (i, j) in enumerate(pairs):
+                slopes[row, i], slopes[row, j] = moved[j], moved[i]
+            dots = np.array([moved[i] @ moved[j] for i, j in pairs])
+            moved = moved - np.linalg.lstsq(slopes.reshape(len(pairs), -1), dots, rcond=None)[0].reshape(-1, 3)
+            moved /= np.linalg.norm(moved, axis=1, keepdims=True)
+        if np.all(np.linalg.norm(moved - directions[members], axis=1) <= noise):
+            result[members] = moved
+    return result

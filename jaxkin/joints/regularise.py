@@ -1,0 +1,139 @@
+"""Take the noise of files out of contacts: what is parallel, perpendicular, coaxial or concurrent but for it is exactly so.
+
+Readers pass the placements of parts through float32. Axes that are parallel by design arrive 1e-8 to 1e-7 rad apart,
+and a planar loop of such axes does not close exactly anywhere but in the pose that was read. Relations are looked for
+among all contacts together, since the axes of one loop belong to different contacts. Only what the motion depends on is
+aligned: for a face on a face its normal and not its height, for a pin its axis and not the place along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.contacts.contact import Contact
+from jaxkin.contacts.states import find_state
+from jaxkin.geometry.pose import frame
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.joints.axes import align_positions
+from jaxkin.joints.directions import align_directions
+
+Frames = Float[np.ndarray, "frames 4 4"]
+
+# What a movement depends on: where its z axis is, or only where that points; where its origin is.
+AXIS = ("T_phi", "T_screw", "T_z_phi")
+DIRECTION = (*AXIS, "T_z", "T_xy_phi", "T_theta_phi")
+CENTRE = ("T_theta_phi", "T_theta_phi_psi")
+
+# The movement that leaves a surface where it is: a surface is settled like a frame with this movement.
+SYMMETRY = {"plane": "T_xy_phi", "cylinder": "T_z_phi", "cone": "T_phi", "sphere": "T_theta_phi_psi"}
+
+
+@dataclass(frozen=True)
+class Noise:
+    """What counts as the noise of a file and not as design."""
+
+    angle: float
+    """Radians."""
+    length: float
+    """In the unit of the contacts."""
+
+    @property
+    def size(self) -> float:
+        """The length over which the two are equivalent: the size of the assembly."""
+        return self.length / self.angle
+
+    @staticmethod
+    def of(contacts: Sequence[Contact]) -> Noise:
+        """The noise of single precision for contacts of this size, ten times over.
+
+        One rounding to float32 is 6e-8 of the number: an entry of a rotation matrix (up to 1e-7 rad in all), or a
+        coordinate, however far from the origin the assembly stands. Design deviates by 1e-5 or more.
+        """
+        origins = np.concatenate([contact.frames[:, :3, 3] for contact in contacts] or [np.zeros((1, 3))])
+        radii = [getattr(surface, "radius", 0.0) for contact in contacts for surface in contact.surfaces]
+        size = np.linalg.norm(np.ptp(origins, axis=0)) + max(radii, default=0.0)
+        return Noise(1e-6, float(1e-6 * size + 6e-7 * np.abs(origins).max()))
+
+
+@dataclass(frozen=True, eq=False)
+class Regularised:
+    """Contacts without noise, and how far they were moved for it."""
+
+    contacts: tuple[Contact, ...]
+    angle: float
+    """Largest correction of a direction, radians."""
+    length: float
+    """Largest correction of the place of an axis or a centre, in the unit of the contacts."""
+
+
+def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
+    """The contacts with their frames and surfaces aligned with each other; centres and misfits stay as they were found.
+
+    Applied again it changes nothing, and the result moves and scales with the input, both up to rounding.
+    """
+    names = [name for contact in contacts for name in movements(contact)]
+    names += [SYMMETRY[surface.kind] for contact in contacts for surface in contact.surfaces]
+    given = [pose for contact in contacts for pose in contact.frames]
+    given += [_surface_frame(surface) for contact in contacts for surface in contact.surfaces]
+    frames = np.array(given, float).reshape(-1, 4, 4)
+    aligned, angle, length = align(names, frames, noise)
+    rest = iter(aligned)
+    settled = [replace(contact, frames=np.array([next(rest) for _ in contact.frames])) for contact in contacts]
+    settled = [
+        replace(contact, surfaces=tuple(_settled(s, next(rest)) for s in contact.surfaces)) for contact in settled
+    ]
+    return Regularised(tuple(settled), angle, length)
+
+
+def movements(contact: Contact) -> tuple[str, ...]:
+    """The movement of each frame of a contact (Table 2)."""
+    return find_state(contact.state, contact.region).movements
+
+
+def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frames, float, float]:
+    """Frames aligned with each other as far as their movements depend on them; largest change of angle and length."""
+    has_axis, has_direction, has_centre = (np.isin(movements, kind) for kind in (AXIS, DIRECTION, CENTRE))
+    z, origin = frames[:, :3, 2].copy(), frames[:, :3, 3].copy()
+    z[has_direction] = align_directions(z[has_direction], noise.angle)
+    origin[has_axis], origin[has_centre] = align_positions(
+        origin[has_axis], z[has_axis], origin[has_centre], noise.length
+    )
+    aligned = frames.copy()
+    for k in np.flatnonzero(has_direction):
+        # columns set one by one: a frame that normalised z again could lose the last bit of equality
+        x = frames[k, :3, 0] - (frames[k, :3, 0] @ z[k]) * z[k]
+        x /= np.linalg.norm(x)
+        aligned[k, :3, :3] = np.stack([x, np.cross(z[k], x), z[k]], axis=1)
+    aligned[:, :3, 3] = origin
+    angle = np.linalg.norm(z - frames[:, :3, 2], axis=1).max(initial=0.0)
+    length = np.linalg.norm(origin - frames[:, :3, 3], axis=1).max(initial=0.0)
+    return aligned, float(angle), float(length)
+
+
+def _surface_frame(surface: Surface) -> np.ndarray:
+    match surface:
+        case Plane():
+            return frame(surface.point, surface.normal)
+        case Cylinder():
+            return frame(surface.point, surface.axis)
+        case Cone():
+            return frame(surface.apex, surface.axis)
+        case Sphere():
+            return frame(surface.centre, np.array([0.0, 0.0, 1.0]))
+
+
+def _settled(surface: Surface, pose: np.ndarray) -> Surface:
+    origin, z = pose[:3, 3].copy(), pose[:3, 2].copy()
+    match surface:
+        case Plane():
+            return replace(surface, point=origin, normal=z)
+        case Cylinder():
+            return replace(surface, point=origin, axis=z)
+        case Cone():
+            return replace(surface, apex=origin, axis=z)
+        case Sphere():
+            return replace(surface, centre=origin)

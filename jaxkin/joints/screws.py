@@ -1,0 +1,68 @@
+"""Chains of movements on the host (numpy, float64): displacements, screws, and the way back from a displacement.
+
+The same products as `geometry.motions` in JAX, for decisions that must not depend on the precision of the device.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.pose import Pose, inverse, rotation
+
+Frames = Float[np.ndarray, "frames 4 4"]
+Screws = Float[np.ndarray, "6 freedoms"]
+"""Columns (w; v): angular velocity, and velocity of the point of the body at the world's origin."""
+
+
+def chain(movements: Sequence[str], frames: Frames, q: Float[np.ndarray, "freedoms"]) -> tuple[Pose, Screws]:
+    """The displacement of part 2 relative to part 1 in world coordinates, and the screws of the freedoms there.
+
+    `q` holds the coordinates of the movements in turn. A column of the screws is the rate of the displacement for one
+    coordinate; its product with the displacement is the derivative. Movements with a pitch are not for this function.
+    """
+    pose, screws = np.eye(4), np.zeros((6, len(q)))
+    first = 0
+    for movement, frame in zip(movements, frames, strict=True):
+        pose = pose @ frame
+        for element in MOVEMENTS[movement].elements:
+            k = first + element.coordinate
+            axis, step = pose[:3, element.axis], np.eye(4)
+            if element.kind == "translate":
+                screws[3:, k] = axis
+                step[element.axis, 3] = q[k]
+            else:
+                screws[:3, k], screws[3:, k] = axis, np.cross(pose[:3, 3], axis)
+                step[:3, :3] = rotation(np.eye(3)[element.axis], q[k])
+            pose = pose @ step
+        pose = pose @ inverse(frame)
+        first += len(MOVEMENTS[movement].coordinates)
+    return pose, screws
+
+
+def freedoms(movements: Sequence[str]) -> int:
+    """Number of coordinates of a chain."""
+    return sum(len(MOVEMENTS[movement].coordinates) for movement in movements)
+
+
+def misfit(movements: Sequence[str], frames: Frames, displacement: Pose) -> float:
+    """How far the chain stays from a displacement, from the assembled pose on: zero if the joint allows it.
+
+    Gauss-Newton on the twist that is missing; radians and the unit of the frames taken as equal.
+    """
+    q = np.zeros(freedoms(movements))
+    best = np.inf
+    for _ in range(12):  # from a radian away: some steps of approach, then the digits double
+        reached, screws = chain(movements, frames, q)
+        missing = displacement @ inverse(reached)
+        skew = missing[:3, :3] - missing[:3, :3].T
+        twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *missing[:3, 3]])
+        size = float(np.linalg.norm(missing - np.eye(4)))
+        if size < 1e-13 or len(q) == 0:
+            return size
+        best = min(best, size)
+        q = q + np.linalg.lstsq(screws, twist, rcond=1e-10)[0]
+    return best
