@@ -80,7 +80,7 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
     image = fixed.color.copy()
     rows, columns = np.indices(fixed.present.shape, sparse=True)
     image[fixed.present & ((rows + columns) % (HATCH[0] * FINE) < HATCH[1] * FINE)] *= HATCHED
-    _ink(image, fixed.crease, FAINT_INK, 0.5)
+    _ink(image, fixed.crease, FAINT_INK, 0.8)
     _ink(image, fixed.outline, FAINT_INK, 1.0)
     _ink(image, ghost.outline, INK, 0.22)
     front = moving.present & (moving.depth >= fixed.depth)

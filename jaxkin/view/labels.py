@@ -26,10 +26,10 @@ class Input:
     """The unit, with the space that belongs before it."""
 
     def at(self, pose: int) -> str:
-        """The value at a pose with its unit, rounded to 0.1 degree or to four digits."""
+        """The value at a pose with its unit, rounded to 0.1 degree or to four digits; with a true minus sign."""
         value = float(self.values[pose])
         number = f"{value:.1f}".removesuffix(".0") if self.suffix == "°" else f"{value:.4g}"
-        return f"{'0' if number == '-0' else number.replace('-', '−')}{self.suffix}"
+        return f"{'0' if number == '-0' else number.replace('-', chr(0x2212))}{self.suffix}"
 
 
 def inputs(motion: Motion) -> tuple[Input, ...]:
@@ -37,11 +37,14 @@ def inputs(motion: Motion) -> tuple[Input, ...]:
     return tuple(_input(motion, key, np.asarray(values, float)) for key, values in motion.inputs.items())
 
 
+def named(inputs: tuple[Input, ...], pose: int) -> str:
+    """All driven displacements at a pose, with their names."""
+    return ", ".join(f"{entry.name} {entry.at(pose)}" for entry in inputs)
+
+
 def title(inputs: tuple[Input, ...], pose: int) -> str:
-    """All driven displacements at a pose: the bare value if there is one only."""
-    if len(inputs) == 1:
-        return inputs[0].at(pose)
-    return ",  ".join(f"{entry.name} {entry.at(pose)}" for entry in inputs)
+    """The bare value where a single joint is driven, otherwise as `named`."""
+    return inputs[0].at(pose) if len(inputs) == 1 else named(inputs, pose)
 
 
 def headline(motion: Motion) -> tuple[str, str]:

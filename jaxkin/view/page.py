@@ -15,7 +15,7 @@ from jaxtyping import Float
 from jaxkin.geometry.part import Part
 from jaxkin.motion.writers import register
 from jaxkin.solve.status import Status
-from jaxkin.view.labels import headline, inputs, title
+from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.mesh import shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from jaxkin.motion.motion import Motion
 
 MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
-TILT = (0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
+TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
 RISE = 0.52  # pitch that one in space is first seen from
 
 
@@ -34,12 +34,15 @@ def page(motion: Motion, path: Path, points: Mapping[str, object] | None = None)
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
     in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn.
 
-    Raises KeyError for an unknown part and ValueError for points that are not such.
+    Raises ValueError for an unknown part and for points that are not such.
     """
-    texts = {name: resources.files(__package__).joinpath(name).read_text("utf-8") for name in ("page.html", "page.js")}
     data = json.dumps(_content(motion, make_scene(motion, points)), ensure_ascii=False, separators=(",", ":"))
-    text = texts["page.html"].replace("{{script}}", texts["page.js"])
+    text = _read("page.html").replace("{{viewer}}", _read("viewer.js")).replace("{{controls}}", _read("page.js"))
     Path(path).write_text(text.replace("{{motion}}", data.replace("<", "\\u003c")), "utf-8")  # no name ends the script
+
+
+def _read(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text("utf-8")
 
 
 def _content(motion: Motion, scene: Scene) -> dict:
@@ -58,7 +61,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     return {
         "title": first,
         "subtitle": second,
-        "labels": [title(entries, int(pose)) for pose in shown],
+        "labels": [named(entries, int(pose)) for pose in shown],
         "problems": [_problem(Status(int(status[pose]))) for pose in shown],
         "cyclic": scene.cyclic,
         "planar": scene.view.planar,

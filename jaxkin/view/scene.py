@@ -48,7 +48,7 @@ class Scene:
     view: View
     traces: tuple[Trace, ...]
     bounds: Float[np.ndarray, "2 3"]
-    """Lowest and highest coordinates in the view, to the right, up and towards the viewer, of all that is ever drawn."""
+    """Lowest and highest coordinates in the view, to the right, up and towards the viewer, of all that is drawn."""
 
     def moved(self, part: Part, points: Points, poses: Sequence[int] | np.ndarray) -> Float[np.ndarray, "poses *n 3"]:
         """World coordinates of points of a part at some poses, given where they are in the assembled pose."""
@@ -58,7 +58,7 @@ class Scene:
 def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Scene:
     """The scene of a motion; `points[part]`: (x, y, z) in the assembled pose, one or several, instead of the default.
 
-    Raises KeyError for a part that does not exist and ValueError for points that are not such.
+    Raises ValueError for a part that does not exist and for points that are not such.
     """
     mechanism = motion.mechanism
     parts = drawn_parts(mechanism)

@@ -52,7 +52,7 @@ def storyboard(
       centres of the joints that move and a far corner of the parts that these leave out.
     - `poses`: indices of the poses to draw; by default up to six, evenly over the range.
 
-    Raises KeyError for an unknown part, ValueError for points that are not such and for poses that are not closed.
+    Raises ValueError for an unknown part, points that are not such, and poses that are not closed.
     """
     scene = make_scene(motion, points)
     shown = _choose(scene) if poses is None else _check(poses, scene, len(motion))
@@ -140,7 +140,7 @@ def _paths(sheet: _Sheet, left: int, top: int, scene: Scene, canvas: Canvas, pos
     """The paths over a panel, with a dot where the point is now."""
     colors = {part.name: part.color or GREY for part in scene.parts}
     for trace in scene.traces:
-        x, y, _ = (canvas.pixels(trace.path) + [left, top, 0]).T
+        x, y = canvas.pixels(trace.path)[:, :2].T + np.array([[left], [top]])
         color = tuple(0.72 * value for value in colors[trace.part])
         sheet.axes.plot(x[scene.order], y[scene.order], color="white", linewidth=2.6, alpha=0.75, zorder=3)
         sheet.axes.plot(x[scene.order], y[scene.order], color=color, linewidth=1.1, zorder=4)
@@ -169,8 +169,8 @@ def _legend(scene: Scene) -> list[Artist]:
 
 
 def _scale_bar(sheet: _Sheet, canvas: Canvas, unit: str) -> None:
-    """A line of a round length, about a sixth of a panel, in the lower right corner."""
-    wanted = canvas.width / canvas.scale / 6
+    """A line of a round length, up to a quarter of a panel, in the lower right corner."""
+    wanted = canvas.width / canvas.scale / 4
     power = 10.0 ** np.floor(np.log10(wanted))
     length = power * max(step for step in (1, 2, 5) if step * power <= wanted)
     right, y = sheet.width - MARGIN, sheet.height - 34

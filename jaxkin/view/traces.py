@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +10,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
+from jaxkin.topology.names import nearest
 from jaxkin.view.camera import Displacements, View, move
 
 if TYPE_CHECKING:
@@ -25,13 +25,11 @@ MOST = 8  # more paths than these hide the mechanism: the longest are kept
 
 
 def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
-    """The points that a user gives, one (x, y, z) or several a part: KeyError, ValueError where they are not that."""
+    """The points that a user gives, one (x, y, z) or several a part: ValueError otherwise."""
     marks: Marks = []
     for part, value in points.items():
         if part not in parts:
-            hint = get_close_matches(part, parts, 1)
-            advice = f"did you mean {hint[0]!r}?" if hint else f"the parts are {', '.join(parts)}"
-            raise KeyError(f"points are given on the part {part!r}, which does not exist: {advice}")
+            raise ValueError(f"points are given on a part {part!r}, which does not exist{nearest(part, parts)}")
         array = np.asarray(value, float)
         if array.shape[-1:] != (3,) or array.ndim > 2 or not np.isfinite(array).all():
             raise ValueError(

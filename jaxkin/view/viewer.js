@@ -1,0 +1,214 @@
+"use strict";
+// The picture of the animated page: a small WebGL 2 viewer without any library. Data as `page.py` writes them: lengths
+// over motion.scale about motion.centre; arrays as base64, little-endian.
+const motion = JSON.parse(document.getElementById("motion").textContent);
+const $ = id => document.getElementById(id);
+const decode = (text, Type) => new Type(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer);
+const closed = [...motion.problems.keys()].filter(pose => motion.problems[pose] === "");
+const FIELD = Math.tan(13 * Math.PI / 180);  // half the field of view, upwards: narrow, so that parallels look parallel
+const LIFT = 0.08;  // of half the height: the controls are at the bottom
+const NONE = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0]);
+let pose = closed.length ? closed[0] : 0, showPaths = true;
+let yaw, pitch, zoom, shift;
+
+// ---- camera: a turntable about the upward axis; the rows of motion.axes are right, up, towards the viewer ----
+function turned() {
+  const c = Math.cos(yaw), s = Math.sin(yaw), d = Math.cos(pitch), t = Math.sin(pitch);
+  const turn = [[c, 0, s], [s * t, d, -c * t], [-s * d, t, c * d]];
+  return turn.map(row => [0, 1, 2].map(j => row[0] * motion.axes[0][j] + row[1] * motion.axes[1][j] + row[2] * motion.axes[2][j]));
+}
+
+function camera(aspect) {  // everything that is ever drawn fits between the controls at zoom 1
+  const rows = turned();
+  let distance = 0;
+  for (const corner of motion.corners) {
+    const [x, y, z] = rows.map(row => row[0] * corner[0] + row[1] * corner[1] + row[2] * corner[2]);
+    distance = Math.max(distance, z + Math.abs(x) / (0.88 * FIELD * aspect), z + Math.abs(y) / (0.74 * FIELD));
+  }
+  distance /= zoom;
+  const near = Math.max(distance - 1.5, distance / 50), far = distance + 1.5;
+  const scale = [1 / (FIELD * aspect), 1 / FIELD], depth = (far + near) / (far - near);
+  const clip = [0, 1, 2].flatMap(j => [scale[0] * rows[0][j], scale[1] * rows[1][j], -depth * rows[2][j], -rows[2][j]]);
+  clip.push(scale[0] * shift[0] * distance, scale[1] * shift[1] * distance + LIFT * distance, depth * distance - 2 * far * near / (far - near), distance);
+  return { clip, view: [0, 1, 2].flatMap(j => rows.map(row => row[j])) };
+}
+
+// ---- WebGL ----
+const gl = $("canvas").getContext("webgl2", { antialias: true, alpha: false, stencil: true });
+
+function program(vertex, fragment) {
+  const made = gl.createProgram(), at = {};
+  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, "#version 300 es\nprecision highp float;\n" + source);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+    gl.attachShader(made, shader);
+  }
+  gl.linkProgram(made);
+  for (let i = 0; i < gl.getProgramParameter(made, gl.ACTIVE_UNIFORMS); i++) {
+    const { name } = gl.getActiveUniform(made, i);
+    at[name] = gl.getUniformLocation(made, name);
+  }
+  return { made, at };
+}
+
+function attribute(place, type, stride, offset, divisor) {
+  gl.enableVertexAttribArray(place);
+  gl.vertexAttribPointer(place, 3, type, type === gl.BYTE, stride, offset);
+  gl.vertexAttribDivisor(place, divisor);
+}
+
+function load(target, data) {
+  gl.bindBuffer(target, gl.createBuffer());
+  gl.bufferData(target, data, gl.STATIC_DRAW);
+}
+
+function loadMesh(part) {
+  const array = gl.createVertexArray(), indices = decode(part.triangles, Uint32Array);
+  gl.bindVertexArray(array);
+  load(gl.ARRAY_BUFFER, decode(part.points, Float32Array));
+  attribute(0, gl.FLOAT, 0, 0, 0);
+  load(gl.ARRAY_BUFFER, decode(part.normals, Int8Array));
+  attribute(1, gl.BYTE, 4, 0, 0);
+  load(gl.ELEMENT_ARRAY_BUFFER, indices);
+  return { array, count: indices.length };
+}
+
+function loadLines(numbers) {  // six numbers a line
+  const array = gl.createVertexArray();
+  gl.bindVertexArray(array);
+  load(gl.ARRAY_BUFFER, numbers);
+  attribute(0, gl.FLOAT, 24, 0, 1);
+  attribute(1, gl.FLOAT, 24, 12, 1);
+  return { array, count: numbers.length / 6 };
+}
+
+function links(points) {  // the lines of a path; it is NaN where the mechanism could not be closed
+  const numbers = [];
+  for (let i = 0; i + 6 <= points.length; i += 3) {
+    const link = points.subarray(i, i + 6);
+    if (link.every(Number.isFinite)) numbers.push(...link);
+  }
+  return new Float32Array(numbers);
+}
+
+const FACES = [`
+  layout(location=0) in vec3 point; layout(location=1) in vec3 normal;
+  uniform mat4 clip, model; uniform mat3 view; out vec3 facing;
+  void main() { facing = view * mat3(model) * normal; gl_Position = clip * model * vec4(point, 1.0); }`, `
+  in vec3 facing; uniform vec3 color; out vec4 pixel;
+  void main() {
+    vec3 n = normalize(facing) * (gl_FrontFacing ? 1.0 : -1.0);
+    float light = 0.58 + 0.12 * n.y + 0.44 * max(dot(n, normalize(vec3(-0.25, 0.32, 0.91))), 0.0);
+    float shine = 0.10 * pow(max(dot(n, normalize(vec3(-0.2, 0.35, 0.92))), 0.0), 40.0);
+    pixel = vec4(color * light + shine, 1.0);
+  }`];
+const LINES = [`
+  layout(location=0) in vec3 start; layout(location=1) in vec3 end;
+  uniform mat4 clip, model; uniform vec2 size; uniform float width, nearer; out vec2 place; out float span;
+  void main() {  // a box around the line, in pixels; longer than it at both ends by the round caps
+    vec4 a = clip * model * vec4(start, 1.0), b = clip * model * vec4(end, 1.0);
+    vec2 p = 0.5 * a.xy / a.w * size, q = 0.5 * b.xy / b.w * size, along = q - p;
+    span = length(along);
+    along = span > 1e-4 ? along / span : vec2(1.0, 0.0);
+    bool second = gl_VertexID > 1; float reach = 0.5 * width + 1.0;
+    place = vec2(second ? span + reach : -reach, gl_VertexID % 2 == 0 ? -reach : reach);
+    vec2 spot = p + along * place.x + vec2(-along.y, along.x) * place.y;
+    float w = second ? b.w : a.w, z = second ? b.z : a.z;
+    gl_Position = vec4(2.0 * spot / size * w, z - nearer * w, w);
+  }`, `
+  in vec2 place; in float span; uniform float width; uniform vec4 color; out vec4 pixel;
+  void main() {
+    float gap = length(vec2(place.x - clamp(place.x, 0.0, span), place.y)) - 0.5 * width;
+    if (gap > 0.5) discard;
+    pixel = vec4(color.rgb, color.a * min(0.5 - gap, 1.0));
+  }`];
+
+// ---- drawing ----
+let faces, lines, parts, paths, dot, waiting = false;
+
+function prepare() {
+  [faces, lines] = [program(...FACES), program(...LINES)];
+  dot = loadLines(new Float32Array(6));  // a line without length: a disc
+  parts = motion.parts.map(part => ({
+    ...part, shown: true, mesh: loadMesh(part), edges: loadLines(decode(part.edges, Float32Array)),
+    poses: part.poses === "" ? null : decode(part.poses, Float32Array),
+  }));
+  paths = motion.paths.map(path => {
+    const points = decode(path.points, Float32Array);
+    return { ...path, points, lines: loadLines(links(points)) };
+  });
+}
+
+function model(part) {  // twelve numbers a pose, row by row; none for a part that never moves
+  const m = part.poses ? part.poses.subarray(12 * pose, 12 * pose + 12) : NONE;
+  return [0, 1, 2, 3].flatMap(j => [m[j], m[4 + j], m[8 + j], j === 3 ? 1 : 0]);
+}
+
+function drawLines(set, matrix, color, width, nearer = 1e-3) {
+  gl.bindVertexArray(set.array);
+  gl.uniformMatrix4fv(lines.at.model, false, matrix);
+  gl.uniform4fv(lines.at.color, color);
+  gl.uniform1f(lines.at.width, width * devicePixelRatio);
+  gl.uniform1f(lines.at.nearer, nearer);
+  gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, set.count);
+}
+
+function draw() {
+  waiting = false;
+  const canvas = $("canvas"), style = getComputedStyle(document.body), dark = matchMedia("(prefers-color-scheme: dark)").matches;
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight].map(side => Math.round(side * devicePixelRatio));
+  if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
+  const { clip, view } = camera(canvas.width / canvas.height), paper = style.backgroundColor.match(/[\d.]+/g).map(c => c / 255);
+  const ok = motion.problems[pose] === "", visible = parts.filter(part => part.shown && (ok || part.fixed));
+  gl.viewport(0, 0, canvas.width, canvas.height);
+  gl.clearColor(paper[0], paper[1], paper[2], 1);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
+  gl.enable(gl.DEPTH_TEST);
+  gl.depthFunc(gl.LEQUAL);
+  gl.disable(gl.BLEND);
+  gl.useProgram(faces.made);
+  gl.uniformMatrix4fv(faces.at.clip, false, clip);
+  gl.uniformMatrix3fv(faces.at.view, false, view);
+  for (const part of visible) {
+    gl.uniformMatrix4fv(faces.at.model, false, model(part));
+    gl.uniform3fv(faces.at.color, part.color);
+    gl.bindVertexArray(part.mesh.array);
+    gl.drawElements(gl.TRIANGLES, part.mesh.count, gl.UNSIGNED_INT, 0);
+  }
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  gl.useProgram(lines.made);
+  gl.uniformMatrix4fv(lines.at.clip, false, clip);
+  gl.uniform2f(lines.at.size, canvas.width, canvas.height);
+  gl.depthMask(false);
+  for (const part of visible) drawLines(part.edges, model(part), [0.05, 0.06, 0.08, 0.8], 1.1);
+  if (showPaths) drawPaths(dark, paper);
+  gl.depthMask(true);
+}
+
+function drawPaths(dark, paper) {
+  const still = model({ poses: null }), shade = color => color.map(c => dark ? 0.75 * c + 0.25 : 0.75 * c);
+  gl.depthFunc(gl.GREATER);  // what parts hide shines through; the stencil keeps overlapping ends of lines from adding up
+  gl.enable(gl.STENCIL_TEST);
+  gl.stencilFunc(gl.EQUAL, 0, 255);
+  gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
+  for (const path of paths) drawLines(path.lines, still, [...shade(path.color), 0.35], 2, 0);
+  gl.disable(gl.STENCIL_TEST);
+  gl.depthFunc(gl.LEQUAL);
+  for (const path of paths) drawLines(path.lines, still, [...shade(path.color), 1], 2, 0);
+  gl.disable(gl.DEPTH_TEST);
+  for (const path of paths) {
+    const point = path.points.subarray(3 * pose, 3 * pose + 3);
+    if (!point.every(Number.isFinite)) continue;
+    const there = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...point, 1];
+    drawLines(dot, there, [...paper.slice(0, 3), 1], 11);
+    drawLines(dot, there, [...shade(path.color), 1], 7);
+  }
+}
+
+function redraw() {
+  if (!waiting) requestAnimationFrame(draw);
+  waiting = true;
+}
