@@ -1,0 +1,108 @@
+"""Contacts between the faces of parts, and the report on what was found, nearly found and refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.contacts.states import find_state
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Two faces of two parts in one of the sixteen contact states."""
+
+    parts: tuple[str, str]
+    """Surface 1 of Table 1 belongs to the first: the plane of (b), the cylinder of (h)."""
+    faces: tuple[str, str]
+    state: str
+    """Letter of the state, "a" to "p"."""
+    region: str
+    """"surface", "line", "point" or "circle"."""
+    frames: Float[np.ndarray, "frames 4 4"]
+    """Local frames as Table 1 prescribes, in world coordinates of the assembled pose."""
+    surfaces: tuple[Surface, Surface]
+    centre: Vector
+    """Centroid of the contact region; on the axis where the region goes round one."""
+    misfit: float
+    """Length by which the faces as they are miss the ideal contact: noise of the file, or the clearance of a fit."""
+
+    def __str__(self) -> str:
+        return (
+            f"({self.state}) {self.parts[0]} {self.faces[0]} - {self.parts[1]} {self.faces[1]}: "
+            f"{find_state(self.state, self.region).name}, {self.region}, misfit {self.misfit:.2g}"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class NearMiss:
+    """Two faces that are nearly in a contact state, but not within the tolerances: no contact, a report."""
+
+    parts: tuple[str, str]
+    faces: tuple[str, str]
+    state: str
+    """The state that it nearly is."""
+    region: str
+    gap: float
+    """Length between the surfaces: positive apart, negative overlapping."""
+    tilt: float
+    """Radians between directions that should be parallel."""
+    rim: bool
+    """True where the faces meet only along an edge of one of them."""
+    reason: str
+    """What is wrong and what to do, in words."""
+
+    def __str__(self) -> str:
+        return (
+            f"nearly ({self.state}) {self.parts[0]} {self.faces[0]} - {self.parts[1]} {self.faces[1]}: "
+            f"{find_state(self.state, self.region).name}: {self.reason}"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts(Sequence[Contact]):
+    """The contacts of an assembly, in the order of its parts and their faces. `print` shows all that is known."""
+
+    contacts: tuple[Contact, ...]
+    near_misses: tuple[NearMiss, ...] = ()
+    notes: tuple[str, ...] = ()
+    """Faces that take no part because they are none of the four surfaces."""
+
+    @overload
+    def __getitem__(self, index: int) -> Contact: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Contact, ...]: ...
+    def __getitem__(self, index: int | slice) -> Contact | tuple[Contact, ...]:
+        return self.contacts[index]
+
+    def __len__(self) -> int:
+        return len(self.contacts)
+
+    def __iter__(self) -> Iterator[Contact]:
+        return iter(self.contacts)
+
+    def __str__(self) -> str:
+        rows = [("parts", "faces", "state", "region", "misfit")]
+        for contact in self.contacts:
+            name = f"({contact.state}) {find_state(contact.state, contact.region).name}"
+            between = " - ".join(contact.parts)
+            rows.append((between, " - ".join(contact.faces), name, contact.region, f"{contact.misfit:.2g}"))
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = [_count(len(self), "contact")]
+        if self.contacts:
+            lines += ["  " + "  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+        for title, entries in ((_count(len(self.near_misses), "near miss"), self.near_misses), ("notes", self.notes)):
+            if entries:
+                lines += [title, *(f"  {entry}" for entry in entries)]
+        return "\n".join(lines)
+
+
+def _count(number: int, noun: str) -> str:
+    plural = noun + ("es" if noun.endswith("s") else "s")
+    return f"{number or 'no'} {noun if number == 1 else plural}"

@@ -1,0 +1,185 @@
+"""Whether two surfaces touch where their faces are: the contact region on both trimmed faces.
+
+A contact on a line, on a circle or at a point is found by cutting the triangles of both faces with a pair of planes,
+`margin` to either side of it. What both cuts show on both faces is inside; what only one shows is on the rim of a face:
+the tangent edge of a fillet lies on the plane below it, but the fillet does not roll there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from jaxkin.contacts import intervals
+from jaxkin.contacts.intervals import Intervals
+from jaxkin.contacts.overlap import Overlap, flat, overlap, overlap_on_sphere, turned, unrolled
+from jaxkin.contacts.touch import Touch
+from jaxkin.geometry.part import Face
+from jaxkin.geometry.pose import Vector, perpendicular
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
+
+
+@dataclass(frozen=True, eq=False)
+class ContactRegion:
+    """Where two trimmed faces touch or would touch."""
+
+    centre: Vector
+    """Centroid; on the axis where the region goes round one."""
+    extent: float
+    """Length over which a tilt adds to the gap: of a line, of an area (along the axis if it goes round one)."""
+    inside: bool
+    """False where the faces meet only along an edge of one of them."""
+
+
+def contact_region(kind: str, touch: Touch, face1: Face, face2: Face, tolerance: float) -> ContactRegion | None:
+    """The region that two faces share where their surfaces touch, or None. `tolerance` is a length."""
+    match kind:
+        case "surface":
+            return _surface(touch, face1, face2, tolerance)
+        case "line":
+            return _line(touch, face1, face2, 4 * tolerance)
+        case "circle":
+            return _circle(touch, face1, face2, 4 * tolerance)
+        case _:
+            return _point(touch, face1, face2, 4 * tolerance)
+
+
+def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> ContactRegion | None:
+    a, b = face1.triangles, face2.triangles
+    match face1.surface:
+        case Plane():
+            x = perpendicular(touch.normal)
+            y = np.cross(touch.normal, x)
+            shared = overlap(flat(a, touch.point, x, y), flat(b, touch.point, x, y), tolerance)
+            if shared is not None:
+                centre = touch.point + shared.centre[0] * x + shared.centre[1] * y
+                return ContactRegion(centre, shared.extent, _is_wide(shared, face1, face2, tolerance))
+        case Sphere(radius=radius):
+            shared = overlap_on_sphere(a, b, touch.point, radius, tolerance)
+            if shared is not None:
+                return ContactRegion(touch.point, shared.extent, _is_wide(shared, face1, face2, tolerance))
+        case Cylinder() | Cone():
+            offset = a.reshape(-1, 3) - touch.point
+            radius = float(np.linalg.norm(np.cross(offset, touch.direction), axis=-1).mean())
+            charts = [unrolled(triangles, touch.point, touch.direction, radius) for triangles in (a, b)]
+            shared = overlap(charts[0], turned(charts[1], radius), tolerance)
+            if shared is not None:
+                centre = touch.point + shared.centre[1] * touch.direction
+                extent = float(np.ptp(shared.box[:, 1]))
+                return ContactRegion(centre, extent, _is_wide(shared, face1, face2, tolerance))
+    return None
+
+
+def _is_wide(shared: Overlap, face1: Face, face2: Face, tolerance: float) -> bool:
+    """Whether an overlap is more than the slivers that noise and the chords of two tessellations leave at an edge."""
+    width = shared.area / max(shared.extent, tolerance)
+    if width > 0.1 * shared.extent:
+        return True
+    return width > 4 * (tolerance + max(_chord_height(face1), _chord_height(face2)))
+
+
+def _line(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
+    cuts = _cuts(touch, touch.direction, face1, face2, margin)
+    for shared, inside in ((_inside(cuts), True), (_at_rim(cuts, margin), False)):
+        if intervals.length(shared) > margin:
+            centre = touch.point + intervals.centroid(shared) * touch.direction
+            return ContactRegion(centre, float(np.ptp(shared)), inside)
+    return None
+
+
+def _point(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
+    cuts = _cuts(touch, perpendicular(touch.normal), face1, face2, margin)
+    around = np.array([[-margin, margin]])
+    for shared, inside in ((_inside(cuts), True), (_at_rim(cuts, margin), False)):
+        shared = intervals.intersection(shared, around)
+        if inside and intervals.length(shared) < 1.999 * margin:
+            continue
+        if len(shared):
+            return ContactRegion(touch.point, 0.0, inside)
+    return None
+
+
+def _circle(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
+    """Angles about the axis are compared as lengths along the circle."""
+    x = perpendicular(touch.direction)
+    y = np.cross(touch.direction, x)
+
+    def arcs(face: Face, height: float) -> Intervals:
+        segments = _cut(face.triangles, touch.point + height * touch.direction, touch.direction) - touch.point
+        angles = np.arctan2(segments @ y, segments @ x)
+        angles[:, 1] = angles[:, 0] + np.angle(np.exp(1j * (angles[:, 1] - angles[:, 0])))
+        angles.sort(axis=1)
+        angles = np.concatenate([angles, angles - 2 * np.pi, angles + 2 * np.pi])
+        angles = angles[(angles[:, 1] > -np.pi) & (angles[:, 0] < np.pi)].clip(-np.pi, np.pi)
+        return intervals.union(touch.radius * angles, margin)
+
+    cuts = [[arcs(face, side * margin) for side in (-1, 1)] for face in (face1, face2)]
+    for shared, inside in ((_inside(cuts), True), (_at_rim(cuts, margin), False)):
+        if intervals.length(shared) > margin:
+            return ContactRegion(touch.point, 0.0, inside)
+    return None
+
+
+def _cuts(touch: Touch, along: Vector, face1: Face, face2: Face, margin: float) -> list[list[Intervals]]:
+    """For each face, what two planes to either side of a line show of it, as lengths along the line.
+
+    A curved face is cut on the side that touches only, where its normal is that of the contact.
+    """
+    across = np.cross(touch.normal, along)
+    cuts = []
+    for face, normal in ((face1, touch.normal), (face2, -touch.normal)):
+        facing = face.surface.normals(face.triangles.mean(axis=1)) @ normal > 0
+        segments = [_cut(face.triangles[facing], touch.point + side * margin * across, across) for side in (-1, 1)]
+        lengths = [np.sort((segment - touch.point) @ along, axis=1) for segment in segments]
+        cuts.append([intervals.union(length, margin / 4) for length in lengths])
+    return cuts
+
+
+def _inside(cuts: list[list[Intervals]]) -> Intervals:
+    """What all cuts of both faces share."""
+    (a, b), (c, d) = cuts
+    return intervals.intersection(intervals.intersection(a, b), intervals.intersection(c, d))
+
+
+def _at_rim(cuts: list[list[Intervals]], gap: float) -> Intervals:
+    """What at least one cut of each face shows."""
+    first, second = (intervals.union(np.concatenate(sides), gap) for sides in cuts)
+    return intervals.intersection(first, second)
+
+
+def _cut(triangles: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
+    """The segments (k, 2, 3) in which a plane cuts triangles."""
+    heights = (triangles - point) @ normal
+    above = heights > 0
+    crossed = above.any(axis=1) & ~above.all(axis=1)
+    triangles, heights, above = triangles[crossed], heights[crossed], above[crossed]
+    lone = np.argmax(above == (above.sum(axis=1) == 1)[:, None], axis=1)  # the corner alone on its side
+    order = (lone[:, None] + np.arange(3)) % 3
+    triangles = np.take_along_axis(triangles, order[..., None], axis=1)
+    heights = np.take_along_axis(heights, order, axis=1)
+    part = heights[:, :1] / (heights[:, :1] - heights[:, 1:])
+    return triangles[:, :1] + part[..., None] * (triangles[:, 1:] - triangles[:, :1])
+
+
+def _chord_height(face: Face) -> float:
+    """How far the chords along the rim of a face cut into it: the largest height of an arc over its chord.
+
+    At a corner of the rim, where it turns by more than 0.7 rad, there is no arc to speak of.
+    """
+    corners = face.triangles.reshape(-1, 3)
+    grid = np.round((corners - corners[0]) / max(1e-7 * float(np.ptp(face.box)), np.finfo(float).tiny))
+    _, index = np.unique(grid, axis=0, return_inverse=True)
+    points = np.zeros((index.max() + 1, 3))
+    points[index.reshape(-1)] = corners
+    loops = index.reshape(-1, 3)
+    edges = np.concatenate([loops, np.roll(loops, -1, axis=1)], axis=0).reshape(2, -1).T
+    ordered = np.sort(edges, axis=1)
+    _, position, count = np.unique(ordered, axis=0, return_index=True, return_counts=True)
+    rim = edges[position[count == 1]]
+    following = dict(rim.tolist())
+    pairs = np.array([(a, b, following[b]) for a, b in rim.tolist() if b in following]).reshape(-1, 3)
+    before, after = points[pairs[:, 1]] - points[pairs[:, 0]], points[pairs[:, 2]] - points[pairs[:, 1]]
+    length = np.linalg.norm(before, axis=-1)
+    turn = np.arctan2(np.linalg.norm(np.cross(before, after), axis=-1), np.sum(before * after, axis=-1))
+    return float(np.max(np.where(turn < 0.7, length * turn / 8, 0.0), initial=0.0))

@@ -1,0 +1,103 @@
+"""The sixteen contact states of the paper as data: Fig. 1, Table 1 (frames) and Table 2 (movements) side by side.
+
+Table 2 is printed with errors in (j), (l) and (n); the movements here are the corrected ones. Two states have a second
+form, a contact on a circle: a ball that fills its bore (j) and a ball seated in a cone (n). The paper has no rows for
+them. Within the pair of kinds the order matters: a fit is tried before the tangency that it would be if it were loose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from jaxkin.contacts import rulings, touch
+
+Region = Literal["surface", "line", "point", "circle"]
+
+OUTSIDE = ((1, 1),)
+INSIDE = ((1, -1), (-1, 1))
+HOLLOW_1 = ((-1, 1),)
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """One row of Tables 1 and 2."""
+
+    letter: str
+    name: str
+    """In words: surface 2, how it lies, surface 1."""
+    kinds: tuple[str, str]
+    """Kinds of surface 1 and surface 2, in the order plane, cylinder, cone, sphere."""
+    sides: tuple[tuple[int, int], ...]
+    """Which combinations of sides can touch so: +1 material inside (pin, ball, plane), -1 outside (hole, socket)."""
+    region: Region
+    frames: tuple[tuple[str, str], ...]
+    """Table 1, a frame each: what z is parallel to and what O lies on, in the symbols of the paper: surface f, its
+    normal n, axis a, centre c, apex v; m the common normal, l the line, p the point of contact."""
+    movements: tuple[str, ...]
+    """Table 2 as corrected, a frame each: keys of `jaxkin.geometry.motions.MOVEMENTS`."""
+    freedoms: int
+    touch: Callable[..., touch.Touch | None]
+    """`(surface 1, surface 2, at) -> Touch`: where the infinite surfaces touch and by how much they miss."""
+
+
+# fmt: off
+STATES: tuple[ContactState, ...] = (
+    ContactState("a", "plane on plane", ("plane", "plane"), OUTSIDE, "surface",
+                 (("n1", "f1"),), ("T_xy_phi",), 3, touch.plane_plane),
+    ContactState("b", "cylinder on plane", ("plane", "cylinder"), OUTSIDE, "line",
+                 (("n1", "f1"), ("a2", "a2")), ("T_xy_phi", "T_phi"), 4, touch.plane_cylinder),
+    ContactState("c", "cone on plane", ("plane", "cone"), OUTSIDE, "line",
+                 (("n1", "f1"), ("a2", "a2")), ("T_xy_phi", "T_phi"), 4, rulings.plane_cone),
+    ContactState("d", "ball on plane", ("plane", "sphere"), OUTSIDE, "point",
+                 (("n1", "f1"), ("n1", "c2")), ("T_xy_phi", "T_theta_phi"), 5, touch.plane_sphere),
+    ContactState("e", "cylinder in cylinder", ("cylinder", "cylinder"), INSIDE, "surface",
+                 (("a1", "a1"),), ("T_z_phi",), 2, touch.cylinder_in_cylinder),
+    ContactState("f", "cylinder along cylinder", ("cylinder", "cylinder"), OUTSIDE + INSIDE, "line",
+                 (("a1", "a1"), ("a2", "a2")), ("T_z_phi", "T_phi"), 3, touch.cylinder_along_cylinder),
+    ContactState("g", "cylinder across cylinder", ("cylinder", "cylinder"), OUTSIDE, "point",
+                 (("a1", "a1"), ("m", "p"), ("a2", "a2")), ("T_phi", "T_xy_phi", "T_phi"), 5,
+                 touch.cylinder_across_cylinder),
+    ContactState("h", "cone along cylinder", ("cylinder", "cone"), OUTSIDE + INSIDE, "line",
+                 (("a1", "a1"), ("a2", "a2")), ("T_z_phi", "T_phi"), 3, rulings.cylinder_along_cone),
+    ContactState("i", "cone across cylinder", ("cylinder", "cone"), OUTSIDE, "point",
+                 (("a1", "a1"), ("m", "p"), ("a2", "a2")), ("T_phi", "T_xy_phi", "T_phi"), 5,
+                 rulings.cylinder_across_cone),
+    ContactState("j", "ball filling its bore", ("cylinder", "sphere"), HOLLOW_1, "circle",
+                 (("a1", "a1"), ("a1", "c2")), ("T_z", "T_theta_phi_psi"), 4, touch.sphere_in_bore),
+    ContactState("j", "ball on cylinder", ("cylinder", "sphere"), OUTSIDE + HOLLOW_1, "point",
+                 (("a1", "a1"), ("a1", "c2")), ("T_z_phi", "T_theta_phi_psi"), 5, touch.cylinder_sphere),
+    ContactState("k", "cone in cone", ("cone", "cone"), INSIDE, "surface",
+                 (("a1", "a1"),), ("T_phi",), 1, rulings.cone_in_cone),
+    ContactState("l", "cone along cone", ("cone", "cone"), OUTSIDE + INSIDE, "line",
+                 (("a1", "a1"), ("l", "l"), ("a2", "a2")), ("T_phi", "T_z", "T_phi"), 3, rulings.cone_along_cone),
+    ContactState("m", "cone across cone", ("cone", "cone"), OUTSIDE, "point",
+                 (("a1", "a1"), ("m", "p"), ("a2", "a2")), ("T_phi", "T_xy_phi", "T_phi"), 5,
+                 rulings.cone_across_cone),
+    ContactState("n", "ball seated in cone", ("cone", "sphere"), HOLLOW_1, "circle",
+                 (("a1", "c2"),), ("T_theta_phi_psi",), 3, rulings.sphere_in_seat),
+    ContactState("n", "ball on cone", ("cone", "sphere"), OUTSIDE + HOLLOW_1, "point",
+                 (("a1", "a1"), ("v1 - p", "p"), ("a1", "c2")), ("T_phi", "T_z", "T_theta_phi_psi"), 5,
+                 rulings.cone_sphere),
+    ContactState("o", "ball in socket", ("sphere", "sphere"), INSIDE, "surface",
+                 (("any", "c1"),), ("T_theta_phi_psi",), 3, touch.sphere_in_sphere),
+    ContactState("p", "ball on ball", ("sphere", "sphere"), OUTSIDE + INSIDE, "point",
+                 (("m", "c1"), ("m", "c2")), ("T_theta_phi", "T_theta_phi_psi"), 5, touch.sphere_on_sphere),
+)
+# fmt: on
+
+
+def find_state(letter: str, region: str | None = None) -> ContactState:
+    """The state with this letter. `region="circle"` selects the circle forms of (j) and (n).
+
+    ValueError if there is no such state, or not with this region.
+    """
+    rows = {state.region: state for state in STATES if state.letter == letter}
+    if not rows:
+        raise ValueError(f"a contact state is a letter from 'a' to 'p', got {letter!r}")
+    if region is None:
+        return rows.get("point") or next(iter(rows.values()))
+    if region not in rows:
+        raise ValueError(f"contact state ({letter}) has the region {' or '.join(map(repr, rows))}, got {region!r}")
+    return rows[region]  # type: ignore[index]
