@@ -61,7 +61,7 @@ jax.tree_util.register_dataclass(
 
 
 def joint(
-    name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames: Sequence[Array] | Array, pitch: float | Array = 0.0
+    name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames: Sequence[Array] | Array, pitch: float | int | Array = 0.0
 ) -> Joint:
     """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 

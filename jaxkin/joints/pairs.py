@@ -17,7 +17,7 @@ from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint, joint
 
-Triple = Sequence[float] | np.ndarray | jax.Array
+Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 
 def revolute(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
@@ -67,7 +67,7 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
     return joint(name, (part1, part2), "universal", ("T_theta_phi",), [pose])
 
 
-def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float) -> Joint:
+def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float | int | jax.Array) -> Joint:
     """A helical pair that advances by `pitch` a turn (positive: right-handed). Coordinate: phi."""
     return joint(name, (part1, part2), "screw", ("T_screw",), [_frame(name, point, axis)], pitch)
 

@@ -33,7 +33,7 @@ class Motion:
     mechanism: Mechanism
     inputs: dict[str, Float[Array, " poses"]]
     """Driven displacements by "joint.coordinate", in radians and in the unit of the mechanism."""
-    displacements: tuple[Float[Array, "poses coordinates"], ...]
+    displacements: tuple[Float[Array, "poses _"], ...]
     """Displacements of all joints, in the order of `mechanism.joints`."""
     status: Int[Array, " poses"]
     """Codes of `Status`."""
@@ -49,7 +49,7 @@ class Motion:
         return self.status == Status.CLOSED.value
 
     @cached_property
-    def coordinates(self) -> Mapping[str, Float[Array, "poses coordinates"]]:
+    def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
         """Displacements of each joint, in the order of its `coordinates`; angles count full turns."""
         return dict(zip(self.mechanism.joints, self.displacements, strict=True))
 
@@ -92,7 +92,7 @@ jax.tree_util.register_dataclass(
 
 @partial(jax.jit, static_argnums=0)
 def _transforms(
-    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses coordinates"], ...]
+    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
     """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
     poses = displacements[0].shape[0]
@@ -104,7 +104,7 @@ def _transforms(
     return tuple(found[part] for part in structure.part_names)
 
 
-def joint_matrix(joint: Joint, q: Float[Array, "poses coordinates"]) -> Float[Array, "poses 4 4"]:
+def joint_matrix(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "poses 4 4"]:
     """Displacement J of part 2 relative to part 1 in world coordinates: product of `before T after^-1` (Table 2)."""
     matrix, first = jnp.eye(4, dtype=q.dtype), 0
     for frame, movement in enumerate(joint.movements):

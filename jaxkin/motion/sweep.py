@@ -40,7 +40,7 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, jax.typing.ArrayLike]) -> Mo
     driven = resolve(mechanism, drive)
     _warn_of_float32()
     first = next(iter(driven.values())).values
-    displacements: list[Float[Array, "poses coordinates"]] = [
+    displacements: list[Float[Array, "poses _"]] = [
         jnp.zeros((first.shape[0], joint.freedoms), first.dtype) for joint in mechanism.all_joints
     ]
     for entry in driven.values():
