@@ -34,7 +34,7 @@ def test_defects_keep_their_traceback():
 
 
 def test_a_defect_in_a_writer_keeps_its_traceback():
-    with pytest.raises(OSError, match="motion.png"), one_line_errors():
+    with pytest.raises(OSError, match=r"motion\.png"), one_line_errors():
         try:
             np.zeros(2) + np.zeros(3)
         except ValueError as error:

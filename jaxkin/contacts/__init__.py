@@ -1,0 +1,1 @@
+"""The sixteen contact states of the paper as a table, and how they are found between solids."""

@@ -1,0 +1,1 @@
+"""Poses, the paper's movements, surfaces, faces and parts."""

@@ -1,0 +1,1 @@
+"""The mechanism, its motion over a range, its mobility, and the registry of the files that it is saved as."""

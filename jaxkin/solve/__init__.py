@@ -1,0 +1,1 @@
+"""Closure of loops: residual, Jacobian, batched solver, continuation, status, derivatives."""

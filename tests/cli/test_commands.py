@@ -1,0 +1,148 @@
+"""The commands on the assemblies that come with the package, and on input that is wrong."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from jaxkin.cli.app import app
+from jaxkin.examples import path
+from jaxkin.motion.writers import filenames
+from reference.planar import fourbar
+
+FOURBAR = str(path("fourbar"))
+CRANK = ["--fixed", "ground", "--drive", "ground-crank=0:360:5"]
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def run(*arguments, **environment):
+    """The command line as a process of its own."""
+    program = "from jaxkin.cli import main; main()"
+    return subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        env=os.environ | environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
+    done = run("demo", "--out", tmp_path / "out", XDG_CACHE_HOME=str(tmp_path / "cache"))
+    assert done.returncode == 0, done.stderr
+    assert {file.name for file in (tmp_path / "out").iterdir()} == set(filenames())
+    assert "361  CLOSED" in done.stdout
+    assert any((tmp_path / "cache" / "jaxkin").iterdir())
+    with np.load(tmp_path / "out" / "motion.npz") as arrays:
+        assert arrays["residual"].dtype == np.float64
+        assert arrays["residual"].max() < 1e-12
+
+
+def test_sweep_takes_degrees(tmp_path):
+    done = invoke("sweep", FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0,-10,25", "--out", tmp_path)
+    assert done.exit_code == 0, done.output
+    with np.load(tmp_path / "motion.npz") as arrays:
+        angles = arrays["input:ground-crank.phi"]
+        rocker = arrays["joint:ground-rocker"][:, 0]
+    np.testing.assert_allclose(np.abs(np.degrees(angles)), [0.0, 10.0, 25.0])
+    # the joint's axis may point either way along the pin
+    truths = [fourbar(np.pi / 3 + sign * angles).rocker - fourbar(np.array([np.pi / 3])).rocker for sign in (1, -1)]
+    # 5e-7 is what placements read through float32 allow
+    assert min(np.abs(np.abs(rocker) - np.abs(truth)).max() for truth in truths) < 5e-7
+
+
+def test_inspect_says_what_was_found():
+    done = invoke("inspect", FOURBAR, "--fixed", "ground")
+    assert done.exit_code == 0, done.output
+    assert "4 parts, lengths in mm" in done.output
+    for joint in ("ground-crank", "crank-coupler", "coupler-rocker", "ground-rocker"):
+        assert joint in done.output
+    assert "revolute" in done.output
+    assert "Loops: 1" in done.output
+    assert "Mobility: 1 freedom" in done.output
+
+
+def test_inspect_without_combining_keeps_every_contact():
+    combined = invoke("inspect", FOURBAR, "--fixed", "ground")
+    separate = invoke("inspect", FOURBAR, "--fixed", "ground", "--no-combine")
+    assert separate.exit_code == 0, separate.output
+    assert "revolute" not in separate.output
+    assert len(separate.output.splitlines()) > len(combined.output.splitlines())
+
+
+def test_what_cannot_be_reached_is_said_and_the_rest_written(tmp_path):
+    """The rocker of a crank-rocker swings between two dead points, where crank and coupler are in line."""
+    limits = np.arccos([(100**2 + 80**2 - length**2) / (2 * 100 * 80) for length in (80, 160)])
+    done = invoke("sweep", FOURBAR, "--fixed", "ground", "--drive", "ground-rocker=-180:180:91", "--out", tmp_path)
+    assert done.exit_code == 0, done.output
+    assert "UNREACHABLE" in done.output
+    with np.load(tmp_path / "motion.npz") as arrays:
+        closed = (arrays["status_names"][arrays["status"]] == "CLOSED").sum()
+    assert closed == pytest.approx(np.degrees(np.ptp(limits)) / 4, abs=1)
+
+
+def moved_rocker(text: str) -> str:
+    """The four-bar with its rocker placed a metre away."""
+    return text.replace("(106.25950699647,", "(1106.25950699647,")
+
+
+FILES = {
+    "empty.step": lambda text: "",
+    "text.step": lambda text: "Dear reader,\nthis is no STEP file.\n",
+    "hollow.step": lambda text: text[: text.index("DATA;")] + "DATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+    "apart.step": moved_rocker,
+}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["missing.step", *CRANK], ["missing.step"]),
+        (["empty.step", *CRANK], ["empty.step"]),
+        (["text.step", *CRANK], ["text.step"]),
+        (["hollow.step", *CRANK], ["hollow.step"]),
+        (["apart.step", *CRANK], ["'rocker'"]),
+        ([FOURBAR, "--drive", "ground-crank=0:360:5"], ["fixed", "ground"]),
+        ([FOURBAR, "--fixed", "grund", "--drive", "ground-crank=0:360:5"], ["'grund'", "'ground'"]),
+        ([FOURBAR, "--fixed", "ground"], ["--drive", "ground-crank.phi"]),
+        ([FOURBAR, "--fixed", "ground", "--drive", "ground-cranc=0:360:5"], ["'ground-cranc'", "'ground-crank'"]),
+        ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank.z=0:1:5"], ["'ground-crank'", "'z'", "phi"]),
+        ([FOURBAR, *CRANK, "--drive", "ground-rocker=0:1:6"], ["equal length", "5", "6"]),
+        ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0,nan,1"], ["ground-crank", "nan"]),
+        ([FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0-360"], ["ground-crank=0-360", "START:STOP:COUNT"]),
+    ],
+)
+def test_wrong_input_is_one_message_and_leaves_nothing(arguments, said, tmp_path, monkeypatch):
+    for name, make in FILES.items():
+        (tmp_path / name).write_text(make(path("fourbar").read_text()))
+    monkeypatch.chdir(tmp_path)
+    done = invoke("sweep", *arguments, "--out", "out")
+    assert done.exit_code == 2, done.output
+    assert done.stdout == ""
+    assert done.stderr.startswith("jaxkin: ")
+    assert done.stderr.count("\n") == 1
+    for words in said:
+        assert words in done.stderr
+    assert {file.name for file in tmp_path.iterdir()} == set(FILES)
+
+
+def test_a_file_in_place_of_the_folder_is_refused_before_the_sweep(tmp_path):
+    (tmp_path / "out").write_text("in the way")
+    done = invoke("sweep", FOURBAR, *CRANK, "--out", tmp_path / "out")
+    assert done.exit_code == 2
+    assert "--out" in done.stderr
+    assert (tmp_path / "out").read_text() == "in the way"
+
+
+def test_a_process_ends_with_code_2_and_no_traceback(tmp_path):
+    done = run("inspect", tmp_path / "missing.step", "--fixed", "ground")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert "missing.step" in done.stderr
+    assert "Traceback" not in done.stderr
