@@ -15,20 +15,20 @@ from jaxkin.geometry.pose import Pose
 if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
 
-_SLIMNESS = 0.016
-"""Radius of a bar over the diagonal of the box around all joints."""
+_SLIMNESS = 0.03
+"""Radius of a bar, the unit of all lengths below, over the distance of the farthest joint from the middle of all."""
 
 _SLIMMER = 0.8
 """Radius of a bar of a fixed part over that of the others: a moving bar that passes over it hides it."""
 
 _LAYER, _POST = 2.4, 1.1
-"""Distance of two layers of parts, and radius of the posts between them, in radii of a bar."""
+"""Distance of two layers of parts, and radius of the posts between them."""
 
 Triangles = Float[np.ndarray, "triangles 3 3"]
 
 
 class _Round(NamedTuple):
-    """A cylinder centred on a joint, along an axis of its frame; lengths in radii of a bar."""
+    """A cylinder centred on a joint, along an axis of its frame."""
 
     axis: int
     radius: float
@@ -36,7 +36,7 @@ class _Round(NamedTuple):
 
 
 class _Block(NamedTuple):
-    """A block centred on a joint, with its edges along the axes of the frame; lengths in radii of a bar."""
+    """A block centred on a joint, with its edges along the axes of the frame."""
 
     extents: tuple[float, float, float]
 
@@ -48,7 +48,7 @@ class _Ball(NamedTuple):
 _Shape = _Round | _Block | _Ball
 
 _ROD = _Round(2, 0.7, 32.0)
-"""Half as long as the mechanism, since the joint does not know how far it will slide."""
+"""About half as long as the mechanism, since the joint does not know how far it will slide."""
 
 _SHAPES: dict[str, tuple[tuple[_Shape, ...], tuple[_Shape, ...]]] = {
     "I": ((), ()),
@@ -72,24 +72,27 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """
     frames = _frames(mechanism)
     origins = np.array([pose[:3, 3] for poses in frames.values() for pose in poses])
-    radius = _SLIMNESS * (float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0)
+    reach = float(np.linalg.norm(origins - origins.mean(axis=0), axis=-1).max())
+    radius = _SLIMNESS * (reach or 1.0)
     moving = [part for part in mechanism.parts if part not in mechanism.fixed]
-    layers = {part: _LAYER * radius * (1 + moving.index(part) if part in moving else 0) for part in mechanism.parts}
+    layers = {part: _LAYER * (1 + moving.index(part) if part in moving else 0) for part in mechanism.parts}
     up = _common_axis(mechanism)
 
     ends: dict[str, list[Float[np.ndarray, "3"]]] = {part: [] for part in mechanism.parts}
     pieces: dict[str, list[Triangles]] = {part: [] for part in mechanism.parts}
     for name, joint in mechanism.joints.items():
+        lower = min(layers[part] for part in joint.parts)
         for part, pose, index in zip(joint.parts, frames[name], (0, -1), strict=True):
-            end = pose[:3, 3] + layers[part] * up
-            pose[:3, 3] += layers[joint.parts[0]] * up
-            pieces[part] += [_shape(shape, pose, radius) for shape in _SHAPES[joint.movements[index]][index]]
-            if np.linalg.norm(end - pose[:3, 3]) > 0:
-                pieces[part].append(_rod(pose[:3, 3], end, _POST * radius))
+            place = pose[:3, 3] / radius
+            end = place + layers[part] * up
+            pose[:3, 3] = place + lower * up
+            pieces[part] += [_shape(shape, pose) for shape in _SHAPES[joint.movements[index]][index]]
+            if np.any(end != pose[:3, 3]):
+                pieces[part].append(_rod(pose[:3, 3], end, _POST))
             ends[part].append(end)
     for part in mechanism.parts:
-        pieces[part] += _bars(ends[part], radius if part in moving else _SLIMMER * radius)
-    return tuple(Part(part, (), np.concatenate(pieces[part])) for part in mechanism.parts)
+        pieces[part] += _bars(ends[part], 1.0 if part in moving else _SLIMMER)
+    return tuple(Part(part, (), radius * np.concatenate(pieces[part])) for part in mechanism.parts)
 
 
 def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
@@ -129,7 +132,7 @@ def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:
 def _bars(ends: list[Float[np.ndarray, "3"]], radius: float) -> list[Triangles]:
     from trimesh.creation import icosphere
 
-    points = _distinct(ends, radius)
+    points = _distinct(ends)
     if len(points) > 3:
         points = [np.mean(points, axis=0), *points]
         pairs = [(points[0], end) for end in points[1:]]
@@ -145,24 +148,24 @@ def _rod(start: Float[np.ndarray, "3"], end: Float[np.ndarray, "3"], radius: flo
     return cylinder(radius=radius, segment=np.stack([start, end]), sections=24).triangles
 
 
-def _distinct(points: list[Float[np.ndarray, "3"]], distance: float) -> list[Float[np.ndarray, "3"]]:
-    """The points without those that lie within the distance of an earlier one: a bar would have no length."""
+def _distinct(points: list[Float[np.ndarray, "3"]]) -> list[Float[np.ndarray, "3"]]:
+    """The points without those that lie within the radius of an earlier one: a bar would have no length."""
     kept: list[np.ndarray] = []
     for point in points:
-        if all(np.linalg.norm(point - other) > distance for other in kept):
+        if all(np.linalg.norm(point - other) > 1.0 for other in kept):
             kept.append(point)
     return kept
 
 
-def _shape(shape: _Shape, pose: Pose, radius: float) -> Triangles:
+def _shape(shape: _Shape, pose: Pose) -> Triangles:
     from trimesh.creation import box, cylinder, icosphere
 
     match shape:
         case _Round(axis, width, length):
             turn = np.eye(4)
             turn[:3, :3] = np.roll(np.eye(3), axis - 2, axis=0)  # z of the cylinder onto the axis, handedness kept
-            return cylinder(radius * width, radius * length, sections=32, transform=pose @ turn).triangles
+            return cylinder(width, length, sections=32, transform=pose @ turn).triangles
         case _Block(extents):
-            return box(extents=radius * np.array(extents), transform=pose).triangles
+            return box(extents=extents, transform=pose).triangles
         case _Ball(width):
-            return icosphere(subdivisions=3, radius=radius * width).triangles + pose[:3, 3]
+            return icosphere(subdivisions=3, radius=width).triangles + pose[:3, 3]
