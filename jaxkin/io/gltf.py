@@ -100,6 +100,7 @@ def quaternions(rotations: Float[np.ndarray, "poses 3 3"]) -> Float[np.ndarray, 
 def _meshes(parts: Sequence[Part], centres: Float[np.ndarray, "parts 3"]) -> bytes:
     """A binary glTF of the parts, each about its own centre: float32 is finer there than far from the origin."""
     from trimesh import Scene, Trimesh
+    from trimesh.exchange.gltf import export_glb
     from trimesh.graph import smooth_shade
     from trimesh.triangles import to_kwargs
 
@@ -110,7 +111,7 @@ def _meshes(parts: Sequence[Part], centres: Float[np.ndarray, "parts 3"]) -> byt
         mesh.update_faces(mesh.nondegenerate_faces())
         mesh = smooth_shade(mesh, angle=_CREASE, facet_minarea=None).apply_scale(size)
         scene.add_geometry(mesh, node_name=str(index), geom_name=part.name)
-    return scene.export(file_type="glb", include_normals=True)
+    return export_glb(scene, include_normals=True)
 
 
 def _finish(tree: dict[str, Any], primitive: dict[str, Any], material: int) -> None:

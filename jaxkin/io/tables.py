@@ -24,14 +24,15 @@ def write_arrays(motion: Motion, path: Path) -> None:
     - `residual` (poses,): square root of Eq. 12 with lengths over the characteristic length
     - `unit`: of all lengths; angles are in radians
     """
-    arrays = {f"input:{name}": values for name, values in motion.inputs.items()}
+    arrays = {f"input:{name}": np.asarray(values) for name, values in motion.inputs.items()}
     for name, joint in motion.mechanism.joints.items():
-        arrays[f"joint:{name}"] = motion.coordinates[name]
+        arrays[f"joint:{name}"] = np.asarray(motion.coordinates[name])
         arrays[f"coordinates:{name}"] = np.array(joint.coordinates, dtype=str)
-    arrays |= {f"part:{name}": transforms for name, transforms in motion.transforms.items()}
-    arrays["status"], arrays["status_names"] = motion.status, np.array([status.name for status in Status])
-    arrays["residual"], arrays["unit"] = motion.residual, np.array(motion.mechanism.unit)
-    np.savez(path, **{key: np.asarray(array) for key, array in arrays.items()})
+    for name, transforms in motion.transforms.items():
+        arrays[f"part:{name}"] = np.asarray(transforms)
+    arrays["status"], arrays["residual"] = np.asarray(motion.status), np.asarray(motion.residual)
+    arrays["status_names"], arrays["unit"] = np.array([s.name for s in Status]), np.array(motion.mechanism.unit)
+    np.savez(path, **arrays)  # pyright: ignore[reportArgumentType]  # no key of ours is "allow_pickle"
 
 
 @register("motion.csv", table=True)
