@@ -68,11 +68,11 @@ def find_contacts(
 def _examine(
     parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
 ) -> Contact | NearMiss | None:
-    """The first state that the pair of faces is in, else what it nearly is."""
+    """The first state that the pair of faces is in, else what it nearly is by the least misfit."""
     if KINDS.index(faces[0].surface.kind) > KINDS.index(faces[1].surface.kind):
         parts, faces = (parts[1], parts[0]), (faces[1], faces[0])
     s1, s2 = faces[0].surface, faces[1].surface
-    near = None
+    near, least = None, np.inf
     for state in _ROWS[s1.kind, s2.kind]:
         if (getattr(s1, "side", 1), getattr(s2, "side", 1)) not in state.sides:
             continue
@@ -82,9 +82,13 @@ def _examine(
         region = contact_region(state.region, touch, *faces, tol.length)
         if region is not None:
             touch = state.touch(s1, s2, region.centre) or touch
-            if tol.fits(touch, region.extent, s1, s2) and region.inside:
+            fits = tol.fits(touch, region.extent, s1, s2)
+            if fits and region.inside:
                 return _contact(state, parts, faces, touch, region)
-            near = near or _near_miss(state, parts, faces, touch, region, tol)
+            if fits or region.inside:
+                excess = tol.excess(touch, region.extent, s1, s2)
+                if excess < least / 2:  # only what is much nearer supersedes a fit, which comes first
+                    near, least = _near_miss(state, parts, faces, touch, region, tol), excess
         if tol.fits(touch, 0.0, s1, s2):
             break  # what fills its hole is not also a loose pin that leans against it
     return near

@@ -18,7 +18,7 @@ def plane_cone(s1: Plane, s2: Cone, at: Vector) -> Touch:
     point = foot(at, s2.apex, line)
     height = float(s1.distance(point))
     rise = float(s1.normal @ line)
-    tilt = abs(np.arcsin(np.clip(rise, -1.0, 1.0)))
+    tilt = float(abs(np.arcsin(np.clip(rise, -1.0, 1.0))))
     return Touch(height, tilt, point - height * s1.normal, s1.normal, unit(line - rise * s1.normal))
 
 
@@ -47,9 +47,9 @@ def cone_in_cone(s1: Cone, s2: Cone, at: Vector) -> Touch:
     if s1.axis @ s2.axis < 0:
         tilt = np.pi  # opening away from each other: the mean axis says nothing of it
     angle_misfit = abs(s1.half_angle - s2.half_angle)
-    offset = s2.apex - s1.apex
-    along = float(offset @ axis)
-    gap = np.hypot(along * np.sin(s1.half_angle), np.linalg.norm(offset - along * axis) * np.cos(s1.half_angle))
+    along = float((s2.apex - s1.apex) @ axis)
+    across = distance(foot(at, s1.apex, s1.axis), foot(at, s2.apex, s2.axis))
+    gap = np.hypot(along * np.sin(s1.half_angle), across * np.cos(s1.half_angle))
     return Touch(float(gap), tilt + angle_misfit, (s1.apex + s2.apex) / 2, direction=axis)
 
 

@@ -31,12 +31,16 @@ class Tolerance:
 
     def fits(self, touch: Touch, extent: float, s1: Surface, s2: Surface) -> bool:
         """Whether a touch is a contact, given the extent of its region."""
-        allowed = self.length
-        if touch.clearance is not None:
-            if not -self.length <= touch.clearance <= max(self.length, self.fit * smaller_radius(s1, s2)):
-                return False
-            allowed = self.length + max(0.0, touch.clearance)  # the pin may lie anywhere in its hole
-        return touch.tilt <= self.angle and reach(touch, extent) <= allowed
+        return touch.tilt <= self.angle and self.excess(touch, extent, s1, s2) == 0.0
+
+    def excess(self, touch: Touch, extent: float, s1: Surface, s2: Surface) -> float:
+        """The length by which a touch misses a contact after all that is allowed."""
+        if touch.clearance is None:
+            return max(0.0, reach(touch, extent) - self.length)
+        loose = max(self.length, self.fit * smaller_radius(s1, s2))
+        beyond = max(0.0, -self.length - touch.clearance, touch.clearance - loose)
+        allowed = self.length + min(max(0.0, touch.clearance), loose)  # the pin may lie anywhere in its hole
+        return beyond + max(0.0, reach(touch, extent) - allowed)
 
     def near(self, touch: Touch, s1: Surface, s2: Surface) -> bool:
         """Whether a touch is worth a report if it is no contact."""

@@ -52,7 +52,7 @@ def plane_cylinder(s1: Plane, s2: Cylinder, at: Vector) -> Touch | None:
     centre = foot(at, s2.point, s2.axis)
     height = float(s1.distance(centre))
     line = unit(s2.axis - slope * s1.normal)
-    return Touch(height - s2.radius, abs(np.arcsin(slope)), centre - height * s1.normal, s1.normal, line)
+    return Touch(height - s2.radius, float(abs(np.arcsin(slope))), centre - height * s1.normal, s1.normal, line)
 
 
 def plane_sphere(s1: Plane, s2: Sphere, at: Vector) -> Touch:
