@@ -1,0 +1,73 @@
+"""Descriptions that no structure can be made of, refused in words."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from jaxkin.topology.graph import Graph
+from jaxkin.topology.names import nearest
+
+
+def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:
+    """Raises ValueError for names that repeat or are unknown, a joint between a part and itself, and no fixed part."""
+    if isinstance(fixed, str):
+        raise ValueError(f"fixed must be a list of part names, got the text {fixed!r}; write fixed=[{fixed!r}]")
+    if not parts:
+        raise ValueError("there are no parts; name at least one, and fix it")
+    _refuse_repeats("part", parts)
+    _refuse_repeats("joint", [name for name, _, _ in joints])
+    _refuse_repeats("fixed part", fixed)
+    known = set(parts)
+    for name, part1, part2 in joints:
+        for part in (part1, part2):
+            if part not in known:
+                raise ValueError(f"joint {name!r} names the unknown part {part!r}{nearest(part, parts)}")
+        if part1 == part2:
+            raise ValueError(f"joint {name!r} joins part {part1!r} to itself; name two different parts")
+    if not fixed:
+        raise ValueError(f"no part is fixed; name at least one part that does not move, such as fixed=[{parts[0]!r}]")
+    for part in fixed:
+        if part not in known:
+            raise ValueError(f"there is no part {part!r} to fix{nearest(part, parts)}")
+    merged = merged_name(parts, fixed)
+    if merged in known and merged not in fixed:
+        raise ValueError(f"part {merged!r} has the name that the fixed parts get together; rename it")
+
+
+def check_chords(joints: Sequence[str], chords: Sequence[str] | None) -> None:
+    """Raises ValueError for chords that repeat or are no joints."""
+    if isinstance(chords, str):
+        raise ValueError(f"chords must be a list of joint names, got the text {chords!r}; write chords=[{chords!r}]")
+    _refuse_repeats("chord", chords or ())
+    for chord in chords or ():
+        if chord not in joints:
+            raise ValueError(f"there is no joint {chord!r} to be a chord{nearest(chord, joints)}")
+
+
+def check_connected(graph: Graph, rows: Sequence[str], root: int) -> None:
+    """Raises ValueError where some parts do not hang on the fixed ones."""
+    reached, stack = {root}, [root]
+    while stack:
+        for _, other in graph.around[stack.pop()]:
+            if other not in reached:
+                reached.add(other)
+                stack.append(other)
+    loose = [row for row in range(graph.rows) if row not in reached]
+    if alone := [repr(rows[row]) for row in loose if not graph.around[row]]:
+        raise ValueError(f"no joint holds {', '.join(alone)}; join every part to another, or leave it out")
+    if loose:
+        names = ", ".join(repr(rows[row]) for row in loose)
+        raise ValueError(
+            f"no chain of joints ties {names} to the fixed part {rows[root]!r}; add a joint, or fix one of them"
+        )
+
+
+def merged_name(parts: Iterable[str], fixed: Iterable[str]) -> str:
+    """The fixed parts as one row, "p1&p9", in the order of the parts."""
+    return "&".join(part for part in parts if part in set(fixed))
+
+
+def _refuse_repeats(what: str, names: Iterable[str]) -> None:
+    if repeated := [name for name, count in Counter(names).items() if count > 1]:
+        raise ValueError(f"{what} {repeated[0]!r} is named twice; every {what} needs a name of its own")

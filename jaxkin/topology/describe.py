@@ -1,0 +1,35 @@
+"""Structure elements and loops as a text to read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from jaxkin.topology.elements import Element
+from jaxkin.topology.loops import Loop
+
+
+def describe(elements: Sequence[Element], loops: Sequence[Loop]) -> str:
+    """The tree of Fig. 4, a line an element, each indented below the one it hangs on, with its loops under it."""
+    below: dict[int | None, list[int]] = {}
+    for number, element in enumerate(elements):
+        below.setdefault(element.above, []).append(number)
+    lines: list[str] = []
+    stack = [(0, 0)]
+    while stack:
+        number, depth = stack.pop()
+        element = elements[number]
+        lines.append("  " * depth + _line(element))
+        lines += ["  " * depth + f"    l{loop + 1}: {loops[loop]}" for loop in element.loops]
+        stack += [(child, depth + 1) for child in reversed(below.get(number, []))]
+    return "\n".join(lines)
+
+
+def _line(element: Element) -> str:
+    what = element.kind if element.kind == "part" else f"{element.kind} of"
+    if element.above is None:
+        tie = "fixed"
+    elif element.joint is None:
+        tie = f"at {element.upper}"
+    else:
+        tie = f"by {element.joint}"
+    return f"{what} {', '.join(element.parts)} ({tie})"

@@ -1,0 +1,66 @@
+"""The graph of a mechanism: parts are its rows, joints its columns (Eq. 2)."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+
+class Step(NamedTuple):
+    """A joint as travelled in a circuit."""
+
+    joint: int
+    sign: int
+    """+1 from part 1 to part 2, -1 against it."""
+
+
+Circuit = tuple[Step, ...]
+"""A closed walk that meets no part twice."""
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Parts and joints as numbers; the fixed parts are one row."""
+
+    rows: int
+    ends: tuple[tuple[int, int], ...]
+    """For each joint the rows of part 1 and part 2; the same row twice for a joint between two fixed parts."""
+
+    @cached_property
+    def around(self) -> tuple[tuple[tuple[Step, int], ...], ...]:
+        """For each row the steps that leave it, with the row that each leads to."""
+        around: list[list[tuple[Step, int]]] = [[] for _ in range(self.rows)]
+        for joint, (row1, row2) in enumerate(self.ends):
+            around[row1].append((Step(joint, 1), row2))
+            around[row2].append((Step(joint, -1), row1))
+        return tuple(map(tuple, around))
+
+    def tail(self, step: Step) -> int:
+        """The row that a step leaves."""
+        return self.ends[step.joint][0 if step.sign > 0 else 1]
+
+    def head(self, step: Step) -> int:
+        """The row that a step leads to."""
+        return self.ends[step.joint][1 if step.sign > 0 else 0]
+
+    def blocks(self) -> tuple[tuple[int, ...], ...]:
+        """Joints of each single or multiple closed loop, in rising order: loops that share joints, over any chain.
+
+        These are the biconnected components without the bridges. Loops that share a part but no joint are separate.
+        """
+        import networkx as nx
+
+        between: dict[tuple[int, int], list[int]] = defaultdict(list)
+        for joint, ends in enumerate(self.ends):
+            between[min(ends), max(ends)].append(joint)
+        pairs = nx.Graph()
+        pairs.add_edges_from((row1, row2) for row1, row2 in between if row1 != row2)
+        blocks = [
+            sorted(joint for ends in component for joint in between[min(ends), max(ends)])
+            for component in nx.biconnected_component_edges(pairs)
+        ]
+        blocks = [block for block in blocks if len(block) > 1]
+        blocks += [[joint] for joint, (row1, row2) in enumerate(self.ends) if row1 == row2]
+        return tuple(map(tuple, sorted(blocks)))

@@ -1,0 +1,20 @@
+"""Names that were not found: the nearest known one, for messages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+_LISTED = 8
+"""Known names that a message lists at most: more are not read."""
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown name: "; did you mean 'crank'?", else the names that there are."""
+    known = list(known)
+    if close := get_close_matches(name, known, n=1):
+        return f"; did you mean {close[0]!r}?"
+    if not known:
+        return "; there is none"
+    more = f" and {len(known) - _LISTED} more" if len(known) > _LISTED else ""
+    return f"; there is {', '.join(repr(other) for other in known[:_LISTED])}{more}"
