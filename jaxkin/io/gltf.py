@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
-from jaxkin.io.step_unit import NAMES
+from jaxkin.io.units import METRES
 from jaxkin.motion.drawing import drawn_parts
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
@@ -25,9 +25,6 @@ DURATION = 6.0
 
 KEYFRAMES = 360
 """At most so many: 60 a second, what a screen shows."""
-
-_METRES = {name: metres for metres, name in NAMES.items()} | {"": 1.0}
-"""Metres in a unit; where no unit was said, lengths are taken for metres."""
 
 _CREASE = np.radians(30.0)
 """Edges sharper than this are drawn sharp; facets of a round face meet at less."""
@@ -132,10 +129,10 @@ def _material(part: Part) -> dict[str, Any]:
 
 def _root_matrix(unit: str, middle: Float[np.ndarray, "3"]) -> list[float]:
     """Moves the middle of the mechanism, which the nodes count from, to its place; turns z up; goes to metres."""
-    if unit not in _METRES:
-        raise ValueError(f"the unit of the mechanism must be one of {', '.join(NAMES.values())}, got {unit!r}")
+    if unit not in METRES:
+        raise ValueError(f"the unit of the mechanism must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     root = np.eye(4)
-    root[:3, :3] = _UP * _METRES[unit]
+    root[:3, :3] = _UP * METRES[unit]
     root[:3, 3] = root[:3, :3] @ middle
     return root.T.ravel().tolist()  # glTF goes down the columns
 
