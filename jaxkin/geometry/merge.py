@@ -1,4 +1,4 @@
-"""Faces of one part that lie on the same surface become one: half cylinders, interrupted planes, knuckles of a hinge."""
+"""Faces of one part that lie on the same surface become one: half cylinders, split planes, the knuckles of a hinge."""
 
 from __future__ import annotations
 

@@ -3,97 +3,141 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import count
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import Int
 
+from jaxkin.geometry.fit import fit_surface, flipped, rounding
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
-from jaxkin.geometry.pose import Pose, apply, unit
+from jaxkin.geometry.pose import Points, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
+from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 from jaxkin.io.step_unit import length_unit
 
-TESSELLATION = {"tol_linear": 0.01, "tol_relative": True, "tol_angular": 0.2}
-"""Sag over edge length, and radians a chord: the surfaces are exact, only the outlines of faces follow the triangles."""
+_SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
+
+Rows = Int[np.ndarray, "rows"]
+
+_PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator.*")
+"""What translators write where nobody gave a name."""
 
 
 def read_step(path: str | Path) -> tuple[tuple[Part, ...], str]:
-    """The parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that unit."""
-    import cascadio
+    """The parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that unit.
 
+    Each instance of a solid in the assembly is a part. Parts with the same name become "bolt", "bolt#2"; parts without
+    a name "part 1", "part 2" by their place in the file. Faces of a part on one surface are one face; those on none of
+    the four surfaces, and what was repaired, are in the notes of the part.
+
+    Raises FileNotFoundError where there is no such file, and ValueError where it is no whole STEP file with solids.
+    """
     path = Path(path)
+    data = _checked(path)
+    unit_name, metres = length_unit(data.decode("latin-1"), path.name)
+    found = list(instances(convert(data, path.name)))
+    if not all(instance.complete for instance in found):
+        plain = instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), path.name))
+        found = [replace(bare, color=it.color) for bare, it in zip(plain, found, strict=True)]
+    names = _unique(_name(instance, number) for number, instance in enumerate(found, start=1))
+    return tuple(_part(name, instance, metres) for name, instance in zip(names, found, strict=True)), unit_name
+
+
+def _checked(path: Path) -> bytes:
+    """The content of the file, if it can be a STEP file with solids."""
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder: give the STEP file itself")
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist: give the path of a STEP file")
     data = path.read_bytes()
-    name, metres = length_unit(data.decode("latin-1"))
-    glb = cascadio.load(data, "step", include_brep=True, **TESSELLATION)
-    found = list(instances(glb))
-    names = _unique([_name(instance, number) for number, instance in enumerate(found, start=1)])
-    return tuple(_part(name, instance, metres) for name, instance in zip(names, found, strict=True)), name
+    if not data.strip():
+        raise ValueError(f"{path.name} is empty: expected a STEP file")
+    if not re.match(rb"(\xef\xbb\xbf)?\s*ISO-10303-21\s*;", data):
+        raise ValueError(f"{path.name} is not a STEP file: it does not begin with ISO-10303-21;")
+    if not re.search(rb"END-ISO-10303-21\s*;", data[-1000:]):
+        raise ValueError(f"{path.name} is cut off: it does not end with END-ISO-10303-21; copy or export it again")
+    if not _SOLIDS.search(data):
+        raise ValueError(f"{path.name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
+    return data
 
 
 def _part(name: str, instance: Instance, metres: float) -> Part:
-    scale, pose = 1 / metres, instance.pose.copy()
-    pose[:3, 3] *= scale
-    triangles = instance.triangles * scale
-    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
-    tolerance = max(1e-6 * size, 3e-7 * float(np.abs(triangles).max()))
+    triangles, pose = instance.triangles / metres, instance.pose.copy()
+    pose[:3, 3] /= metres
+    tolerance = rounding(triangles)
     faces, notes = [], []
     for index, described in enumerate(instance.faces):
-        corners = triangles[instance.face_of == index]
-        if len(corners) == 0:
-            continue
-        surface = _surface(described, corners, scale)
+        label, rows = f"face {index + 1}", np.flatnonzero(instance.face_of == index)
+        corners, normals = triangles[rows].reshape(-1, 3), instance.normals[rows].reshape(-1, 3)
+        surface = _analytic(described, corners, metres) or fit_surface(corners, normals, 5 * tolerance, angle=1e-2)
         if surface is None:
-            kind = "freeform surface" if described is None else described["type"]
-            notes.append(f"face {index}: {kind}, not one of the four surfaces")
-        else:
-            faces.append(Face(f"face {index}", surface.moved(pose), apply(pose, corners)))
-    merged = merge_faces(faces, tolerance)
-    return Part(name, merged, apply(pose, triangles), instance.color, tuple(notes))
+            kind = described["type"] if described else "freeform surface"
+            notes.append(f"{label}: {kind}, not one of the four surfaces")
+            continue
+        surface, corners, note = _oriented(surface, triangles, rows)
+        triangles[rows] = corners
+        off = float(np.abs(surface.distance(corners)).max())
+        if off > 10 * tolerance:
+            note = f"its triangles lie up to {off:.2g} off its {surface.kind}"
+        notes += [f"{label}: {note}"] if note else []
+        faces.append(Face(label, surface.moved(pose), apply(pose, corners)))
+    return Part(name, merge_faces(faces, tolerance), apply(pose, triangles), instance.color, tuple(notes))
 
 
-def _surface(described: dict[str, Any] | None, corners: np.ndarray, scale: float) -> Surface | None:
-    """The surface in the frame of the mesh, outwards as the triangles are wound."""
-    if described is None:
+def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:
+    """The surface as cascadio describes it, in the frame of the mesh; its side says nothing."""
+    if described is None or len(corners) == 0:
         return None
-    at = {key: np.array(described[key]) * scale for key in ("origin", "apex", "center") if key in described}
+    at = {key: np.array(described[key]) / metres for key in ("origin", "apex", "center") if key in described}
     match described["type"]:
         case "plane":
-            plane = Plane(at["origin"], unit(described["normal"]))
-            return Plane(plane.point, plane.normal * _side(plane, corners))
+            return Plane(at["origin"], unit(described["normal"]))
         case "cylinder":
-            cylinder = Cylinder(at["origin"], unit(described["axis"]), described["radius"] * scale, 1)
-            return Cylinder(cylinder.point, cylinder.axis, cylinder.radius, _side(cylinder, corners))
-        case "cone":
+            return Cylinder(at["origin"], unit(described["axis"]), described["radius"] / metres, 1)
+        case "cone":  # the sign of its angle is that of the axis, which may point either way
             axis = unit(described["axis"])
-            axis = axis if ((corners - at["apex"]) @ axis).sum() > 0 else -axis
-            cone = Cone(at["apex"], axis, abs(described["semi_angle"]), 1)
-            return Cone(cone.apex, cone.axis, cone.half_angle, _side(cone, corners))
+            axis = axis if np.sum((corners - at["apex"]) @ axis) > 0 else -axis
+            return Cone(at["apex"], axis, abs(described["semi_angle"]), 1)
         case "sphere":
-            sphere = Sphere(at["center"], described["radius"] * scale, 1)
-            return Sphere(sphere.centre, sphere.radius, _side(sphere, corners))
+            return Sphere(at["center"], described["radius"] / metres, 1)
     return None
 
 
-def _side(surface: Surface, corners: np.ndarray) -> int:
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return 1 if np.sum(areas * surface.normals(corners.mean(axis=1))) > 0 else -1
+def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surface, Triangles, str]:
+    """The surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
+    corners = triangles[rows]
+    wound = winding(surface, corners)
+    outwards = wound > 0
+    # where tessellations were seen to fail; for all faces of a large solid the rays would take minutes
+    doubtful = isinstance(surface, Sphere) or abs(wound) < 0.9
+    if doubtful:
+        outwards = points_outwards(surface, corners, triangles)
+    surface = surface if outwards else flipped(surface)
+    if outwards == (wound > 0) and abs(wound) >= 0.9:
+        return surface, corners, ""
+    facing_in = np.sum(areas(corners) * surface.normals(corners.mean(axis=1)), axis=-1) < 0
+    corners = np.where(facing_in[:, None, None], corners[:, ::-1], corners)
+    return (
+        surface,
+        corners,
+        f"triangles of the {surface.kind} overlap or face inwards: its side was taken from the solid",
+    )
 
 
 def _name(instance: Instance, number: int) -> str:
-    """The first name that a person gave; translators fill in numbers and labels of their data structure."""
-    for name in instance.names:
-        if name.strip() and not re.fullmatch(r"\d+|=>\[.*\].*|Open CASCADE STEP translator.*", name.strip()):
-            return name.strip()
-    return f"part {number}"
+    return next((name for name in instance.names if not _PLACEHOLDER.fullmatch(name)), f"part {number}")
 
 
-def _unique(names: list[str]) -> list[str]:
-    seen: Counter[str] = Counter()
-    result = []
+def _unique(names: Iterable[str]) -> list[str]:
+    result: list[str] = []
     for name in names:
-        seen[name] += 1
-        result.append(name if seen[name] == 1 else f"{name}#{seen[name]}")
+        numbered = (name if number == 1 else f"{name}#{number}" for number in count(1))
+        result.append(next(candidate for candidate in numbered if candidate not in result))
     return result

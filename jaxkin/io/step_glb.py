@@ -6,6 +6,7 @@ It is read here and not by trimesh because trimesh renames meshes and nodes that
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -15,64 +16,70 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.pose import Pose
 
+Color = tuple[float, float, float]
+
 
 @dataclass(frozen=True, eq=False)
 class Instance:
     """One placed mesh of the tree of instances."""
 
-    names: tuple[str, ...]
-    """Candidates for its name, the best first: of the instance, of the product."""
+    names: tuple[str, str]
+    """Of the instance and of the product; either may be empty or made up by a translator."""
     pose: Pose
-    """From the frame of the mesh to the world; float32 made exact to a rotation again."""
+    """From the frame of the mesh to the world: rigid to float64, right to float32."""
     triangles: Float[np.ndarray, "triangles 3 3"]
     """In the frame of the mesh; float32 in the file."""
+    normals: Float[np.ndarray, "triangles 3 3"]
+    """Of the true surface at the corners, outwards; float32 in the file."""
     face_of: Int[np.ndarray, "triangles"]
     """The index into `faces` of each triangle."""
     faces: tuple[dict[str, Any] | None, ...]
     """Analytic faces in the frame of the mesh; None where the surface is none that cascadio names."""
-    color: tuple[float, float, float] | None
+    color: Color | None
+    complete: bool
+    """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
 
 
 def instances(glb: bytes) -> Iterator[Instance]:
-    """All placed meshes, in the order of the file."""
+    """All placed meshes that have triangles, in the order of the file."""
     length = int.from_bytes(glb[12:16], "little")
-    tree = json.loads(glb[20 : 20 + length])
-    binary = glb[28 + length :]
+    tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     todo = [(node, np.eye(4)) for node in reversed(tree["scenes"][tree.get("scene", 0)].get("nodes", []))]
     while todo:
         index, above = todo.pop()
         node = tree["nodes"][index]
         pose = above @ _rigid(node)
         todo += [(child, pose) for child in reversed(node.get("children", []))]
-        if "mesh" in node:
-            mesh = tree["meshes"][node["mesh"]]
-            names = node.get("name", ""), mesh.get("name", "")
-            yield Instance(names, pose, *_triangles(tree, binary, mesh), _color(tree, mesh))
+        mesh = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
+        primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
+        if primitives:
+            names = node.get("name", "").strip(), mesh.get("name", "").strip()
+            yield Instance(names, pose, *_triangles(tree, binary, primitives), *_color(tree, primitives))
 
 
 def _rigid(node: dict[str, Any]) -> Pose:
     """The nearest rigid pose to the float32 placement of a node."""
     pose = np.array(node.get("matrix", np.eye(4).ravel()), float).reshape(4, 4).T
     left, stretch, right = np.linalg.svd(pose[:3, :3])
-    if abs(stretch - 1).max() > 1e-4 or np.linalg.det(pose[:3, :3]) < 0:
+    if np.abs(stretch - 1).max() > 1e-4 or np.linalg.det(left @ right) < 0:
         raise ValueError(
-            f"the instance {node.get('name')!r} is scaled or mirrored: only rigid placements are supported"
+            f"the instance {node.get('name')!r} is scaled or mirrored in its assembly: export it as a part"
         )
     pose[:3, :3] = left @ right
     return pose
 
 
-def _triangles(tree: dict[str, Any], binary: bytes, mesh: dict[str, Any]) -> tuple[Any, Any, Any]:
-    triangles, face_of, faces = [np.zeros((0, 3, 3))], [np.zeros(0, int)], []
-    for primitive in mesh["primitives"]:
-        described = primitive.get("extensions", {}).get("TM_brep_faces")
-        if described is None:
-            continue  # curves and points
-        corners = _array(tree, binary, primitive["attributes"]["POSITION"]).astype(float)
-        triangles.append(corners[_array(tree, binary, primitive["indices"]).reshape(-1, 3)])
-        face_of.append(_array(tree, binary, described["faceIndices"]).astype(int) + len(faces))
-        faces += described["faces"]
-    return np.concatenate(triangles), np.concatenate(face_of), tuple(faces)
+def _triangles(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> tuple[Any, Any, Any, Any]:
+    triangles, normals, face_of = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros(0, int)]
+    faces: list[dict[str, Any] | None] = []
+    for primitive in primitives:
+        if described := primitive.get("extensions", {}).get("TM_brep_faces"):
+            rows = _array(tree, binary, primitive["indices"]).reshape(-1, 3)
+            triangles.append(_array(tree, binary, primitive["attributes"]["POSITION"]).astype(float)[rows])
+            normals.append(_array(tree, binary, primitive["attributes"]["NORMAL"]).astype(float)[rows])
+            face_of.append(_array(tree, binary, described["faceIndices"]).astype(int) + len(faces))
+            faces += described["faces"]
+    return np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces)
 
 
 def _array(tree: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
@@ -84,12 +91,15 @@ def _array(tree: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
     return array.reshape(-1, width) if width > 1 else array
 
 
-def _color(tree: dict[str, Any], mesh: dict[str, Any]) -> tuple[float, float, float] | None:
-    """The colour of the first primitive, from the linear light of glTF to the usual sRGB."""
-    material = mesh["primitives"][0].get("material") if mesh["primitives"] else None
+def _color(tree: dict[str, Any], primitives: list[dict[str, Any]]) -> tuple[Color | None, bool]:
+    """The colour of most triangles, from the linear light of glTF to the usual sRGB, and whether it is the only one."""
+    counts: Counter[int | None] = Counter()
+    for primitive in primitives:
+        counts[primitive.get("material")] += tree["accessors"][primitive["indices"]]["count"]
+    material = counts.most_common(1)[0][0]
     if material is None:
-        return None
-    linear = np.array(tree["materials"][material].get("pbrMetallicRoughness", {}).get("baseColorFactor", [1, 1, 1]))[:3]
-    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 0) ** (1 / 2.4) - 0.055)
+        return None, len(primitives) == 1
+    linear = np.array(tree["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"][:3])
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     red, green, blue = np.clip(srgb, 0, 1).round(4).tolist()
-    return red, green, blue
+    return (red, green, blue), len(primitives) == 1

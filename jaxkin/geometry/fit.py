@@ -1,0 +1,144 @@
+"""The plane, cylinder, cone or sphere that a set of points with normals lies on, if there is one.
+
+For faces that arrive without their surface: as splines, or as triangles only. The corners of a tessellation lie on the
+true surface, so they are fitted, to rounding; normals choose the kind and the first guess, no more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.pose import Points, Vector, perpendicular, unit
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+
+
+def rounding(points: Points) -> float:
+    """The length by which points that went through float32 miss their surface: by their extent and their distance."""
+    points = points.reshape(-1, 3)
+    return max(1e-6 * float(np.linalg.norm(np.ptp(points, axis=0))), 3e-7 * float(np.abs(points).max()))
+
+
+def flipped(surface: Surface) -> Surface:
+    """The same surface with the material on its other side."""
+    return (
+        replace(surface, normal=-surface.normal) if isinstance(surface, Plane) else replace(surface, side=-surface.side)
+    )
+
+
+def fit_surface(
+    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float, angle: float
+) -> Surface | None:
+    """The simplest of plane, cylinder, cone, sphere that all points lie on within `tolerance` (a length).
+
+    `normals` are unit vectors out of the material at the points; where they deviate by more than `angle` (radians)
+    from those of the surface, it is another surface through the same points. None where no surface fits, or where
+    there are too few points to tell.
+    """
+    points, first = np.unique(points, axis=0, return_index=True)
+    normals = normals[first]
+    centre = points.mean(axis=0)
+    scale = float(np.abs(points - centre).max()) or 1.0
+    for candidate in _candidates((points - centre) / scale, normals):
+        surface = _scaled(candidate, centre, scale)
+        surface = surface if np.sum(surface.normals(points) * normals) >= 0 else flipped(surface)
+        if np.abs(surface.distance(points)).max() <= tolerance:
+            # at an apex any normal is right
+            plain = (
+                np.linalg.norm(points - surface.apex, axis=-1) > 10 * tolerance
+                if isinstance(surface, Cone)
+                else slice(None)
+            )
+            aligned = np.sum(surface.normals(points) * normals, axis=-1)[plain]
+            if np.all(aligned >= np.cos(angle)):
+                return surface
+    return None
+
+
+def _candidates(points: Points, normals: Points) -> Iterator[Surface]:
+    """Best fits of each kind to points around the origin of size one, the simplest first."""
+    for parameters, fit in ((3, _plane), (5, _cylinder), (6, _cone), (4, _sphere)):
+        if len(points) > parameters or (fit is _plane and len(points) == 3):
+            surface = fit(points, normals)
+            if surface is not None:
+                yield surface
+
+
+def _plane(points: Points, normals: Points) -> Plane:
+    normal = np.linalg.svd(points, full_matrices=False)[2][2]
+    return Plane(np.zeros(3), normal)
+
+
+def _cylinder(points: Points, normals: Points) -> Cylinder | None:
+    axis = np.linalg.svd(normals)[2][2]
+    x = perpendicular(axis)
+    y = np.cross(axis, x)
+    flat = points @ np.stack([x, y], axis=-1)
+    middle, radius = _ball(flat)
+
+    def cylinder(p: np.ndarray) -> Cylinder:
+        return Cylinder(p[2] * x + p[3] * y, unit(axis + p[0] * x + p[1] * y), float(p[4]), 1)
+
+    return _refined(cylinder, np.array([0.0, 0.0, *middle, radius]), points)
+
+
+def _cone(points: Points, normals: Points) -> Cone | None:
+    spread = normals - normals.mean(axis=0)
+    axis = np.linalg.svd(spread)[2][2]
+    # all tangent planes go through the apex
+    apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)
+    if rank < 3:
+        return None
+    axis = axis if float((points.mean(axis=0) - apex) @ axis) > 0 else -axis
+    half_angle = np.arcsin(np.clip(abs(float(normals.mean(axis=0) @ axis)), 0.0, 1.0))
+    x = perpendicular(axis)
+    y = np.cross(axis, x)
+
+    def cone(p: np.ndarray) -> Cone:
+        return Cone(p[3:], unit(axis + p[0] * x + p[1] * y), float(p[2]), 1)
+
+    found = _refined(cone, np.array([0.0, 0.0, half_angle, *apex]), points)
+    return found if found is not None and 0 < found.half_angle < np.pi / 2 else None
+
+
+def _sphere(points: Points, normals: Points) -> Sphere:
+    centre, radius = _ball(points)
+    return Sphere(centre, radius, 1)
+
+
+def _ball(points: Float[np.ndarray, "n d"]) -> tuple[Float[np.ndarray, "d"], float]:
+    """Centre and radius of the circle or sphere through points: 2 p c + (r^2 - c^2) = p^2 is linear."""
+    columns = np.column_stack([2 * points, np.ones(len(points))])
+    *centre, rest = np.linalg.lstsq(columns, np.sum(points**2, axis=-1), rcond=None)[0]
+    return np.array(centre), float(np.sqrt(max(rest + np.dot(centre, centre), 0.0)))
+
+
+def _refined(surface: Callable[[np.ndarray], Surface], start: np.ndarray, points: Points) -> Surface | None:
+    """Least squares of the distances of the points."""
+    from scipy.optimize import least_squares
+
+    result = least_squares(
+        lambda p: np.asarray(surface(p).distance(points)),
+        start,
+        "3-point",
+        xtol=1e-15,
+        ftol=1e-15,
+        gtol=1e-15,
+        max_nfev=50,
+    )
+    return surface(result.x)
+
+
+def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
+    match surface:
+        case Plane():
+            return Plane(centre + scale * surface.point, surface.normal)
+        case Cylinder():
+            return Cylinder(centre + scale * surface.point, surface.axis, scale * surface.radius, 1)
+        case Cone():
+            return Cone(centre + scale * surface.apex, surface.axis, surface.half_angle, 1)
+        case Sphere():
+            return Sphere(centre + scale * surface.centre, scale * surface.radius, 1)
