@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.pose import Pose, Vector, frame, inverse
+from jaxkin.geometry.pose import Pose, Vector, frame
 from jaxkin.joints.regularise import AXIS, CENTRE, Noise, movements
 from jaxkin.joints.screws import Screws, chain, freedoms, misfit
 
@@ -49,7 +49,8 @@ class LowerPair:
 def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
     """The lower pair that the contacts of two parts amount to; None if there is none.
 
-    The contacts may name the two parts in either order. The origin of the pair is the nearest place to the origin of
+    The contacts may name the two parts in either order, since a lower pair allows the inverse of what it allows. The
+    origin of the pair is the nearest place to the origin of
     the first contact, where the pair leaves it free, and x is that of the first contact frame with the same z axis.
     """
     centre, size = contacts[0].frames[0, :3, 3], noise.size
@@ -67,14 +68,10 @@ def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
         return None
     kind, movement, pose = candidate
     coordinates = freedoms([movement])
-    screws = chain([movement], pose[None], np.zeros(coordinates))[1]
-    if np.abs(forbidden @ screws).max(initial=0.0) > tolerance:
-        return None
     for q in np.random.default_rng(0).uniform(-0.5, 0.5, (2, coordinates)):
         displacement = chain([movement], pose[None], q)[0]
         for contact, frames in zip(contacts, scaled, strict=True):
-            wanted = displacement if contact.parts == contacts[0].parts else inverse(displacement)
-            if misfit(movements(contact), frames, wanted) > tolerance:
+            if misfit(movements(contact), frames, displacement) > tolerance:
                 return None
     pose = pose.copy()
     pose[:3, 3] = centre + size * pose[:3, 3]

@@ -1,4 +1,4 @@
-"""Take the noise of files out of contacts: what is parallel, perpendicular, coaxial or concurrent but for it is exactly so.
+"""Take the noise of files out of contacts: what is parallel, perpendicular, coaxial or meets but for it is exactly so.
 
 Readers pass the placements of parts through float32. Axes that are parallel by design arrive 1e-8 to 1e-7 rad apart,
 and a planar loop of such axes does not close exactly anywhere but in the pose that was read. Relations are looked for

@@ -113,8 +113,8 @@ def test_pair(name, scale):
         offset = (place[:3, :3] @ point + place[:3, 3]) * scale - pair.frame[:3, 3]
         if axis is not None:
             offset = np.cross(offset, pair.frame[:3, 2])
-        # rounding of positions a few hundred long
-        np.testing.assert_allclose(offset, 0.0, atol=3e-13 * scale)
+        # rounding of positions a few hundred long, through two decompositions
+        np.testing.assert_allclose(offset, 0.0, atol=1e-12 * scale)
 
 
 @pytest.mark.parametrize("name", [name for name, (_, kind, _) in PAIRS.items() if kind])
