@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.boxes import boxes_of, crossing
-from jaxkin.geometry.pose import Vector, perpendicular
+from jaxkin.geometry.pose import Vector
 
 Flat = Float[np.ndarray, "_ 3 2"]
 Solid = Float[np.ndarray, "_ 3 3"]
@@ -39,36 +39,6 @@ def flat(triangles: Solid, origin: Vector, x: Vector, y: Vector) -> Flat:
     return np.stack([(triangles - origin) @ x, (triangles - origin) @ y], axis=-1)
 
 
-def unrolled(triangles: Solid, origin: Vector, axis: Vector, radius: float) -> Flat:
-    """Angle about the axis times `radius`, and height along it from `origin`.
-
-    The corners of a triangle lie within half a turn of its first one, which lies in [-pi, pi]. A triangle with a corner
-    on the axis, the apex of a cone, covers all heights between two angles and becomes two.
-    """
-    x = perpendicular(axis)
-    offset = triangles - origin
-    height, a, b = offset @ axis, offset @ x, offset @ np.cross(axis, x)
-    distance = np.hypot(a, b)
-    theta = np.arctan2(b, a)
-    pointed = distance < 1e-6 * distance.max(initial=0.0)
-    apex = np.flatnonzero(pointed.any(axis=1))
-    for row in apex:
-        roll = -int(np.argmax(pointed[row]))
-        theta[row], height[row] = np.roll(theta[row], roll), np.roll(height[row], roll)
-        theta[row, 0] = theta[row, 1]
-    theta[:, 1:] = theta[:, :1] + np.angle(np.exp(1j * (theta[:, 1:] - theta[:, :1])))
-    chart = np.stack([theta * radius, height], axis=-1)
-    second = chart[apex][:, [0, 2, 2]]
-    second[:, 2, 1] = second[:, 0, 1]
-    return np.concatenate([chart, second])
-
-
-def turned(chart: Flat, radius: float) -> Flat:
-    """An unrolled chart with its copies one turn back and one turn on."""
-    turn = np.array([2 * np.pi * radius, 0.0])
-    return np.concatenate([chart - turn, chart, chart + turn])
-
-
 def overlap(first: Flat, second: Flat, tolerance: float) -> Overlap | None:
     """What two sets of triangles in one chart share; None if they are farther apart than the tolerance."""
     pairs = crossing(boxes_of(first), boxes_of(second), tolerance)
@@ -92,6 +62,7 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     a, b, axes = a[ahead], b[ahead], axes[ahead]
     charts = radius * a[..., :2] / a[..., 2:], radius * b[..., :2] / b[..., 2:]
     areas, middles, corners, shared = _intersections(*charts, tolerance)
+    areas = areas * (1 + np.sum(middles**2, axis=-1) / radius**2) ** -1.5  # the tangent plane shows too much
 
     def lifted(points: np.ndarray) -> np.ndarray:
         points = np.concatenate([points, np.full((*points.shape[:-1], 1), radius)], axis=-1)
@@ -113,9 +84,12 @@ def _intersections(a: Flat, b: Flat, tolerance: float) -> tuple[np.ndarray, np.n
     edges_a, edges_b = np.roll(a, -1, axis=1) - a, np.roll(b, -1, axis=1) - b
     start = b[:, None] - a[:, :, None]  # pair, edge of a, edge of b
     turn = _cross(edges_a[:, :, None], edges_b[:, None])
-    with np.errstate(divide="ignore", invalid="ignore"):  # parallel edges do not cross: not a number, not within 0..1
-        s, t = _cross(start, edges_b[:, None]) / turn, _cross(start, edges_a[:, :, None]) / turn
-    meet = (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    # edges on one line do not cross: the corners of one triangle in the other say all about them
+    length = np.linalg.norm(edges_a, axis=-1)[:, :, None] * np.linalg.norm(edges_b, axis=-1)[:, None]
+    parallel = np.abs(turn) <= 1e-9 * length
+    turn = np.where(parallel, 1.0, turn)
+    s, t = _cross(start, edges_b[:, None]) / turn, _cross(start, edges_a[:, :, None]) / turn
+    meet = ~parallel & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
     crossings = a[:, :, None] + np.where(meet, s, 0.0)[..., None] * edges_a[:, :, None]
     corners = np.concatenate([a, b, crossings.reshape(-1, 9, 2)], axis=1)
     shared = np.concatenate(

@@ -8,13 +8,16 @@ the tangent edge of a fillet lies on the plane below it, but the fillet does not
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from jaxkin.contacts import intervals
 from jaxkin.contacts.intervals import Intervals
-from jaxkin.contacts.overlap import Overlap, flat, overlap, overlap_on_sphere, turned, unrolled
+from jaxkin.contacts.overlap import Overlap, Solid, flat, overlap, overlap_on_sphere
+from jaxkin.contacts.rim import Difference, chord_height
 from jaxkin.contacts.touch import Touch
+from jaxkin.contacts.unrolled import shorter_way, turned, unrolled, unrolled_difference
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
@@ -54,11 +57,11 @@ def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> Contac
             shared = overlap(flat(a, touch.point, x, y), flat(b, touch.point, x, y), tolerance)
             if shared is not None:
                 centre = touch.point + shared.centre[0] * x + shared.centre[1] * y
-                return ContactRegion(centre, shared.extent, _is_wide(shared, face1, face2, tolerance))
+                return ContactRegion(centre, shared.extent, _is_wide(shared, a, b, np.subtract, tolerance))
         case Sphere(radius=radius):
             shared = overlap_on_sphere(a, b, touch.point, radius, tolerance)
             if shared is not None:
-                return ContactRegion(touch.point, shared.extent, _is_wide(shared, face1, face2, tolerance))
+                return ContactRegion(touch.point, shared.extent, _is_wide(shared, a, b, np.subtract, tolerance))
         case Cylinder() | Cone():
             offset = a.reshape(-1, 3) - touch.point
             radius = float(np.linalg.norm(np.cross(offset, touch.direction), axis=-1).mean())
@@ -67,16 +70,17 @@ def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> Contac
             if shared is not None:
                 centre = touch.point + shared.centre[1] * touch.direction
                 extent = float(np.ptp(shared.box[:, 1]))
-                return ContactRegion(centre, extent, _is_wide(shared, face1, face2, tolerance))
+                between = partial(unrolled_difference, origin=touch.point, axis=touch.direction, radius=radius)
+                return ContactRegion(centre, extent, _is_wide(shared, a, b, between, tolerance))
     return None
 
 
-def _is_wide(shared: Overlap, face1: Face, face2: Face, tolerance: float) -> bool:
+def _is_wide(shared: Overlap, a: Solid, b: Solid, between: Difference, tolerance: float) -> bool:
     """Whether an overlap is more than the slivers that noise and the chords of two tessellations leave at an edge."""
     width = shared.area / max(shared.extent, tolerance)
     if width > 0.1 * shared.extent:
         return True
-    return width > 4 * (tolerance + max(_chord_height(face1), _chord_height(face2)))
+    return width > 4 * (tolerance + max(chord_height(a, between), chord_height(b, between)))
 
 
 def _line(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
@@ -108,7 +112,7 @@ def _circle(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactReg
     def arcs(face: Face, height: float) -> Intervals:
         segments = _cut(face.triangles, touch.point + height * touch.direction, touch.direction) - touch.point
         angles = np.arctan2(segments @ y, segments @ x)
-        angles[:, 1] = angles[:, 0] + np.angle(np.exp(1j * (angles[:, 1] - angles[:, 0])))
+        angles[:, 1] = angles[:, 0] + shorter_way(angles[:, 1] - angles[:, 0])
         angles.sort(axis=1)
         angles = np.concatenate([angles, angles - 2 * np.pi, angles + 2 * np.pi])
         angles = angles[(angles[:, 1] > -np.pi) & (angles[:, 0] < np.pi)].clip(-np.pi, np.pi)
@@ -160,26 +164,3 @@ def _cut(triangles: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
     heights = np.take_along_axis(heights, order, axis=1)
     part = heights[:, :1] / (heights[:, :1] - heights[:, 1:])
     return triangles[:, :1] + part[..., None] * (triangles[:, 1:] - triangles[:, :1])
-
-
-def _chord_height(face: Face) -> float:
-    """How far the chords along the rim of a face cut into it: the largest height of an arc over its chord.
-
-    At a corner of the rim, where it turns by more than 0.7 rad, there is no arc to speak of.
-    """
-    corners = face.triangles.reshape(-1, 3)
-    grid = np.round((corners - corners[0]) / max(1e-7 * float(np.ptp(face.box)), np.finfo(float).tiny))
-    _, index = np.unique(grid, axis=0, return_inverse=True)
-    points = np.zeros((index.max() + 1, 3))
-    points[index.reshape(-1)] = corners
-    loops = index.reshape(-1, 3)
-    edges = np.concatenate([loops, np.roll(loops, -1, axis=1)], axis=0).reshape(2, -1).T
-    ordered = np.sort(edges, axis=1)
-    _, position, count = np.unique(ordered, axis=0, return_index=True, return_counts=True)
-    rim = edges[position[count == 1]]
-    following = dict(rim.tolist())
-    pairs = np.array([(a, b, following[b]) for a, b in rim.tolist() if b in following]).reshape(-1, 3)
-    before, after = points[pairs[:, 1]] - points[pairs[:, 0]], points[pairs[:, 2]] - points[pairs[:, 1]]
-    length = np.linalg.norm(before, axis=-1)
-    turn = np.arctan2(np.linalg.norm(np.cross(before, after), axis=-1), np.sum(before * after, axis=-1))
-    return float(np.max(np.where(turn < 0.7, length * turn / 8, 0.0), initial=0.0))

@@ -1,0 +1,37 @@
+"""The rim of a face, which its triangles follow in chords."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from jaxkin.contacts.overlap import Solid
+from jaxkin.geometry.pose import Points
+
+Difference = Callable[[Points, Points], np.ndarray]
+"""(ends, starts) -> vectors from the starts to the ends, in space or in a chart of the surface."""
+
+CORNER = 0.7
+"""Radians. Where a rim turns by more than this, it has a corner, not an arc."""
+
+
+def chord_height(triangles: Solid, between: Difference) -> float:
+    """How far the chords along the rim cut into the face: the largest height of an arc over its chord."""
+    corners = triangles.reshape(-1, 3)
+    scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # corners are kept in single precision by most readers
+    _, index = np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)
+    loops = index.reshape(-1, 3)
+    edges = np.stack([loops, np.roll(loops, -1, axis=1)], axis=-1).reshape(-1, 2)
+    ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-2).reshape(-1, 2, 3)
+    _, position, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    rim = position[count == 1]  # an edge of one triangle only
+    leaving = {int(start): number for number, (start, _) in zip(rim, edges[rim], strict=True)}
+    joined = np.array([(number, leaving[end]) for number in rim if (end := int(edges[number, 1])) in leaving])
+    if not len(joined):
+        return 0.0
+    before, after = (between(ends[numbers, 1], ends[numbers, 0]) for numbers in joined.T)
+    length, following = np.linalg.norm(before, axis=-1), np.linalg.norm(after, axis=-1)
+    before, after = before * following[:, None], after * length[:, None]
+    turn = 2 * np.arctan2(np.linalg.norm(after - before, axis=-1), np.linalg.norm(after + before, axis=-1))
+    return float(np.max(np.where(turn < CORNER, length * turn / 8, 0.0)))

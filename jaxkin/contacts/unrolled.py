@@ -1,0 +1,51 @@
+"""Cylinders and cones unrolled about their axis."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from jaxkin.contacts.overlap import Flat, Solid
+from jaxkin.geometry.pose import Points, Vector, perpendicular
+
+
+def unrolled(triangles: Solid, origin: Vector, axis: Vector, radius: float) -> Flat:
+    """Angle about the axis times `radius`, and height along it from `origin`.
+
+    The corners of a triangle lie within half a turn of its first one, which lies in [-pi, pi]. A triangle with a corner
+    on the axis, the apex of a cone, covers all heights between two angles and becomes two.
+    """
+    x = perpendicular(axis)
+    offset = triangles - origin
+    height, a, b = offset @ axis, offset @ x, offset @ np.cross(axis, x)
+    distance = np.hypot(a, b)
+    theta = np.arctan2(b, a)
+    pointed = distance < 1e-6 * distance.max(initial=0.0)
+    apex = np.flatnonzero(pointed.any(axis=1))
+    for row in apex:
+        roll = -int(np.argmax(pointed[row]))
+        theta[row], height[row] = np.roll(theta[row], roll), np.roll(height[row], roll)
+        theta[row, 0] = theta[row, 1]
+    theta[:, 1:] = theta[:, :1] + shorter_way(theta[:, 1:] - theta[:, :1])
+    chart = np.stack([theta * radius, height], axis=-1)
+    second = chart[apex][:, [0, 2, 2]]
+    second[:, 2, 1] = second[:, 0, 1]
+    return np.concatenate([chart, second])
+
+
+def turned(chart: Flat, radius: float) -> Flat:
+    """An unrolled chart with its copies one turn back and one turn on."""
+    turn = np.array([2 * np.pi * radius, 0.0])
+    return np.concatenate([chart - turn, chart, chart + turn])
+
+
+def unrolled_difference(ends: Points, starts: Points, origin: Vector, axis: Vector, radius: float) -> np.ndarray:
+    """From each start to its end in the unrolled surface, the shorter way round."""
+    x = perpendicular(axis)
+    y = np.cross(axis, x)
+    theta_start, theta_end = (np.arctan2((p - origin) @ y, (p - origin) @ x) for p in (starts, ends))
+    return np.stack([radius * shorter_way(theta_end - theta_start), (ends - starts) @ axis], axis=-1)
+
+
+def shorter_way(angle: np.ndarray) -> np.ndarray:
+    """The same turn within half a turn."""
+    return np.angle(np.exp(1j * angle))
