@@ -38,7 +38,8 @@ def _metres(text: str, lengths: dict[str, str], number: str) -> float | None:
         return _PREFIXES.get(si[1]) if si[1] else 1.0
     conversion = re.search(r"CONVERSION_BASED_UNIT\s*\(\s*'[^']*'\s*,\s*#(\d+)", lengths.get(number, ""))
     measure = conversion and re.search(
-        rf"#{conversion[1]}\s*=[^;]*?LENGTH_MEASURE\s*\(\s*([^)\s]+)\s*\)\s*,\s*#(\d+)", text
+        rf"#{conversion[1]}\s*=[^;]*?MEASURE_WITH_UNIT\s*\(\s*(?:\w+\s*\()?\s*([\d.Ee+-]+)\s*\)?\s*,\s*#(\d+)",
+        text,
     )
     base = _metres(text, lengths, measure[2]) if measure else None
     return float(measure[1]) * base if measure and base else None
