@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points, Vector, perpendicular, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+
+Round = TypeVar("Round", Cylinder, Cone)
 
 
 def rounding(points: Points) -> float:
@@ -24,9 +27,9 @@ def rounding(points: Points) -> float:
 
 def flipped(surface: Surface) -> Surface:
     """The same surface with the material on its other side."""
-    return (
-        replace(surface, normal=-surface.normal) if isinstance(surface, Plane) else replace(surface, side=-surface.side)
-    )
+    if isinstance(surface, Plane):
+        return replace(surface, normal=-surface.normal)
+    return replace(surface, side=-surface.side)
 
 
 def fit_surface(
@@ -46,22 +49,16 @@ def fit_surface(
         surface = _scaled(candidate, centre, scale)
         surface = surface if np.sum(surface.normals(points) * normals) >= 0 else flipped(surface)
         if np.abs(surface.distance(points)).max() <= tolerance:
-            # at an apex any normal is right
-            plain = (
-                np.linalg.norm(points - surface.apex, axis=-1) > 10 * tolerance
-                if isinstance(surface, Cone)
-                else slice(None)
-            )
-            aligned = np.sum(surface.normals(points) * normals, axis=-1)[plain]
-            if np.all(aligned >= np.cos(angle)):
+            aligned = np.sum(surface.normals(points) * normals, axis=-1) >= np.cos(angle)
+            if np.mean(aligned) > 0.9:  # an apex, and the pole of a spline, have no normal of their own
                 return surface
     return None
 
 
 def _candidates(points: Points, normals: Points) -> Iterator[Surface]:
     """Best fits of each kind to points around the origin of size one, the simplest first."""
-    for parameters, fit in ((3, _plane), (5, _cylinder), (6, _cone), (4, _sphere)):
-        if len(points) > parameters or (fit is _plane and len(points) == 3):
+    for enough, fit in ((3, _plane), (6, _cylinder), (7, _cone), (5, _sphere)):
+        if len(points) >= enough:
             surface = fit(points, normals)
             if surface is not None:
                 yield surface
@@ -72,8 +69,8 @@ def _plane(points: Points, normals: Points) -> Plane:
     return Plane(np.zeros(3), normal)
 
 
-def _cylinder(points: Points, normals: Points) -> Cylinder | None:
-    axis = np.linalg.svd(normals)[2][2]
+def _cylinder(points: Points, normals: Points) -> Cylinder:
+    axis = np.linalg.eigh(normals.T @ normals)[1][:, 0]
     x = perpendicular(axis)
     y = np.cross(axis, x)
     flat = points @ np.stack([x, y], axis=-1)
@@ -87,7 +84,7 @@ def _cylinder(points: Points, normals: Points) -> Cylinder | None:
 
 def _cone(points: Points, normals: Points) -> Cone | None:
     spread = normals - normals.mean(axis=0)
-    axis = np.linalg.svd(spread)[2][2]
+    axis = np.linalg.eigh(spread.T @ spread)[1][:, 0]
     # all tangent planes go through the apex
     apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)
     if rank < 3:
@@ -101,7 +98,7 @@ def _cone(points: Points, normals: Points) -> Cone | None:
         return Cone(p[3:], unit(axis + p[0] * x + p[1] * y), float(p[2]), 1)
 
     found = _refined(cone, np.array([0.0, 0.0, half_angle, *apex]), points)
-    return found if found is not None and 0 < found.half_angle < np.pi / 2 else None
+    return found if 0 < found.half_angle < np.pi / 2 else None
 
 
 def _sphere(points: Points, normals: Points) -> Sphere:
@@ -116,7 +113,7 @@ def _ball(points: Float[np.ndarray, "n d"]) -> tuple[Float[np.ndarray, "d"], flo
     return np.array(centre), float(np.sqrt(max(rest + np.dot(centre, centre), 0.0)))
 
 
-def _refined(surface: Callable[[np.ndarray], Surface], start: np.ndarray, points: Points) -> Surface | None:
+def _refined(surface: Callable[[np.ndarray], Round], start: np.ndarray, points: Points) -> Round:
     """Least squares of the distances of the points."""
     from scipy.optimize import least_squares
 

@@ -50,7 +50,7 @@ def instances(glb: bytes) -> Iterator[Instance]:
         node = tree["nodes"][index]
         pose = above @ _rigid(node)
         todo += [(child, pose) for child in reversed(node.get("children", []))]
-        mesh = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
+        mesh: dict[str, Any] = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
         primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
         if primitives:
             names = node.get("name", "").strip(), mesh.get("name", "").strip()

@@ -1,11 +1,23 @@
-"""An assembly: the parts of a mechanism as solids in their assembled pose."""
+"""An assembly: the parts of a mechanism as solids in their assembled pose, and the way from there to a mechanism."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
+from jaxkin.contacts.contact import Contacts
+from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
+from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.topology.checks import check_names
+from jaxkin.topology.structure import structure
+
+
+_LISTED = 8
+"""Names, or near misses, that a message lists at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,9 +30,66 @@ class Assembly:
     source: str
     """The file that it was read from."""
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parts."""
+        return tuple(part.name for part in self.parts)
+
+    def contacts(self) -> Contacts:
+        """The contacts between the parts, and what is nearly one; found once. See `jaxkin.contacts.detect`."""
+        return self._contacts
+
+    def mechanism(self, *, fixed: Sequence[str], combine: bool = True) -> Mechanism:
+        """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+
+        With `combine` the contacts of two parts become the one joint that they amount to, where there is one; without
+        it every contact is a joint, as in the paper. Contacts between fixed parts are left out. Raises ValueError where
+        no part or an unknown one is fixed, and where a part touches nothing or hangs on nothing.
+        """
+        check_names(self.names, [], fixed)
+        contacts = [contact for contact in self.contacts() if not set(contact.parts) <= set(fixed)]
+        self._refuse_loose(fixed)
+        found = joints_from_contacts(contacts, self.names, combine=combine)
+        described = [(joint.name, *joint.parts) for joint in found.joints]
+        return Mechanism(
+            found.joints, structure(self.names, described, fixed), self.unit, self.parts, self._notes(found)
+        )
+
+    @cached_property
+    def _contacts(self) -> Contacts:
+        return find_contacts(self.parts)
+
+    def _refuse_loose(self, fixed: Sequence[str]) -> None:
+        """Refuse parts that no chain of contacts ties to the fixed ones, with what is nearly a contact there."""
+        held, before = set(fixed), 0
+        while len(held) > before:
+            before = len(held)
+            held.update(part for contact in self.contacts() if held & set(contact.parts) for part in contact.parts)
+        loose = [name for name in self.names if name not in held]
+        if not loose:
+            return
+        touching = {part for contact in self.contacts() for part in contact.parts}
+        alone = [name for name in loose if name not in touching]
+        if alone:
+            problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
+        else:
+            problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
+        misses = [miss for miss in self.contacts().near_misses if set(miss.parts) & set(alone or loose)]
+        nearly = [f"  {miss}" for miss in misses[:_LISTED]] or ["  and nothing there is nearly in contact"]
+        raise ValueError(
+            "\n".join([f"{self.source}: {problem}; correct the model, or fix or leave out the part:", *nearly])
+        )
+
+    def _notes(self, found: FoundJoints) -> tuple[str, ...]:
+        noise = (
+            f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
+            f"and axes by {found.length:.1g} {self.unit}"
+        )
+        return (*found.notes, *map(str, self.contacts().near_misses), *self.contacts().notes, noise)
+
     def __str__(self) -> str:
         lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {self.unit}"]
-        width = max(len(part.name) for part in self.parts)
+        width = max(len(name) for name in self.names)
         for part in self.parts:
             kinds = Counter(face.surface.kind for face in part.faces)
             faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
@@ -29,4 +98,9 @@ class Assembly:
         return "\n".join(lines)
 
     def __repr__(self) -> str:
-        return f"<Assembly {self.source!r}: {', '.join(part.name for part in self.parts)}; {self.unit}>"
+        return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    return ", ".join(map(repr, names[:_LISTED])) + more
