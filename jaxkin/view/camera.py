@@ -41,7 +41,8 @@ def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Disp
     Depends neither on the unit nor on the origin.
     """
     moving = [part for part in parts if part.name not in fixed]
-    normal = _normal(parts, moving, displacements)
+    steps = [(move(displacements, part.name, _corners(part)) - _corners(part)).reshape(-1, 3) for part in moving]
+    normal = _normal(parts, steps)
     if normal is None:
         azimuths, rise = np.deg2rad(np.arange(8) * 45.0 - 60.0), np.deg2rad(30.0)
         outs = [np.array([np.cos(a) * np.cos(rise), np.sin(a) * np.cos(rise), np.sin(rise)]) for a in azimuths]
@@ -55,9 +56,9 @@ def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Disp
     views = [View(frame(np.zeros(3), out, np.cross(up, out))[:3, :3].T, normal is not None) for out in outs]
     triangles, owners = _middle(parts, displacements)
     is_moving = np.array([part not in fixed for part in owners])
-    seen = [_seen(view, triangles, is_moving) for view in views]
-    best = int(np.argmax(seen))
-    return views[best] if seen[best] > PREFERENCE * seen[0] else views[0]
+    merits = [_seen(view, triangles, is_moving) * _spread(view, steps) for view in views]
+    best = int(np.argmax(merits))
+    return views[best] if merits[best] > PREFERENCE * merits[0] else views[0]
 
 
 def move(displacements: Displacements, part: str, points: Points) -> Float[np.ndarray, "poses *points 3"]:
@@ -67,7 +68,11 @@ def move(displacements: Displacements, part: str, points: Points) -> Float[np.nd
     return turned + pose[:, :3, 3].reshape(-1, *(1,) * (turned.ndim - 2), 3)
 
 
-def _normal(parts: Sequence[Part], moving: Sequence[Part], displacements: Displacements) -> Vector | None:
+def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
+    return np.stack(np.meshgrid(*part.box.T), axis=-1).reshape(-1, 3)
+
+
+def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None:
     """Normal of the plane that everything moves parallel to, None in space.
 
     Where the motion leaves a choice (along one line, or none at all) the mechanism is seen from its flattest side.
@@ -75,8 +80,6 @@ def _normal(parts: Sequence[Part], moving: Sequence[Part], displacements: Displa
     cloud = np.concatenate([part.triangles.reshape(-1, 3) for part in parts])
     cloud = cloud - cloud.mean(axis=0)
     size = np.linalg.norm(np.ptp(cloud, axis=0))
-    probes = [(part.name, np.stack(np.meshgrid(*part.box.T), axis=-1).reshape(-1, 3)) for part in moving]
-    steps = [(move(displacements, name, points) - points).reshape(-1, 3) for name, points in probes]
     _, widths, directions = np.linalg.svd(np.concatenate([*steps, np.zeros((3, 3))]), full_matrices=False)
     rank = int((widths > max(FLAT * widths[0], 1e-9 * size)).sum())
     if rank == 3:
@@ -108,6 +111,14 @@ def _middle(parts: Sequence[Part], displacements: Displacements) -> tuple[np.nda
     middle = {name: poses[[len(poses) // 2]] for name, poses in displacements.items()}
     triangles = [move(middle, part.name, part.triangles)[0] for part in parts]
     return np.concatenate(triangles), [part.name for part in parts for _ in part.triangles]
+
+
+def _spread(view: View, steps: Sequence[np.ndarray]) -> float:
+    """How wide a motion in space opens in the view, not looked at along the planes that its parts move in: areas."""
+    if view.planar:
+        return 1.0
+    flat = [part @ view.axes[:2].T for part in (*steps, np.concatenate(steps))]
+    return sum(float(np.sqrt(max(np.linalg.det(part.T @ part / len(part)), 0.0))) for part in flat)
 
 
 def _seen(view: View, triangles: np.ndarray, wanted: np.ndarray) -> int:

@@ -57,8 +57,6 @@ def draw(
     canvas: Canvas, parts: Sequence[Float[np.ndarray, "triangles 3 3"]], colors: Sequence[Sequence[float]]
 ) -> Layer:
     """Draw parts given by their triangles in world coordinates; a face that faces the viewer keeps its colour."""
-    from scipy.ndimage import binary_dilation
-
     points = canvas.pixels(np.concatenate([*parts, np.zeros((0, 3, 3))])) * FINE
     raster = rasterise(points, canvas.height * FINE, canvas.width * FINE)
     # One row a triangle, and a last one for index -1, where there is none.
@@ -67,7 +65,7 @@ def draw(
     light = 1 + CONTRAST * (normal @ LIGHT - LIGHT[2])
     color = np.clip(np.array([*colors, PAPER], np.float32)[owners] * light[:, None], 0, 1)
     outline, crease = _edges(raster, owners, normal)
-    return Layer(raster.triangle >= 0, raster.depth, color[raster.triangle], binary_dilation(outline), crease)
+    return Layer(raster.triangle >= 0, raster.depth, color[raster.triangle], _grown(outline), crease)
 
 
 def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "height width 3"]:
@@ -75,10 +73,10 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
 
     What a fixed part hides of a moving one shows through it, so that a housing does not hide the mechanism.
     """
-    from scipy.ndimage import binary_dilation
+    from PIL import Image
 
     image = fixed.color.copy()
-    rows, columns = np.indices(fixed.present.shape, sparse=True)
+    rows, columns = np.arange(image.shape[0])[:, None], np.arange(image.shape[1])
     image[fixed.present & ((rows + columns) % (HATCH[0] * FINE) < HATCH[1] * FINE)] *= HATCHED
     _ink(image, fixed.crease, FAINT_INK, 0.8)
     _ink(image, fixed.outline, FAINT_INK, 1.0)
@@ -88,12 +86,11 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
     image[front] = moving.color[front]
     image[behind] = 0.7 * image[behind] + 0.3 * moving.color[behind]
     image *= 1 - _shadow(np.where(front, moving.depth, fixed.depth))[..., None]
-    covered = binary_dilation(behind, iterations=2) & ~binary_dilation(front, iterations=2)
+    covered = _grown(_grown(behind)) & ~_grown(_grown(front))
     _ink(image, moving.crease & front, INK, 0.45)
     _ink(image, moving.outline & ~covered, INK, 0.9)
     _ink(image, moving.outline & covered, INK, 0.25)
-    height, width = image.shape[0] // FINE, image.shape[1] // FINE
-    return np.rint(255 * image.reshape(height, FINE, width, FINE, 3).mean(axis=(1, 3))).astype(np.uint8)
+    return np.asarray(Image.fromarray((255 * image + 0.5).astype(np.uint8)).reduce(FINE))
 
 
 def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -114,6 +111,15 @@ def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.n
         crease[one] |= inner
         crease[other] |= inner
     return outline.reshape(places.shape), crease.reshape(places.shape)
+
+
+def _grown(mask: Bool[np.ndarray, "height width"]) -> Bool[np.ndarray, "height width"]:
+    """The mask and the four neighbours of its pixels."""
+    grown = mask.copy()
+    for one, other in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        grown[one] |= mask[other]
+        grown[other] |= mask[one]
+    return grown
 
 
 def _ink(image: Float[np.ndarray, "height width 3"], where: np.ndarray, ink: Sequence[float], strength: float) -> None:

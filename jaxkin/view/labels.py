@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.motion.motion import Motion
 from jaxkin.solve.status import Status
-
-if TYPE_CHECKING:
-    from jaxkin.motion.motion import Motion
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,20 +7,17 @@ from base64 import b64encode
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.part import Part
+from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.solve.status import Status
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.mesh import shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
-
-if TYPE_CHECKING:
-    from jaxkin.motion.motion import Motion
 
 MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
 TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
@@ -28,7 +25,7 @@ RISE = 0.52  # pitch that one in space is first seen from
 
 
 @register("motion.html")
-def page(motion: Motion, path: Path, points: Mapping[str, object] | None = None) -> None:
+def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None = None) -> None:
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
@@ -42,7 +39,7 @@ def page(motion: Motion, path: Path, points: Mapping[str, object] | None = None)
 
 
 def _read(name: str) -> str:
-    return resources.files(__package__).joinpath(name).read_text("utf-8")
+    return resources.files("jaxkin.view").joinpath(name).read_text("utf-8")
 
 
 def _content(motion: Motion, scene: Scene) -> dict:

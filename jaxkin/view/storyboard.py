@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from jaxtyping import Int
 
+from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import headline, inputs, title
@@ -19,8 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from jaxkin.motion.motion import Motion
 
 DPI = 150
 PANELS = 6
@@ -44,7 +43,10 @@ class _Sheet(NamedTuple):
 
 @register("motion.png")
 def storyboard(
-    motion: Motion, path: Path, points: Mapping[str, object] | None = None, poses: Sequence[int] | None = None
+    motion: Motion,
+    path: Path | str,
+    points: Mapping[str, object] | None = None,
+    poses: Sequence[int] | np.ndarray | None = None,
 ) -> None:
     """Write a picture of a motion at some of its closed poses, all at one scale.
 
@@ -60,7 +62,7 @@ def storyboard(
     rows = max(1, -(-len(shown) // columns))
     canvas = _canvas(scene, WIDTHS[columns])
     entries = _legend(scene)
-    per_line = max(1, columns * canvas.width // (70 + 13 * max(len(entry.get_label()) for entry in entries)))
+    per_line = max(1, columns * canvas.width // (70 + 13 * max(len(str(entry.get_label())) for entry in entries)))
     width = 2 * MARGIN + columns * canvas.width + (columns - 1) * GAP
     foot = FOOT + LINE * -(-len(entries) // per_line)
     sheet = _sheet(width, HEAD + rows * (canvas.height + CAPTION) + (rows - 1) * GAP + foot)
@@ -95,7 +97,7 @@ def _choose(scene: Scene) -> Int[np.ndarray, " panels"]:
     return scene.closed[np.rint(np.linspace(0, count - 1, PANELS + scene.cyclic)[:PANELS]).astype(int)]
 
 
-def _check(poses: Sequence[int], scene: Scene, count: int) -> Int[np.ndarray, " panels"]:
+def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> Int[np.ndarray, " panels"]:
     for pose in poses:
         if not -count <= pose < count:
             raise ValueError(f"poses holds {pose}, but the motion has poses 0 to {count - 1}")

@@ -1,0 +1,18 @@
+import numpy as np
+import pytest
+from jaxkin.view.labels import Input
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(60.0, "60°"), (59.99999, "60°"), (27.04, "27°"), (27.06, "27.1°"), (-1e-12, "0°"), (-33.75, "\u221233.8°")],
+)
+def test_angles_are_rounded_to_a_tenth_of_a_degree(value, text):
+    assert Input("A", np.array([value]), "°").at(0) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(12.0, "12 mm"), (0.0123456, "0.01235 mm"), (1.5e-7, "1.5e\u221207 mm"), (-3.0, "\u22123 mm")]
+)
+def test_lengths_have_four_digits_and_their_unit(value, text):
+    assert Input("A", np.array([value]), " mm").at(0) == text
