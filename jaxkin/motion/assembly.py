@@ -15,7 +15,6 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.structure import structure
 
-
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
 
