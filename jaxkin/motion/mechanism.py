@@ -84,6 +84,9 @@ class Mechanism:
         return describe_mechanism(self)
 
 
-jax.tree_util.register_dataclass(
-    Mechanism, data_fields=["all_joints"], meta_fields=["structure", "unit"], drop_fields=["solids", "notes"]
+# by hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only
+jax.tree_util.register_pytree_node(
+    Mechanism,
+    lambda mechanism: ((mechanism.all_joints,), (mechanism.structure, mechanism.unit)),
+    lambda static, leaves: Mechanism(*leaves, *static),
 )
