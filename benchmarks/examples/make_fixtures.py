@@ -1,0 +1,83 @@
+"""Make the small STEP files in `tests/io/data` with a CAD kernel: `python benchmarks/examples/make_fixtures.py`.
+
+Each holds one thing that readers get wrong. The dimensions stand here and in `tests/io/test_step.py`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cadquery as cq
+from make_examples import write
+from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
+
+FOLDER = Path(__file__).parents[2] / "tests" / "io" / "data"
+
+
+def nested() -> cq.Assembly:
+    """A washer and two bolts as a unit that is used twice: instances, and names that come twice."""
+    bolt = cq.Workplane().circle(3).extrude(10)
+    washer = cq.Workplane().circle(8).circle(3).extrude(2)
+    unit = cq.Assembly(name="unit")
+    unit.add(washer, name="washer", color=cq.Color("#2A7FB8"))
+    unit.add(bolt, name="bolt")
+    unit.add(bolt, name="other bolt", loc=cq.Location((0, 0, 20)))
+    top = cq.Assembly(name="top")
+    top.add(unit, name="left", loc=cq.Location((0, 0, 0), (1, 1, 0), 30))
+    top.add(unit, name="right", loc=cq.Location((100, 10, 0), (0, 1, 1), 50))
+    return top
+
+
+def halves() -> cq.Assembly:
+    """A plate whose hole, and a pin whose side, are two half cylinders each; both ends of the pin in two halves."""
+    half = cq.Workplane().moveTo(0, -5).threePointArc((5, 0), (0, 5)).close().extrude(10)
+    pin = half.union(half.rotate((0, 0, 0), (0, 0, 1), 180), clean=False)
+    side = cq.Workplane().moveTo(0, -5).threePointArc((5, 0), (0, 5)).lineTo(0, 10).lineTo(10, 10).lineTo(10, -10)
+    side = side.lineTo(0, -10).close().extrude(4)
+    plate = side.union(side.rotate((0, 0, 0), (0, 0, 1), 180), clean=False)
+    assembly = cq.Assembly(name="split")
+    assembly.add(pin, name="pin")
+    assembly.add(plate, name="plate", loc=cq.Location((0, 0, 3)))
+    return assembly
+
+
+def fillet() -> cq.Assembly:
+    """A stepped shaft with a rounded inner corner, which is a torus, and a chamfered end, which is a cone."""
+    profile = cq.Workplane("XZ").lineTo(10, 0).lineTo(10, 5).lineTo(8, 5).radiusArc((6, 7), 2)
+    shaft = profile.lineTo(6, 19).lineTo(5, 20).lineTo(0, 20).close().revolve(360, (0, 0, 0), (0, 1, 0))
+    return _single("shaft", shaft)
+
+
+def ball() -> cq.Assembly:
+    """A ball whose rod crosses the seam of its sphere: cascadio gives triangles that overlap and face inwards."""
+    direction = cq.Vector(1, 0.02, 0)
+    rod = cq.Workplane(cq.Plane((0, 0, 0), direction.cross(cq.Vector(0.3, 0.2, 1.1)), direction)).circle(8).extrude(30)
+    return _single("ball", cq.Workplane().sphere(12.5).rotate((0, 0, 0), (1, 1, 0), 40).union(rod))
+
+
+def splines() -> cq.Assembly:
+    """A part with a plane, a cylinder, a cone and a sphere, all of them written as splines."""
+    profile = cq.Workplane("XZ").lineTo(8, 0).lineTo(8, 10).lineTo(5, 16)
+    profile = profile.threePointArc((5 * 0.5**0.5, 16 + 5 * 0.5**0.5), (0, 21))
+    solid = profile.close().revolve(360, (0, 0, 0), (0, 1, 0)).val()
+    return _single("nose", cq.Workplane(cq.Shape.cast(BRepBuilderAPI_NurbsConvert(solid.wrapped, True).Shape())))
+
+
+def sheet() -> cq.Assembly:
+    """A surface, no solid."""
+    return _single("sheet", cq.Workplane(cq.Face.makePlane(10, 10)))
+
+
+def _single(name: str, shape: cq.Workplane) -> cq.Assembly:
+    return cq.Assembly(name=f"{name} alone").add(shape, name=name)
+
+
+def main() -> None:
+    for make in (nested, halves, fillet, ball, splines, sheet):
+        path = FOLDER / f"{make.__name__}.step"
+        write(make(), path)
+        print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
+
+
+if __name__ == "__main__":
+    main()
