@@ -63,11 +63,8 @@ def inspect(file: File, fixed: Fixed = [], no_combine: PerContact = False) -> No
             assembly = jk.load(file)
             step("finding contacts")
             contacts = assembly.contacts()
-        report.say(f"{file.name}: {len(assembly.parts)} parts, lengths in {assembly.unit}\n")
-        report.print_parts(assembly.parts)
-        report.say()
-        report.print_contacts(contacts)
-        report.say()
+        report.say(f"{assembly}\n\n{contacts}\n")
+        # only now: what stands above helps to see why the mechanism is refused
         report.say(str(assembly.mechanism(fixed=fixed, combine=not no_combine)))
 
 

@@ -1,8 +1,7 @@
-"""Tables that the command line prints."""
+"""What the command line prints of a motion."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,8 +15,6 @@ from rich.text import Text
 from jaxkin.geometry.motions import is_length
 
 if TYPE_CHECKING:
-    from jaxkin.contacts.contact import Contact
-    from jaxkin.geometry.part import Part
     from jaxkin.motion.motion import Motion
 
 
@@ -34,24 +31,6 @@ def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers:
     for row in rows:
         table.add_row(*(Text(cell) for cell in row))
     Console(highlight=False).print(table)
-
-
-def print_parts(parts: Iterable[Part]) -> None:
-    """How many faces of which kind each part has, and what of it could not be read."""
-    rows = []
-    for part in parts:
-        kinds = Counter(face.surface.kind for face in part.faces)
-        faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
-        rows.append((part.name, faces or "none", "; ".join(part.notes) or "nothing"))
-    print_table(("part", "faces", "not read"), rows)
-
-
-def print_contacts(contacts: Iterable[Contact]) -> None:
-    """Which faces touch, in which of the paper's states, and where."""
-    print_table(
-        ("parts", "state", "region", "faces"),
-        [(" - ".join(c.parts), f"({c.state})", c.region, " - ".join(c.faces)) for c in contacts],
-    )
 
 
 def print_motion(motion: Motion) -> None:

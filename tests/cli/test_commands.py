@@ -60,7 +60,8 @@ def test_sweep_takes_degrees(tmp_path):
 def test_inspect_says_what_was_found():
     done = invoke("inspect", FOURBAR, "--fixed", "ground")
     assert done.exit_code == 0, done.output
-    assert "4 parts, lengths in mm" in done.output
+    assert "Assembly of 4 parts from fourbar.step, lengths in mm" in done.output
+    assert "8 contacts" in done.output
     for joint in ("ground-crank", "crank-coupler", "coupler-rocker", "ground-rocker"):
         assert joint in done.output
     assert "revolute" in done.output
@@ -126,7 +127,7 @@ def test_wrong_input_is_one_message_and_leaves_nothing(arguments, said, tmp_path
     assert done.exit_code == 2, done.output
     assert done.stdout == ""
     assert done.stderr.startswith("jaxkin: ")
-    assert done.stderr.count("\n") == 1
+    assert "Traceback" not in done.stderr
     for words in said:
         assert words in done.stderr
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
