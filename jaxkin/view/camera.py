@@ -114,11 +114,13 @@ def _middle(parts: Sequence[Part], displacements: Displacements) -> tuple[np.nda
 
 
 def _spread(view: View, steps: Sequence[np.ndarray]) -> float:
-    """How wide a motion in space opens in the view, not looked at along the planes that its parts move in: areas."""
+    """How wide a motion in space opens in the view: the geometric mean over the parts of the area that each sweeps, so
+    that no path is looked at from its edge if that can be helped."""
     if view.planar:
         return 1.0
-    flat = [part @ view.axes[:2].T for part in (*steps, np.concatenate(steps))]
-    return sum(float(np.sqrt(max(np.linalg.det(part.T @ part / len(part)), 0.0))) for part in flat)
+    flat = [part @ view.axes[:2].T for part in (np.concatenate(steps), *steps)]
+    whole, *areas = (np.sqrt(max(np.linalg.det(part.T @ part / len(part)), 0.0)) for part in flat)
+    return float(np.exp(np.mean(np.log(np.array(areas) + 0.01 * whole))))  # some parts may move along a line
 
 
 def _seen(view: View, triangles: np.ndarray, wanted: np.ndarray) -> int:
