@@ -11,23 +11,31 @@ from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 
 
 def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
-    """The faces with those on the same surface, material on the same side, united; order of first appearance.
+    """The faces with those on the same surface, material on the same side, united; in the order of their first members.
 
     Two faces are on the same surface when the corners of each lie within `tolerance` (a length) of the surface of the
-    other, and their radii agree within it. The united face has the surface of its largest member.
+    other, and their radii agree within it. A united face has the surface of its largest member, and is called by all
+    of them, "face 3, 8".
     """
-    groups: list[list[Face]] = []
-    for face in faces:
-        for group in groups:
-            if all(_same(face, other, tolerance) for other in group):
-                group.append(face)
-                break
-        else:
-            groups.append([face])
-    return tuple(_united(group) for group in groups)
+    # a corner of every face: most faces are told apart by one point of each, without a look at all their triangles
+    points = np.array([face.triangles[0, 0] for face in faces]).reshape(-1, 3)
+    free = np.ones(len(faces), bool)
+    groups = []
+    for index in sorted(range(len(faces)), key=lambda index: -faces[index].area):
+        if free[index]:
+            near = np.abs(faces[index].surface.distance(points)) <= tolerance
+            near[index] = True  # however far its own triangles are off
+            group = [k for k in np.flatnonzero(free & near).tolist() if _same(faces[index], faces[k], tolerance)]
+            free[group] = False
+            groups.append((group, faces[index].surface))
+    return tuple(
+        _united([faces[index] for index in group], surface) for group, surface in sorted(groups, key=lambda g: g[0][0])
+    )
 
 
 def _same(a: Face, b: Face, tolerance: float) -> bool:
+    if a is b:
+        return True
     return _alike(a.surface, b.surface, tolerance) and all(
         bool(np.all(np.abs(surface.distance(face.triangles)) <= tolerance))
         for surface, face in ((a.surface, b), (b.surface, a))
@@ -46,9 +54,8 @@ def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
     return False
 
 
-def _united(group: list[Face]) -> Face:
+def _united(group: list[Face], surface: Surface) -> Face:
     if len(group) == 1:
         return group[0]
-    largest = max(group, key=lambda face: face.area)
     name = ", ".join([group[0].name, *(face.name.removeprefix("face ") for face in group[1:])])
-    return Face(name, largest.surface, np.concatenate([face.triangles for face in group]))
+    return Face(name, surface, np.concatenate([face.triangles for face in group]))
