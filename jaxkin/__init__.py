@@ -1,1 +1,31 @@
-"""jaxkin."""
+"""jaxkin: differentiable kinematics of closed-loop mechanisms, from solid models to joints, loops and motion.
+
+    assembly = jk.load("fourbar.step")
+    mechanism = assembly.mechanism(fixed=["ground"])
+    motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
+    motion.save("out/")
+"""
+
+from jaxkin.io import gltf as _gltf  # the writers of a motion register themselves
+from jaxkin.io import tables as _tables
+from jaxkin.io.load import load as load
+from jaxkin.joints.joint import Joint as Joint
+from jaxkin.joints.pairs import contact_joint as contact_joint
+from jaxkin.joints.pairs import cylindrical as cylindrical
+from jaxkin.joints.pairs import fixed as fixed
+from jaxkin.joints.pairs import planar as planar
+from jaxkin.joints.pairs import prismatic as prismatic
+from jaxkin.joints.pairs import revolute as revolute
+from jaxkin.joints.pairs import screw as screw
+from jaxkin.joints.pairs import spherical as spherical
+from jaxkin.joints.pairs import universal as universal
+from jaxkin.motion.assembly import Assembly as Assembly
+from jaxkin.motion.mechanism import Mechanism as Mechanism
+from jaxkin.motion.motion import Motion as Motion
+from jaxkin.solve.status import Status as Status
+from jaxkin.view import page as _page
+from jaxkin.view import storyboard as _storyboard
+
+del _gltf, _page, _storyboard, _tables
+
+__version__ = "0.1.0"

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.names import nearest
 
@@ -22,7 +23,7 @@ class Driven(NamedTuple):
     values: Float[Array, " poses"]
 
 
-def resolve(mechanism: Mechanism, drive: Mapping[str, jax.typing.ArrayLike]) -> dict[str, Driven]:
+def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driven]:
     """The driven coordinates by their full names "joint.coordinate", in the order given.
 
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
@@ -71,10 +72,10 @@ def _pair(mechanism: Mechanism, name: str) -> list[str]:
     return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
 
 
-def _values(key: str, values: jax.typing.ArrayLike) -> Float[Array, " poses"]:
+def _values(key: str, values: object) -> Float[Array, " poses"]:
     if not isinstance(values, jax.Array):
         try:
-            values = np.asarray(values, float)
+            values = np.asarray(values, float)  # type: ignore[arg-type]
         except (TypeError, ValueError):
             raise ValueError(f"drive {key!r}: the displacements must be numbers, got {values!r}") from None
     if values.ndim != 1:
@@ -95,8 +96,6 @@ def _whole_balls(mechanism: Mechanism, driven: dict[str, Driven]) -> None:
     for index, joint in enumerate(mechanism.all_joints):
         column = 0
         for movement in joint.movements:
-            from jaxkin.geometry.motions import MOVEMENTS
-
             count = len(MOVEMENTS[movement].coordinates)
             given = [entry.coordinate for entry in driven.values() if entry.joint == index]
             chosen = [c for c in range(column, column + count) if c in given]

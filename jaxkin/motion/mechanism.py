@@ -66,7 +66,7 @@ class Mechanism:
         """Names of the joints between two parts, in whichever order."""
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
-    def sweep(self, drive: Mapping[str, jax.typing.ArrayLike]) -> Motion:
+    def sweep(self, drive: Mapping[str, object]) -> Motion:
         """The motion for given displacements of some joints: see `jaxkin.motion.sweep.sweep`."""
         from jaxkin.motion.sweep import sweep
 

@@ -26,7 +26,7 @@ SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, St
 _solve = partial(jax.jit, static_argnums=0)(solve_system)
 
 
-def sweep(mechanism: Mechanism, drive: Mapping[str, jax.typing.ArrayLike]) -> Motion:
+def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     """The motion of all parts while some joint coordinates run through given displacements.
 
     `drive` maps "joint" (if it has one coordinate) or "joint.coordinate" to an array of one value a pose: radians, or
@@ -61,7 +61,8 @@ def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displ
     system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven))
     dtype, poses = displacements[0].dtype, displacements[0].shape[0]
     inputs = jnp.stack([entry.values for entry in driven]) if driven else jnp.zeros((0, 1), dtype)
-    solution = _solve(system, *block_arrays(mechanism, block, dtype), inputs)
+    solution = _solve(system, *block_arrays(mechanism, block, dtype), _padded(inputs))
+    solution = jax.tree.map(lambda rows: rows[..., : inputs.shape[1]], solution)
     first = 0
     for joint in block.joints:
         freedoms = mechanism.all_joints[joint].freedoms
@@ -69,6 +70,20 @@ def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displ
         displacements[joint] = jnp.broadcast_to(rows, (poses, freedoms))
         first += freedoms
     return solution
+
+
+def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded"]:
+    """The last pose repeated up to one of few lengths, so that ranges of similar length share one compiled program.
+
+    A power of two from 32 to 512 poses, above that a multiple of an eighth of one. Traced inputs are left alone: their
+    program is compiled for their length anyway.
+    """
+    poses = inputs.shape[1]
+    if isinstance(inputs, jax.core.Tracer) or poses == 0:
+        return inputs
+    power = 2 ** max(5, (poses - 1).bit_length())
+    length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
+    return jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 
 
 def _edited(joints: list[Joint]) -> bool:

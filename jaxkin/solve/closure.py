@@ -1,11 +1,12 @@
 """Closure of the loops (Eq. 10): residual and Jacobian of all poses at once.
 
-A loop is travelled once. `R, t` is the displacement accumulated so far; every elementary movement leaves one column of
-the Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
+A loop is travelled step by step. `R, t` is the displacement accumulated so far; every step leaves one column of the
+Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
 independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
 sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`).
 
-Structure of arrays: poses stand last.
+The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
+compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.motions import MOVEMENTS, Element
 from jaxkin.solve.state import State, rotation_matrix
+from jaxkin.solve.steps import AXES, steps
 from jaxkin.solve.system import LoopSystem
 
 Rotation = Float[Array, "3 3 *poses"]
@@ -28,8 +30,10 @@ Vector = Float[Array, "3 *poses"]
 class Geometry(NamedTuple):
     """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
 
-    between: tuple[Float[Array, "steps 4 4"], ...]
-    """For each loop the constant pose before each movement travelled, and last the one behind the last movement."""
+    between: Float[Array, "steps loops 4 4"]
+    """The constant pose before each step."""
+    end: Float[Array, "loops 4 4"]
+    """The constant pose behind the last step."""
     pitch: Float[Array, " joints"]
 
 
@@ -45,97 +49,84 @@ class Closure(NamedTuple):
 
 def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     """Residual and Jacobian of all loops; columns follow `LoopSystem`, those of balls turn about world axes."""
-    poses = state.x.shape[1:]
-    identity = jnp.eye(3, dtype=state.x.dtype).reshape(3, 3, *[1] * len(poses))
-    nothing = jnp.zeros((6, *poses), state.x.dtype)
-    residual, jacobian, rotated, moved = [], [], 0.0, 0.0
-    for loop, between in zip(system.loops, geometry.between, strict=True):
-        rotation, translation, twists = _travel(system, between, geometry.pitch, state, loop)
-        (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
-        residual += [0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0]), translation]
-        jacobian.append(jnp.stack([twists.get(column, nothing) for column in range(system.columns)], axis=1))
-        # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
-        rotated += jnp.sum((rotation - identity) ** 2, axis=(0, 1))
-        moved += jnp.sum(translation**2, axis=0)
+    rotation, translation, twists = _travel(system, geometry, state)
+    (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
+    half = 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
+    residual = jnp.concatenate([half, translation]).swapaxes(0, 1)
+    loops = np.arange(len(system.loops))
+    jacobian = twists[steps(system).source, :, loops].transpose(1, 2, 0, 3)
+    # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
+    rotated = jnp.sum((rotation - jnp.eye(3, dtype=rotation.dtype)[..., None, None]) ** 2, axis=(0, 1, 2))
+    moved = jnp.sum(translation**2, axis=(0, 1))
+    poses = state.x.shape[-1]
     return Closure(
-        jnp.concatenate(residual),
-        jnp.concatenate(jacobian),
+        residual.reshape(system.equations, poses),
+        jacobian.reshape(system.equations, system.columns, poses),
         0.5 * (0.5 * rotated + moved),
         jnp.sqrt(rotated + moved),
     )
 
 
 def _travel(
-    system: LoopSystem,
-    between: Float[Array, "steps 4 4"],
-    pitch: Float[Array, " joints"],
-    state: State,
-    loop: tuple[tuple[int, int], ...],
-) -> tuple[Rotation, Vector, dict[int, Array]]:
-    """Displacement of the end of the loop, and for each column the twist (rotation, translation) it gives to that end."""
-    poses = state.x.shape[1:]
-    rotation = jnp.broadcast_to(between[0, :3, :3].T[..., None], (3, 3, *poses))
-    translation = jnp.broadcast_to(between[0, :3, 3, None], (3, *poses))
-    turns: list[tuple[int, Vector, Vector, Array | float]] = []
-    slides: list[tuple[int, Vector]] = []
-    for step, (joint, name, column, ball, sign) in enumerate(_steps(system, loop)):
-        if MOVEMENTS[name].ball:
-            turned = _product(rotation, rotation_matrix(_conjugate(state.turns[ball], sign)))
-            axes = rotation if sign > 0 else turned  # the turn is perturbed on its left, on the side of part 1
-            turns += [(column + axis, sign * axes[axis], translation, 0.0) for axis in range(3)]
-            rotation = turned
-        elements = () if MOVEMENTS[name].ball else MOVEMENTS[name].elements
-        for element in elements if sign > 0 else reversed(elements):
-            index = column + element.coordinate
-            direction = sign * rotation[element.axis]
-            if element.kind == "translate":
-                slides.append((index, direction))
-            else:
-                advance = pitch[joint] / (2 * jnp.pi) if element.kind == "screw" else 0.0
-                turns.append((index, direction, translation, advance))
-            rotation, translation = _move(rotation, translation, element, sign * state.x[index], pitch[joint])
-        rotation, translation = _compose(rotation, translation, between[step + 1])
+    system: LoopSystem, geometry: Geometry, state: State
+) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
+    """Displacement of the ends of the loops, and the twists that the steps give to them, four a step and a zero."""
+    table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    turn, slide, screw, sign = (
+        jnp.asarray(entry, dtype)[..., None] for entry in (table.turn, table.slide, table.screw, table.sign)
+    )
+    advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
+    q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
+    cos, sin, travel = jnp.cos(turn * q), jnp.sin(turn * q), advance * q
+    balls = _ball_turns(system, state, table) if system.balls else None
 
-    twists = {index: jnp.concatenate([jnp.zeros_like(direction), direction]) for index, direction in slides}
-    for index, direction, point, advance in turns:
-        lever = jnp.cross(direction, translation - point, axis=0) + advance * direction
-        twists[index] = jnp.concatenate([direction, lever])
-    return rotation, translation, twists
+    def step(carry: tuple[Rotation, Vector], given):
+        pose, cos, sin, travel, sign, ball = given
+        rotation, point = _compose(*carry, pose)
+        turned = jnp.stack([cos * rotation[0] + sin * rotation[1], cos * rotation[1] - sin * rotation[0], rotation[2]])
+        if ball is not None:
+            turned = _product(turned, ball)
+        # a ball's turn is perturbed on its left, on the side of part 1
+        axes = rotation[2][None] if ball is None else jnp.where(sign > 0, rotation, turned)
+        return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
+    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((len(system.loops), poses), dtype)
+    start = first, jnp.zeros((3, len(system.loops), poses), dtype)
+    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, sign, balls))
+    rotation, translation = _compose(*last, geometry.end)
 
-def _steps(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[int, str, int, int, int]]:
-    """The movements of a loop in order of travel: joint, key of `MOVEMENTS`, first column, ball, sign."""
-    steps = []
-    for joint, sign in loop:
-        chain = [(joint, name, column, ball, sign) for name, _, column, ball in system.chains[joint]]
-        steps += chain if sign > 0 else chain[::-1]
-    return steps
+    lever = translation - points
+    turned = (sign * turn)[:, None] * along
+    moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
+    twists = jnp.concatenate([turned, moved], axis=1)[:, None]
+    shape = (len(table.sign), 3, 6, len(system.loops), poses)
+    if system.balls:
+        spins = sign[:, None, None] * axes
+        spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
+    else:
+        spins = jnp.zeros(shape, dtype)
+    twists = jnp.concatenate([twists, spins], axis=1).reshape(-1, *shape[2:])
+    return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _move(rotation: Rotation, translation: Vector, element: Element, q: Array, pitch: Array) -> tuple[Rotation, Vector]:
-    """Rotation and translation followed by an elementary movement of the local frame."""
-    i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
-    if element.kind == "translate":
-        return rotation, translation + q * rotation[i]
-    if element.kind == "screw":
-        translation = translation + q * pitch / (2 * jnp.pi) * rotation[i]
-    cos, sin = jnp.cos(q), jnp.sin(q)
-    columns = {i: rotation[i], j: cos * rotation[j] + sin * rotation[k], k: cos * rotation[k] - sin * rotation[j]}
-    return jnp.stack([columns[c] for c in range(3)]), translation
+def _ball_turns(system: LoopSystem, state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
+    """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
+    poses = state.x.shape[-1]
+    still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
+    turns = jnp.concatenate([state.turns, still])[table.ball]
+    back = np.where(table.sign[..., None] < 0, np.array([1.0, -1.0, -1.0, -1.0]), 1.0)[..., None]
+    w_x_y_z = jnp.moveaxis(turns * jnp.asarray(back, turns.dtype), 2, 0)
+    return jnp.moveaxis(jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)]), 2, 0)
 
 
-def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "4 4"]) -> tuple[Rotation, Vector]:
-    """Rotation and translation followed by a constant pose."""
-    columns = [sum(rotation[j] * pose[j, c] for j in range(3)) for c in range(4)]
+def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "loops 4 4"]) -> tuple[Rotation, Vector]:
+    """Rotation and translation followed by a constant pose, loop by loop."""
+    columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
     return jnp.stack(columns[:3]), translation + columns[3]
 
 
-def _product(a: Rotation, b: list[list[Array]]) -> Rotation:
+def _product(a: Rotation, b: Rotation) -> Rotation:
     return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
-
-
-def _conjugate(turn: Float[Array, "4 poses"], sign: int) -> Float[Array, "4 poses"]:
-    return turn if sign > 0 else turn * jnp.array([1.0, -1.0, -1.0, -1.0], turn.dtype)[:, None]
 
 
 def loop_geometry(
@@ -151,28 +142,20 @@ def loop_geometry(
     radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
     length = jnp.where(radius > 0, radius, 1.0)
 
-    def scaled(frames: Float[Array, "frames 4 4"]) -> Float[Array, "frames 4 4"]:
-        return frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
-
-    sides = scaled(jnp.concatenate(before)), scaled(jnp.concatenate(after))
-    firsts = [sum(len(movements) for movements in system.movements[:joint]) for joint in range(len(system.movements))]
-    identity = jnp.eye(4, dtype=sides[0].dtype)[None]
-    between = []
-    for loop in system.loops:
-        enter, leave = [], []
-        for joint, sign in loop:
-            frames = range(firsts[joint], firsts[joint] + len(system.movements[joint]))
-            for frame in frames if sign > 0 else reversed(frames):
-                enter.append((0 if sign > 0 else 1, frame))
-                leave.append((1 if sign > 0 else 0, frame))
-        entered = jnp.stack([sides[side][frame] for side, frame in enter])
-        left = _inverses(jnp.stack([sides[side][frame] for side, frame in leave]))
-        between.append(jnp.concatenate([identity, left]) @ jnp.concatenate([entered, identity]))
-    return Geometry(tuple(between), jnp.stack(pitch) / length), length
+    table = steps(system)
+    frames = jnp.concatenate([*before, *after])
+    frames = frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
+    frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
+    turned = np.zeros((3, 4, 4))
+    turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
+    along = jnp.asarray(turned, frames.dtype)[table.axis]
+    enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
+    between = jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]])
+    return Geometry(between, leave[-1], jnp.stack(pitch) / length), length
 
 
-def _inverses(poses: Float[Array, "poses 4 4"]) -> Float[Array, "poses 4 4"]:
+def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
     """Inverses of rigid poses."""
-    turned = jnp.swapaxes(poses[:, :3, :3], 1, 2)
-    moved = -jnp.einsum("pij,pj->pi", turned, poses[:, :3, 3])
-    return poses.at[:, :3, :3].set(turned).at[:, :3, 3].set(moved)
+    turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
+    moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
+    return poses.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)

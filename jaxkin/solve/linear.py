@@ -8,11 +8,12 @@ construction: rounding never sets an idle coordinate in motion, as it does in th
 from __future__ import annotations
 
 import jax.numpy as jnp
-from jax.scipy.linalg import cho_solve
+from jax import lax
 from jaxtyping import Array, Float
 
-UNROLLED = 9
-"""Up to this many rows straight-line code over the poses is 8 to 27 times faster than batched library calls."""
+UNROLLED, MANY = 9, 1024
+"""Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for fewer poses it
+is not worth the time that it takes to compile."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
@@ -23,11 +24,8 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
 
     With `refine` one step of iterative refinement takes the bias of the damping out.
     """
-    rows = jacobian.shape[0]
-    gram = [[jnp.sum(jacobian[i] * jacobian[k], axis=0) for k in range(i + 1)] for i in range(rows)]
-    for i in range(rows):
-        gram[i][i] = gram[i][i] + damping
-    solve = _unrolled(gram) if rows <= UNROLLED else _library(gram)
+    rows, _, poses = jacobian.shape
+    solve = (_unrolled if rows <= UNROLLED and poses >= MANY else _looped)(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(jacobian * y[:, None], axis=0)
@@ -43,16 +41,17 @@ def scale(jacobian: Matrix) -> Float[Array, " poses"]:
     return jnp.sum(jacobian * jacobian, axis=(0, 1)) / jacobian.shape[0]
 
 
-def _unrolled(gram: list[list[Array]]):
-    """L D L^T of a symmetric matrix given by its lower half, every entry an array over the poses."""
-    n = len(gram)
+def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
+    """L D L^T of J J^T + damping, every entry an array over the poses."""
+    n = jacobian.shape[0]
     lower: dict[tuple[int, int], Array] = {}
     pivots: list[Array] = []
     for j in range(n):
-        pivots.append(gram[j][j] - sum(lower[j, k] ** 2 * pivots[k] for k in range(j)))
+        column = [jnp.sum(jacobian[i] * jacobian[j], axis=0) for i in range(j, n)]
+        column = [entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)]
+        pivots.append(column[0] + damping)
         for i in range(j + 1, n):
-            entry = gram[i][j] - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j))
-            lower[i, j] = entry / pivots[j]
+            lower[i, j] = column[i - j] / pivots[j]
 
     def solve(right: Vector) -> Vector:
         y = list(right)
@@ -66,13 +65,18 @@ def _unrolled(gram: list[list[Array]]):
     return solve
 
 
-def _library(gram: list[list[Array]]):
-    """The same through the batched Cholesky decomposition."""
-    n = len(gram)
-    full = jnp.stack([jnp.stack([gram[max(i, k)][min(i, k)] for k in range(n)]) for i in range(n)])
-    factor = jnp.linalg.cholesky(jnp.moveaxis(full, -1, 0))
+def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
+    """The same by Gauss-Jordan elimination in a loop. The matrix is positive definite: it needs no pivoting."""
+    n = jacobian.shape[0]
+    gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
     def solve(right: Vector) -> Vector:
-        return jnp.moveaxis(cho_solve((factor, True), jnp.moveaxis(right, -1, 0)[..., None])[..., 0], 0, -1)
+        def eliminate(k: Array, system: Array) -> Array:
+            pivot = lax.dynamic_index_in_dim(system, k, axis=0, keepdims=False)
+            pivot = pivot / lax.dynamic_index_in_dim(pivot, k, axis=0, keepdims=False)
+            column = lax.dynamic_index_in_dim(system, k, axis=1, keepdims=True)
+            return lax.dynamic_update_index_in_dim(system - column * pivot[None], pivot, k, axis=0)
+
+        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, right[:, None]], axis=1))[:, -1]
 
     return solve

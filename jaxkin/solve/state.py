@@ -111,7 +111,7 @@ def from_angles(angles: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
     )
 
 
-def rotation_matrix(turn: Float[Array, "4 poses"]) -> list[list[Array]]:
+def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
     """Columns of the rotation matrix of a unit quaternion: entry [column][row]."""
     w, x, y, z = turn
     return [

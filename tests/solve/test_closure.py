@@ -67,9 +67,9 @@ def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
 def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     """Away from closure the columns are twists, so the loop is closed first, by a constant behind its last joint."""
     system, before, after, pitch, q = loop
+    system = LoopSystem(system.movements, system.loops[:1], system.driven)
     geometry, _ = loop_geometry(system, before, after, pitch)
     state = as_state(system, q[:, :1])
-    system = LoopSystem(system.movements, system.loops[:1], system.driven)
 
     def end(delta):
         """The displacement of the end of the loop relative to where it is at delta = 0, as rotation and translation."""
@@ -88,11 +88,10 @@ def close_behind(system, geometry, state):
     """The geometry whose last constant closes the loop at this state."""
     from jaxkin.solve.closure import _travel
 
-    rotation, translation, _ = _travel(system, geometry.between[0], geometry.pitch, state, system.loops[0])
+    rotation, translation, _ = _travel(system, geometry, state)
     end = np.eye(4)
-    end[:3, :3], end[:3, 3] = np.asarray(rotation)[..., 0].T, np.asarray(translation)[:, 0]
-    last = geometry.between[0][-1] @ np.linalg.inv(end)
-    return geometry._replace(between=(geometry.between[0].at[-1].set(last),))
+    end[:3, :3], end[:3, 3] = np.asarray(rotation)[..., 0, 0].T, np.asarray(translation)[:, 0, 0]
+    return geometry._replace(end=geometry.end @ np.linalg.inv(end))
 
 
 def test_angles_are_the_inverse_of_from_angles():

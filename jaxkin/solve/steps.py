@@ -1,0 +1,89 @@
+"""The loops of a system as tables of elementary steps: what the closure kernel runs through, joint by joint.
+
+A step turns about and slides along the z axis of its own frame, or turns as a ball does. The tables are host data,
+made once; loops of unequal length are filled up with steps that do nothing.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.solve.system import LoopSystem
+
+AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
+"""Rotations that carry z to x, y, z (and keep the order of the axes), by the number of the axis."""
+
+
+class Steps(NamedTuple):
+    """Tables of shape (steps, loops)."""
+
+    column: np.ndarray
+    """Column of the coordinate; the number of columns, which holds zero, where there is none."""
+    joint: np.ndarray
+    sign: np.ndarray
+    """+1, or -1 where the joint is travelled from part 2 to part 1; 0 for steps that do nothing."""
+    turn: np.ndarray
+    """1 where the coordinate turns, else 0."""
+    slide: np.ndarray
+    """1 where the coordinate slides, else 0."""
+    screw: np.ndarray
+    """1 where the coordinate slides by the pitch of the joint as well, else 0."""
+    ball: np.ndarray
+    """Index of the quaternion of a ball; the number of balls, which holds no turn, where there is none."""
+    axis: np.ndarray
+    enter: np.ndarray
+    """Index of the frame in which the step begins: frames before, frames after, no frame."""
+    leave: np.ndarray
+    """Index of the frame in which it ends."""
+    source: np.ndarray
+    """(columns, loops): the twist that is the column of the Jacobian, counted four a step (z, then the three of a
+    ball); the one behind the last, which is zero, where the loop does not hold the coordinate."""
+
+
+@lru_cache(maxsize=256)
+def steps(system: LoopSystem) -> Steps:
+    """The tables of a system."""
+    loops = [_loop(system, loop) for loop in system.loops]
+    length = max(map(len, loops))
+    frames = sum(map(len, system.movements))
+    idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 2, 2 * frames, 2 * frames)
+    filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops])
+    tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
+    source = np.full((system.columns, len(loops)), 4 * length)
+    for (step, loop), column in np.ndenumerate(tables[0]):
+        if column < system.columns:
+            source[column, loop] = 4 * step
+    for (step, loop), ball in np.ndenumerate(tables[6]):
+        if ball < len(system.balls):
+            first = system.balls[ball]
+            source[first : first + 3, loop] = 4 * step + 1 + np.arange(3)
+    return Steps(*tables, source)
+
+
+def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[int, ...]]:
+    """The rows of one loop, entries in the order of `Steps`."""
+    frames = sum(map(len, system.movements))
+    first_frame = np.cumsum([0, *map(len, system.movements)])
+    rows = []
+    for joint, sign in loop:
+        chain = system.chains[joint]
+        for name, frame, column, ball in chain if sign > 0 else reversed(chain):
+            before = int(first_frame[joint]) + frame
+            enter, leave = (before, frames + before) if sign > 0 else (frames + before, before)
+            movement = MOVEMENTS[name]
+            whole = movement.ball or not movement.elements
+            elements = (None,) if whole else movement.elements if sign > 0 else movement.elements[::-1]
+            for number, element in enumerate(elements):
+                at = enter if number == 0 else 2 * frames, leave if number == len(elements) - 1 else 2 * frames
+                if element is None:
+                    which = ball if movement.ball else len(system.balls)
+                    rows.append((system.columns, joint, sign, 0, 0, 0, which, 2, *at))
+                else:
+                    kind = (element.kind != "translate", element.kind == "translate", element.kind == "screw")
+                    index = column + element.coordinate
+                    rows.append((index, joint, sign, *map(int, kind), len(system.balls), element.axis, *at))
+    return rows

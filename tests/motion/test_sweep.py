@@ -1,0 +1,216 @@
+"""What a sweep promises beside the right numbers: statuses, branches, units, order, precision, no recompilation."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from reference import planar
+from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
+
+from jaxkin.joints.pairs import prismatic, revolute, spherical
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.sweep import sweep
+from jaxkin.solve.status import Status
+
+NON_GRASHOF = {"ground": 40.0, "crank": 20.0, "coupler": 25.0, "rocker": 30.0}
+LIMIT = np.arccos((40.0**2 + 20.0**2 - 55.0**2) / (2 * 40.0 * 20.0))
+"""The crank of that four-bar reaches this angle, coupler and rocker in line, to either side."""
+
+
+@pytest.mark.parametrize("poses", [200, 3000])
+@pytest.mark.parametrize("direction", [1, -1])
+def test_a_range_beyond_the_limits_is_unreachable_there_and_right_elsewhere(poses, direction):
+    start = 1.0
+    inputs = direction * np.linspace(0.0, 2 * np.pi, poses)
+    motion = planar_fourbar(start, **NON_GRASHOF).sweep({"A": inputs})
+    crank = (start + inputs + np.pi) % (2 * np.pi) - np.pi
+    reachable = np.abs(crank) <= LIMIT
+    expected = np.where(reachable, Status.CLOSED, Status.UNREACHABLE)
+    np.testing.assert_array_equal(motion.status, expected)
+    rocker = planar.fourbar(crank, **NON_GRASHOF).rocker - planar.fourbar(np.array([start]), **NON_GRASHOF).rocker
+    error = (np.asarray(motion.coordinates["D"][:, 0]) - rocker + np.pi) % (2 * np.pi) - np.pi
+    # the nearest pose is 1e-3 from the limit, where rounding grows by the inverse square root of that
+    np.testing.assert_allclose(error[reachable], 0.0, atol=1e-12)
+    assert f"{np.sum(~reachable)}  UNREACHABLE" in str(motion)
+
+
+@pytest.mark.parametrize("margin", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+def test_statuses_next_to_the_limit(margin):
+    mechanism = planar_fourbar(1.0, **NON_GRASHOF)
+    motion = mechanism.sweep({"A": np.array([LIMIT - 1.0 - margin, LIMIT - 1.0 + max(margin, 1e-8)])})
+    assert list(motion.status) == [Status.CLOSED, Status.UNREACHABLE]
+
+
+@pytest.mark.parametrize("poses", [50, 721])
+@pytest.mark.parametrize("inputs", [(0.0, 2 * np.pi), (0.0, -2 * np.pi), (-1.0, 2 * np.pi - 1.0), (-1.0, 5 * np.pi)])
+def test_a_parallelogram_stays_one_through_its_change_points(poses, inputs):
+    """At crank angle 0 and pi both branches meet; the third grid starts on a change point exactly."""
+    mechanism = planar_fourbar(1.0, ground=120.0, crank=50.0, coupler=120.0, rocker=50.0)
+    range_ = np.linspace(*inputs, poses)
+    motion = mechanism.sweep({"A": range_})
+    assert np.all(motion.closed)
+    # at a change point a residual of 1e-15 leaves the pose free by its square root
+    np.testing.assert_allclose(motion.coordinates["D"][:, 0], range_, atol=1e-7)
+
+
+def test_order_repetition_and_spacing_of_the_inputs_do_not_matter():
+    mechanism = planar_fourbar(1.0)
+    rng = np.random.default_rng(3)
+    shuffled = rng.permutation(np.concatenate([rng.uniform(-7.0, 9.0, 300), np.zeros(5), np.full(5, 9.0)]))
+    motion = mechanism.sweep({"A": shuffled})
+    assert np.all(motion.closed)
+    order = np.argsort(shuffled, kind="stable")
+    ordered = mechanism.sweep({"A": shuffled[order]})
+    np.testing.assert_allclose(motion.coordinates["D"][order], ordered.coordinates["D"], atol=1e-13)
+    # full turns are counted: the rocker of a crank-rocker comes back, the coupler too
+    crank_again = mechanism.sweep({"A": shuffled + 2 * np.pi})
+    np.testing.assert_allclose(crank_again.coordinates["D"], motion.coordinates["D"], atol=1e-12)
+
+
+@pytest.mark.parametrize("poses", [0, 1, 2])
+def test_few_poses(poses):
+    motion = planar_fourbar(1.0).sweep({"A": np.linspace(0.0, 3.0, poses)})
+    assert len(motion) == poses
+    assert motion.transforms["coupler"].shape == (poses, 4, 4)
+    assert np.all(motion.closed)
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1e-3, 1e3, 1e6])
+def test_units_do_not_matter(scale):
+    """The same mechanism in other units gives the same angles, to rounding."""
+    range_ = np.linspace(0.0, 2 * np.pi, 100)
+    original, scaled = slider_crank(1.0), slider_crank(1.0, 40.0 * scale, 120.0 * scale, -20.0 * scale)
+    one, other = original.sweep({"A": range_}), scaled.sweep({"A": range_})
+    np.testing.assert_allclose(other.coordinates["B"], one.coordinates["B"], atol=1e-13)
+    np.testing.assert_allclose(other.coordinates["S"] / scale, one.coordinates["S"], atol=1e-11)
+    np.testing.assert_allclose(other.residual, 0.0, atol=1e-13)
+
+
+def test_driving_the_other_end_gives_the_same_poses():
+    """The slider driven by the distances that the crank gave it: the crank turns as before."""
+    range_ = np.linspace(0.0, 1.5, 40)
+    forward = slider_crank(1.0).sweep({"A": range_})
+    back = slider_crank(1.0).sweep({"S": forward.coordinates["S"][:, 0]})
+    np.testing.assert_allclose(back.coordinates["A"][:, 0], range_, atol=1e-12)
+
+
+def test_two_inputs_of_a_five_bar():
+    """Two cranks place the tip of a five-bar: it is where circles about the crank pins meet."""
+    from reference.planar import meet, polar
+
+    a, b = np.linspace(0.0, 1.0, 60), np.linspace(0.0, -0.7, 60) + 0.1 * np.sin(np.linspace(0.0, 9.0, 60))
+    b -= b[0]
+    left, right = polar(30.0, 2.0 + a), np.array([60.0, 0.0]) + polar(30.0, 1.0 + b)
+    tip = meet(left, 50.0, right, 45.0, 1)
+
+    def pin(name, one, two, point):
+        return revolute(name, one, two, point=(*point, 0.0), axis=(0.0, 0.0, 1.0))
+
+    mechanism = Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            pin("A", "ground", "left crank", (0.0, 0.0)),
+            pin("B", "ground", "right crank", (60.0, 0.0)),
+            pin("C", "left crank", "left rod", left[0]),
+            pin("D", "right crank", "right rod", right[0]),
+            pin("E", "left rod", "right rod", tip[0]),
+        ],
+    )
+    motion = mechanism.sweep({"A": a, "B": b})
+    assert np.all(motion.closed)
+    np.testing.assert_allclose(motion.points("left rod", (*tip[0], 0.0))[:, :2], tip, atol=1e-11)
+    np.testing.assert_allclose(motion.points("right rod", (*tip[0], 0.0))[:, :2], tip, atol=1e-11)
+
+
+def test_an_open_chain_moves_without_being_solved():
+    mechanism = Mechanism.build(
+        fixed=["base"],
+        joints=[
+            revolute("turn", "base", "arm", point=(0, 0, 0), axis=(0, 0, 1)),
+            prismatic("reach", "arm", "hand", axis=(1, 0, 0)),
+        ],
+    )
+    motion = mechanism.sweep({"turn": [0.0, np.pi / 2], "reach": [0.0, 2.0]})
+    np.testing.assert_allclose(motion.points("hand", (1.0, 0.0, 0.0)), [[1, 0, 0], [0, 3, 0]], atol=1e-15)
+    assert np.all(motion.residual == 0)
+
+
+def test_only_loops_that_are_driven_are_solved():
+    """A second loop on its own, not driven, stays at rest exactly."""
+    driven, other = planar_fourbar(1.0), planar_fourbar(2.0)
+    renamed = [revolute(f"{j.name}2", *(p if p == "ground" else f"{p}2" for p in j.parts), point=j.before[0][:3, 3],
+                        axis=(0, 0, 1)) for j in other.all_joints]
+    both = Mechanism.build(fixed=["ground"], joints=[*driven.all_joints, *renamed])
+    motion = both.sweep({"A": np.linspace(0.0, 1.0, 10)})
+    for joint in ("A2", "B2", "C2", "D2"):
+        assert np.all(motion.coordinates[joint] == 0)
+    alone = driven.sweep({"A": np.linspace(0.0, 1.0, 10)})
+    np.testing.assert_array_equal(motion.coordinates["C"], alone.coordinates["C"])
+
+
+def test_a_ball_driven_by_its_three_angles():
+    mechanism = Mechanism.build(fixed=["base"], joints=[spherical("ball", "base", "stick", point=(0, 0, 0))])
+    motion = mechanism.sweep({"ball.theta": [0.1], "ball.phi": [0.2], "ball.psi": [0.3]})
+    np.testing.assert_allclose(motion.points("stick", (1, 0, 0))[0], [
+        np.cos(0.3) * np.cos(0.2), np.sin(0.3) * np.cos(0.2), -np.sin(0.2)], atol=1e-15)
+
+
+def test_the_rod_of_an_rssr_does_not_spin():
+    """Its idle freedom stays at rest: turned there and back, every coordinate comes back."""
+    range_ = 2.0 * np.sin(np.linspace(0.0, 2 * np.pi, 100))
+    motion = rssr_linkage().sweep({"A": range_})
+    for joint in "ABCD":
+        np.testing.assert_allclose(motion.coordinates[joint][-1], 0.0, atol=1e-9)
+
+
+def test_nothing_is_recompiled_for_new_numbers():
+    from jaxkin.motion.sweep import _solve
+
+    range_ = np.linspace(0.0, 1.0, 37)
+    planar_fourbar(1.0).sweep({"A": range_})
+    traces = _solve._cache_size()
+    planar_fourbar(0.7, crank=35.0).sweep({"A": 2 * range_})
+    assert _solve._cache_size() == traces
+
+
+def test_float32_warns_once_and_reaches_what_it_says():
+    import jaxkin.motion.sweep as module
+
+    range_ = np.linspace(0.0, 2 * np.pi, 100)
+    expected = planar_fourbar(1.0).sweep({"A": range_}).coordinates["D"]
+    module._warned = False
+    with jax.enable_x64(False):
+        with pytest.warns(UserWarning, match="jax_enable_x64"):
+            motion = planar_fourbar(1.0).sweep({"A": range_})
+        again = planar_fourbar(1.0).sweep({"A": range_})  # a second warning would be an error here
+        assert motion.coordinates["D"].dtype == jnp.float32
+        assert np.all(motion.closed) and np.all(again.closed)
+        assert np.max(motion.residual) < 2e-6
+        np.testing.assert_allclose(motion.coordinates["D"], expected, atol=1e-5)
+
+
+def test_a_sweep_works_inside_jit_and_vmap():
+    range_ = jnp.linspace(0.0, 1.0, 20)
+
+    @jax.jit
+    def rocker(mechanism, inputs):
+        return mechanism.sweep({"A": inputs}).coordinates["D"][:, 0]
+
+    expected = planar_fourbar(1.0).sweep({"A": range_}).coordinates["D"][:, 0]
+    np.testing.assert_allclose(rocker(planar_fourbar(1.0), range_), expected, atol=1e-14)
+    designs = [planar_fourbar(1.0, crank=crank) for crank in (35.0, 40.0)]
+    batch = jax.tree.map(lambda *leaves: jnp.stack(leaves), *designs)
+    found = jax.vmap(rocker, in_axes=(0, None))(batch, range_)
+    np.testing.assert_allclose(found[1], expected, atol=1e-13)
+    other = designs[0].sweep({"A": range_}).coordinates["D"][:, 0]
+    np.testing.assert_allclose(found[0], other, atol=1e-13)
+
+
+def test_nan_in_a_traced_input_is_a_status_and_spoils_no_other_pose():
+    mechanism = cardan_shafts()
+    inputs = jnp.linspace(0.0, 1.0, 5)
+    motion = jax.jit(lambda u: sweep(mechanism, {"in": u}))(inputs.at[2].set(jnp.nan))
+    assert list(motion.status) == [Status.CLOSED] * 2 + [Status.NONFINITE] + [Status.CLOSED] * 2
+    expected = mechanism.sweep({"in": inputs}).coordinates["out"]
+    keep = np.array([0, 1, 3, 4])
+    np.testing.assert_allclose(motion.coordinates["out"][keep], expected[keep], atol=1e-13)
