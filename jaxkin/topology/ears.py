@@ -29,7 +29,7 @@ def directed_circuits(graph: Graph, block: tuple[int, ...], upper: int) -> tuple
         row1, row2 = graph.ends[joint]
         around.setdefault(row1, []).append((Step(joint, 1), row2))
         around.setdefault(row2, []).append((Step(joint, -1), row1))
-    others = [row for row in around if row != upper]
+    others = sorted(around.keys() - {upper})
     starts = [upper, *others][: max(1, _EFFORT // len(block))]
     circuits = min((_ears(graph, around, start) for start in starts), key=lambda found: sum(map(len, found)))
     if any(Step(block[-1], -1) in circuit for circuit in circuits):
@@ -79,15 +79,17 @@ def _shortest(
 ) -> Circuit:
     """The shortest circuit that begins with a step out of the directed joints and, once back, keeps their direction."""
     start, row = graph.tail(first), graph.head(first)
-    came: dict[int, Step] = {row: first}
+    came = {row: (start, first)}
     queue = deque([row])
     while start not in came:
         row = queue.popleft()
         for step, other in leaving[row] if row in leaving else around[row]:
             if other not in came and step.joint != first.joint:
-                came[other] = step
+                came[other] = row, step
                 queue.append(other)
-    steps = [came[start]]
-    while steps[-1] != first:
-        steps.append(came[graph.tail(steps[-1])])
+    row, step = came[start]
+    steps = [step]
+    while step != first:
+        row, step = came[row]
+        steps.append(step)
     return tuple(reversed(steps))
