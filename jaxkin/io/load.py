@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from jaxkin.io.step import read_step
@@ -10,10 +11,11 @@ from jaxkin.motion.assembly import Assembly
 STEP = (".step", ".stp")
 
 
-def load(source: str | Path) -> Assembly:
+def load(source: str | Path | Mapping[str, str | Path]) -> Assembly:
     """The assembly in a STEP file (.step, .stp), in world coordinates and in the length unit of the file.
 
-    Raises FileNotFoundError where there is no such file, and ValueError where it is no STEP file with solids in it.
+    Raises FileNotFoundError where there is no such file, and ValueError where it is no STEP file with solids in it,
+    or where meshes are given, part by part: they cannot be read yet.
     """
     if not isinstance(source, str | Path):
         raise ValueError(

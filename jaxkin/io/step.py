@@ -98,11 +98,11 @@ def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) 
     at = {key: np.array(described[key]) / metres for key in ("origin", "apex", "center") if key in described}
     match described["type"]:
         case "plane":
-            return Plane(at["origin"], unit(described["normal"]))
+            return Plane(at["origin"], unit(np.array(described["normal"])))
         case "cylinder":
-            return Cylinder(at["origin"], unit(described["axis"]), described["radius"] / metres, 1)
+            return Cylinder(at["origin"], unit(np.array(described["axis"])), described["radius"] / metres, 1)
         case "cone":  # the sign of its angle is that of the axis, which may point either way
-            axis = unit(described["axis"])
+            axis = unit(np.array(described["axis"]))
             axis = axis if np.sum((corners - at["apex"]) @ axis) > 0 else -axis
             return Cone(at["apex"], axis, abs(described["semi_angle"]), 1)
         case "sphere":
