@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
+from jaxkin.geometry.part import Face
+
 Boxes = Float[np.ndarray, "_ 2 d"]
 Pairs = Int[np.ndarray, "_ 2"]
 
@@ -47,6 +49,19 @@ def crossing(boxes1: Boxes, boxes2: Boxes, margin: float) -> Pairs:
         i, j = np.nonzero(meet)
         found.append(np.stack([some[i], inside2[j]], axis=-1))
     return np.concatenate(found)
+
+
+def face_box(face: Face) -> Float[np.ndarray, "2 3"]:
+    """The box of a face with the bulge of its surface over the triangles."""
+    height = bulge(face)
+    return face.box + np.array([[-height], [height]])
+
+
+def bulge(face: Face) -> float:
+    """How far the surface of a face rises over its triangles."""
+    corners = face.triangles
+    middles = np.concatenate([(corners + np.roll(corners, 1, axis=1)) / 2, corners.mean(axis=1, keepdims=True)], axis=1)
+    return float(np.abs(face.surface.distance(middles.reshape(-1, 3))).max())
 
 
 def boxes_of(triangles: Float[np.ndarray, "triangles 3 d"]) -> Float[np.ndarray, "triangles 2 d"]:

@@ -72,7 +72,7 @@ class Contacts(Sequence[Contact]):
     contacts: tuple[Contact, ...]
     near_misses: tuple[NearMiss, ...] = ()
     notes: tuple[str, ...] = ()
-    """Faces that take no part because they are none of the four surfaces."""
+    """Faces that are none of the four surfaces, and parts that meet at an edge or a corner only."""
 
     @overload
     def __getitem__(self, index: int) -> Contact: ...

@@ -10,8 +10,9 @@ from collections import defaultdict
 
 import numpy as np
 
-from jaxkin.contacts.boxes import crossing, overlapping
+from jaxkin.contacts.boxes import crossing, face_box, overlapping
 from jaxkin.contacts.contact import Contact, Contacts, NearMiss
+from jaxkin.contacts.edges import edge_note
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.reason import reason
 from jaxkin.contacts.region import ContactRegion, contact_region
@@ -35,34 +36,34 @@ def find_contacts(
     are loose and touch where they touch, if they do. What misses a state by little more than the tolerances, or only
     meets it along the edge of a face, is listed in `near_misses`; nothing is guessed.
     """
-    notes = tuple(f"{part.name}: {note}" for part in parts for note in part.notes)
+    notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
-        return Contacts((), notes=notes)
+        return Contacts((), notes=tuple(notes))
     tolerance = Tolerance(default_length(parts) if length is None else length, angle, fit)
     margin = NEAR * tolerance.length
     parts = tuple(part for part in parts if part.faces)
-    boxes = [np.stack([_box(face) for face in part.faces]) for part in parts]
+    boxes = [np.stack([face_box(face) for face in part.faces]) for part in parts]
     outlines = np.stack([np.stack([box[:, 0].min(axis=0), box[:, 1].max(axis=0)]) for box in boxes])
     contacts: list[Contact] = []
     near_misses: list[NearMiss] = []
     for i, j in overlapping(outlines, margin):
+        tol = tolerance.between(parts[i], parts[j])
         found = []
         for a, b in crossing(boxes[i], boxes[j], margin):
             at = (np.maximum(boxes[i][a, 0], boxes[j][b, 0]) + np.minimum(boxes[i][a, 1], boxes[j][b, 1])) / 2
-            found.append(_examine((parts[i], parts[j]), (parts[i].faces[a], parts[j].faces[b]), at, tolerance))
-        between = [result for result in found if isinstance(result, Contact)]
-        touching = {
-            (part, face) for contact in between for part, face in zip(contact.parts, contact.faces, strict=True)
-        }
-        contacts += between
-        near_misses += [
-            result
-            for result in found
-            # a face that is in contact meets the neighbours of the other face along its edges: nothing to report
-            if isinstance(result, NearMiss)
-            and not (result.rim and touching & set(zip(result.parts, result.faces, strict=True)))
-        ]
-    return Contacts(tuple(contacts), tuple(near_misses), notes)
+            found.append(_examine((parts[i], parts[j]), (parts[i].faces[a], parts[j].faces[b]), at, tol))
+        here = [result for result in found if isinstance(result, Contact)]
+        contacts += here
+        near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
+        if not any(found) and (note := edge_note(parts[i], parts[j], tolerance.length)):
+            notes.append(note)
+    return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
+
+
+def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list[NearMiss]:
+    """Without edges of faces that are in contact: these meet the neighbours of the other face along its rim."""
+    touching = {side for contact in contacts for side in zip(contact.parts, contact.faces, strict=True)}
+    return [miss for miss in near_misses if not (miss.rim and touching & set(zip(miss.parts, miss.faces, strict=True)))]
 
 
 def _examine(
@@ -128,14 +129,6 @@ def _near_miss(
         rim=not region.inside,
         reason=reason(touch, region, tol, faces[0].surface, faces[1].surface),
     )
-
-
-def _box(face: Face) -> np.ndarray:
-    """The box of a face with the bulge of its surface over the triangles."""
-    corners = face.triangles
-    middles = np.concatenate([(corners + np.roll(corners, 1, axis=1)) / 2, corners.mean(axis=1, keepdims=True)], axis=1)
-    bulge = np.abs(face.surface.distance(middles.reshape(-1, 3))).max()
-    return face.box + np.array([[-bulge], [bulge]])
 
 
 def _by_kinds() -> dict[tuple[str, str], list[ContactState]]:

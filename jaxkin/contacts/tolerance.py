@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from jaxkin.geometry.surfaces import Surface
 
 NEAR = 100.0
 """Gaps of so many length tolerances are still reported: 1e-3 of the size, below what is left free on purpose."""
+NEAR_PART = 0.01
+"""Of the smaller part's diagonal; gaps up to here are reported: a large assembly must not make small parts near."""
 NEAR_TILT = 0.05
 """Radians; tilts up to here are reported. Assemblies saved in a sloppy pose were seen at 0.02."""
 NEAR_FIT = 0.25
@@ -28,6 +30,12 @@ class Tolerance:
     """Radians between directions that count as parallel."""
     fit: float = 0.02
     """Clearance, relative to the radius, up to which a pin fills its hole and a ball its socket."""
+    near_length: float = 0.0
+    """Gap up to which a miss is reported."""
+
+    def between(self, one: Part, other: Part) -> Tolerance:
+        """The same with the gap that is worth a report between these two parts."""
+        return replace(self, near_length=min(NEAR * self.length, NEAR_PART * min(size((one,)), size((other,)))))
 
     def fits(self, touch: Touch, extent: float, s1: Surface, s2: Surface) -> bool:
         """Whether a touch is a contact, given the extent of its region."""
@@ -44,7 +52,7 @@ class Tolerance:
 
     def near(self, touch: Touch, s1: Surface, s2: Surface) -> bool:
         """Whether a touch is worth a report if it is no contact."""
-        allowed = NEAR * self.length
+        allowed = max(self.length, self.near_length)
         if touch.clearance is not None:
             allowed = max(allowed, NEAR_FIT * smaller_radius(s1, s2))
             if abs(touch.clearance) > allowed:

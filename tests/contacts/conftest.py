@@ -29,7 +29,7 @@ def patch(surface, u, v, towards=None, axis=Z, steps=24) -> Face:
     axis = {"plane": lambda: surface.normal, "sphere": lambda: axis}.get(surface.kind, lambda: surface.axis)()
     x = perpendicular(axis) if towards is None else unit(towards - (towards @ axis) * axis)
     y = np.cross(axis, x)
-    us, vs = np.meshgrid(np.linspace(*u, steps + 1), np.linspace(*v, 7), indexing="ij")
+    us, vs = np.meshgrid(np.linspace(*u, steps + 1), np.linspace(*v, 4), indexing="ij")
     us, vs = us[..., None], vs[..., None]
     round_ = np.cos(us) * x + np.sin(us) * y
     match surface:
