@@ -15,7 +15,11 @@ _ITERATIONS = 40
 
 
 def jacobian_near(
-    system: LoopSystem, before: tuple[Array, ...], after: tuple[Array, ...], pitch: tuple[Array, ...], step: float
+    system: LoopSystem,
+    before: tuple[Array, ...],
+    after: tuple[Array, ...],
+    pitch: tuple[Array, ...],
+    step: float | Array,
 ) -> Float[Array, "2 equations columns"]:
     """Closure Jacobians, lengths scaled, at the assembled pose and at a closed pose about `step` away from it.
 

@@ -99,5 +99,5 @@ def _part(part: Part, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale
     }
 
 
-def _base64(array: Float[np.ndarray, "..."], kind: str = "<f4") -> str:
+def _base64(array: np.ndarray, kind: str = "<f4") -> str:
     return b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")
