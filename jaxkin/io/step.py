@@ -41,8 +41,8 @@ def read_step(path: str | Path) -> tuple[tuple[Part, ...], str]:
     """
     path = Path(path)
     data = _checked(path)
-    unit_name, metres = length_unit(data.decode("latin-1"), path.name)
     found = list(instances(convert(data, path.name)))
+    unit_name, metres = length_unit(data.decode("latin-1"), path.name)
     if not all(instance.complete for instance in found):
         plain = instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), path.name))
         found = [replace(bare, color=it.color) for bare, it in zip(plain, found, strict=True)]
