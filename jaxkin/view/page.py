@@ -9,7 +9,6 @@ from importlib import resources
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import Float
 
 from jaxkin.geometry.part import Part
 from jaxkin.motion.motion import Motion
