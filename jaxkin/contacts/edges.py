@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.contacts.boxes import boxes_of, bulge, crossing
+from jaxkin.contacts.boxes import Boxes, boxes_of, bulge, crossing
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.part import Part
 
@@ -15,19 +15,16 @@ def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
 
     Faces count as touching within the tolerance, a length, and within the height of the chords that stand for them.
     """
-    sides = [_all_triangles(part) for part in (one, two)]
-    bulges = [np.array([bulge(face) for face in part.faces]) for part in (one, two)]
-    pairs = crossing(boxes_of(sides[0][0]), boxes_of(sides[1][0]), tolerance + bulges[0].max() + bulges[1].max())
+    (triangles1, face1, bulge1), (triangles2, face2, bulge2) = (_all_triangles(part) for part in (one, two))
+    pairs = crossing(_inflated(triangles1, bulge1), _inflated(triangles2, bulge2), tolerance)
     if not len(pairs):
         return None
     i, j = pairs.T
-    apart = distances(sides[0][0][i], sides[1][0][j])
-    face1, face2 = sides[0][1][i], sides[1][1][j]
-    beyond = apart - bulges[0][face1] - bulges[1][face2]
+    beyond = distances(triangles1[i], triangles2[j]) - bulge1[i] - bulge2[j]
     nearest = int(np.argmin(beyond))
     if beyond[nearest] > tolerance:
         return None
-    names = f"{one.name} {one.faces[face1[nearest]].name} and {two.name} {two.faces[face2[nearest]].name}"
+    names = f"{one.name} {one.faces[face1[i[nearest]]].name} and {two.name} {two.faces[face2[j[nearest]]].name}"
     return f"{names} meet at an edge or a corner only: none of the sixteen contact states, so no joint"
 
 
@@ -59,7 +56,12 @@ def _segment_distances(p: np.ndarray, p_end: np.ndarray, q: np.ndarray, q_end: n
     return np.where(inside, np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=-1), np.inf)
 
 
-def _all_triangles(part: Part) -> tuple[Solid, np.ndarray]:
-    """The triangles of all analytic faces and the number of the face of each."""
+def _all_triangles(part: Part) -> tuple[Solid, np.ndarray, np.ndarray]:
+    """The triangles of all analytic faces, and for each the number of its face and how far that bulges."""
     numbers = np.repeat(np.arange(len(part.faces)), [len(face.triangles) for face in part.faces])
-    return np.concatenate([face.triangles for face in part.faces]), numbers
+    bulges = np.array([bulge(face) for face in part.faces])
+    return np.concatenate([face.triangles for face in part.faces]), numbers, bulges[numbers]
+
+
+def _inflated(triangles: Solid, by: np.ndarray) -> Boxes:
+    return boxes_of(triangles) + by[:, None, None] * np.array([[-1.0], [1.0]])
