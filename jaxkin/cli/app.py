@@ -6,12 +6,16 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from jaxkin.cli.drives import parse_drives, to_radians
 from jaxkin.cli.errors import one_line_errors
+
+if TYPE_CHECKING:
+    from jaxkin.motion.assembly import Assembly
+    from jaxkin.motion.mechanism import Mechanism
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -65,7 +69,7 @@ def inspect(file: File, fixed: Fixed = [], no_combine: PerContact = False) -> No
             contacts = assembly.contacts()
         report.say(f"{assembly}\n\n{contacts}\n")
         # only now: what stands above helps to see why the mechanism is refused
-        report.say(str(assembly.mechanism(fixed=fixed, combine=not no_combine)))
+        report.say(str(_mechanism(assembly, fixed, combine=not no_combine)))
 
 
 @app.command(epilog="Example:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion")
@@ -92,7 +96,7 @@ def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, *, combine
         step(f"reading {file.name}")
         assembly = jk.load(file)
         step("finding contacts and joints")
-        mechanism = assembly.mechanism(fixed=fixed, combine=combine)
+        mechanism = _mechanism(assembly, fixed, combine=combine)
         drives = to_radians(mechanism, drives)
         step("solving")
         motion = jax.block_until_ready(mechanism.sweep(drives))
@@ -105,6 +109,14 @@ def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, *, combine
     report.say()
     report.print_files(paths)
     report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. Open {out / 'motion.html'} in a browser.")
+
+
+def _mechanism(assembly: Assembly, fixed: list[str], *, combine: bool) -> Mechanism:
+    if not fixed:
+        raise ValueError(
+            f"no part is fixed: give --fixed PART, once or more; the parts are {', '.join(assembly.names)}"
+        )
+    return assembly.mechanism(fixed=fixed, combine=combine)
 
 
 @contextmanager
