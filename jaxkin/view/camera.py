@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import Points, Vector, frame, unit
+from jaxkin.geometry.pose import Points, Vector, frame, perpendicular, unit
 from jaxkin.view.raster import rasterise
 
 FLAT = 1e-3  # a motion this much thinner than it is wide is plane: far above rounding, and not to be seen in a picture
@@ -75,17 +75,24 @@ def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
 def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None:
     """Normal of the plane that everything moves parallel to, None in space.
 
-    Where the motion leaves a choice (along one line, or none at all) the mechanism is seen from its flattest side.
+    Where the motion leaves a choice (along one line, or none at all) it is the normal of most of the flat faces.
     """
-    cloud = np.concatenate([part.triangles.reshape(-1, 3) for part in parts])
-    cloud = cloud - cloud.mean(axis=0)
-    size = np.linalg.norm(np.ptp(cloud, axis=0))
+    triangles = np.concatenate([part.triangles for part in parts])
+    size = np.linalg.norm(np.ptp(triangles, axis=(0, 1)))
     _, widths, directions = np.linalg.svd(np.concatenate([*steps, np.zeros((3, 3))]), full_matrices=False)
     rank = int((widths > max(FLAT * widths[0], 1e-9 * size)).sum())
-    if rank == 3:
-        return None
-    free = directions[rank:]
-    return unit(np.linalg.svd(cloud @ free.T, full_matrices=False)[2][-1] @ free)
+    if rank >= 2:
+        return directions[2] if rank == 2 else None
+    faces = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    faces = faces[np.linalg.norm(faces @ directions[:rank].T, axis=1) <= FLAT * np.linalg.norm(faces, axis=1)]
+    areas = np.linalg.norm(faces, axis=1, keepdims=True)
+    largest = np.take_along_axis(faces, np.abs(faces).argmax(axis=1, keepdims=True), axis=1)
+    names = np.round(np.sign(largest) * faces / np.where(areas > 0, areas, 1), 3)  # opposite sides count together
+    kinds, kind = np.unique(names, axis=0, return_inverse=True)
+    if not len(kinds):
+        return perpendicular(directions[0])
+    best = np.bincount(kind.ravel(), areas.ravel()).argmax()
+    return unit((np.sign(largest) * faces)[kind.ravel() == best].sum(axis=0))
 
 
 def _upwards(

@@ -1,5 +1,6 @@
 import numpy as np
 import trimesh
+
 from jaxkin.view.mesh import shaded_mesh
 
 
