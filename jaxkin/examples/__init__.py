@@ -86,7 +86,7 @@ EXAMPLES: dict[str, Example] = {
     ),
     "cam": Example(
         file="cam.step",
-        description="Eccentric cam with a flat-faced follower: Fig. 6 of the paper, p1, p2, p3 named cam, follower, frame",
+        description="Eccentric cam with flat-faced follower: Fig. 6 of the paper; p1, p2, p3 are cam, follower, frame",
         fixed=("frame",),
         drive=("frame", "cam"),
         unit="mm",
