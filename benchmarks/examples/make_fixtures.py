@@ -63,6 +63,15 @@ def splines() -> cq.Assembly:
     return _single("nose", cq.Workplane(cq.Shape.cast(BRepBuilderAPI_NurbsConvert(solid.wrapped, True).Shape())))
 
 
+def painted() -> cq.Assembly:
+    """A blue bush with one red and one green face: cascadio names the faces of the first colour only."""
+    bush = cq.Workplane().circle(5).circle(3).extrude(10)
+    assembly = cq.Assembly(name="painted").add(bush, name="bush", color=cq.Color("#2A7FB8"))
+    assembly["bush"].addSubshape(bush.faces(">Z").val(), color=cq.Color("red"))
+    assembly["bush"].addSubshape(bush.faces("<Z").val(), color=cq.Color("green"))
+    return assembly
+
+
 def sheet() -> cq.Assembly:
     """A surface, no solid."""
     return _single("sheet", cq.Workplane(cq.Face.makePlane(10, 10)))
@@ -73,7 +82,7 @@ def _single(name: str, shape: cq.Workplane) -> cq.Assembly:
 
 
 def main() -> None:
-    for make in (nested, halves, fillet, ball, splines, sheet):
+    for make in (nested, halves, fillet, ball, splines, painted, sheet):
         path = FOLDER / f"{make.__name__}.step"
         write(make(), path)
         print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")

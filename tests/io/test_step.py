@@ -101,6 +101,26 @@ def test_a_file_without_unit_is_in_millimetres_and_says_so(tmp_path):
     assert surfaces(parts[0], Cylinder)[0].radius == pytest.approx(5.0, rel=1e-9)
 
 
+def test_faces_of_other_colours_are_read_too():
+    (bush,), _ = read_step(DATA / "painted.step")
+    assert sorted((face.radius, face.side) for face in surfaces(bush, Cylinder)) == [
+        (pytest.approx(3, rel=1e-9), -1),
+        (pytest.approx(5, rel=1e-9), 1),
+    ]
+    assert sorted(face.normal[2] * face.point[2] for face in surfaces(bush, Plane)) == pytest.approx([0, 10], abs=1e-9)
+    assert bush.color == pytest.approx((0x2A / 255, 0x7F / 255, 0xB8 / 255), abs=1e-3)  # that of the part
+    assert bush.notes == ()
+
+
+@pytest.mark.parametrize(
+    "written", [rb"B\X2\00F6\X0\gen", rb"B\X\F6gen", "B\u00f6gen".encode(), "B\u00f6gen".encode("latin-1")]
+)
+def test_names_in_any_encoding(tmp_path, written):
+    file = tmp_path / "halves.step"
+    file.write_bytes((DATA / "halves.step").read_bytes().replace(b"'pin'", b"'" + written + b"'"))
+    assert [part.name for part in read_step(file)[0]] == ["B\u00f6gen", "plate"]
+
+
 def test_half_cylinders_are_one_face():
     pin, plate = read(DATA / "halves.step")[0]
     (shaft,), (hole,) = (surfaces(part, Cylinder) for part in (pin, plate))
