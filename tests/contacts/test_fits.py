@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from jaxkin.contacts.detect import find_contacts
-from jaxkin.geometry.surfaces import Cylinder, Sphere
+from jaxkin.geometry.pose import rotation
+from jaxkin.geometry.surfaces import Cylinder, Plane, Sphere
 
 X, Y, Z = np.eye(3)
 TURN = (-np.pi, np.pi)
@@ -72,3 +73,21 @@ def test_a_small_pin_in_a_large_hole_is_not_mentioned(solids):
 def test_tolerances_can_be_given(solids):
     assert len(fit(solids, 0.99, fit=0.001)) == 0
     assert [contact.state for contact in fit(solids, 0.9, 0.098, length=0.005)] == ["f"]
+
+
+def test_a_gap_and_a_tilt_that_are_too_much_only_together_are_both_named(solids):
+    """Length tolerance 0.01 over an extent of 2 sqrt 2: a gap of 0.007 and a tilt of 0.005 rad add up to 0.014."""
+    floor = solids.patch(Plane(np.zeros(3), Z), (-1, 1), (-1, 1))
+    lid = solids.patch(Plane(np.zeros(3), -Z), (-1, 1), (-1, 1))
+
+    def lifted(gap, tilt):
+        pose = np.eye(4)
+        pose[:3, :3], pose[2, 3] = rotation(X, tilt), gap
+        parts = solids.part("floor", floor), solids.part("lid", solids.moved(lid, pose))
+        return find_contacts(parts, length=0.01, angle=0.01)
+
+    assert len(lifted(0.007, 0.0)) == len(lifted(0.0, 0.005)) == 1
+    contacts = lifted(0.007, 0.005)
+    assert len(contacts) == 0
+    (miss,) = contacts.near_misses
+    assert "tilted by 0.005 rad" in miss.reason and "a gap of 0.007" in miss.reason
