@@ -53,9 +53,7 @@ class Layer:
     """Along the edges within a part."""
 
 
-def draw(
-    canvas: Canvas, parts: Sequence[Float[np.ndarray, "triangles 3 3"]], colors: Sequence[Sequence[float]]
-) -> Layer:
+def draw(canvas: Canvas, parts: Sequence[Float[np.ndarray, "_ 3 3"]], colors: Sequence[Sequence[float]]) -> Layer:
     """Draw parts given by their triangles in world coordinates; a face that faces the viewer keeps its colour."""
     points = canvas.pixels(np.concatenate([*parts, np.zeros((0, 3, 3))])) * FINE
     raster = rasterise(points, canvas.height * FINE, canvas.width * FINE)

@@ -8,7 +8,6 @@ from textwrap import shorten
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from jaxtyping import Int
 
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
@@ -89,21 +88,22 @@ def storyboard(
     sheet.figure.savefig(path, dpi=DPI)
 
 
-def _choose(scene: Scene) -> Int[np.ndarray, " panels"]:
+def _choose(scene: Scene) -> list[int]:
     """Up to PANELS closed poses, evenly over the range; of a motion that returns to its start the end is left out."""
     count = len(scene.closed)
     if count <= PANELS:
-        return scene.closed
-    return scene.closed[np.rint(np.linspace(0, count - 1, PANELS + scene.cyclic)[:PANELS]).astype(int)]
+        return scene.closed.tolist()
+    return scene.closed[np.rint(np.linspace(0, count - 1, PANELS + scene.cyclic)[:PANELS]).astype(int)].tolist()
 
 
-def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> Int[np.ndarray, " panels"]:
+def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> list[int]:
+    poses = [int(pose) for pose in poses]
     for pose in poses:
         if not -count <= pose < count:
             raise ValueError(f"poses holds {pose}, but the motion has poses 0 to {count - 1}")
         if pose % count not in scene.closed:
             raise ValueError(f"pose {pose} is not closed and cannot be drawn: choose among motion.closed.nonzero()[0]")
-    return np.asarray(poses, int) % count
+    return [pose % count for pose in poses]
 
 
 def _canvas(scene: Scene, width: int) -> Canvas:
