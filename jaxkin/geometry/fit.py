@@ -18,6 +18,9 @@ from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 
 Round = TypeVar("Round", Cylinder, Cone)
 
+_STRAY = 0.1
+"""Radians by which a few normals that are not those of the surface may turn the axis that is guessed from all."""
+
 
 def rounding(points: Points) -> float:
     """The length by which points that went through float32 miss their surface: by their extent and their distance."""
@@ -45,7 +48,7 @@ def fit_surface(
     normals = normals[first]
     centre = points.mean(axis=0)
     scale = float(np.abs(points - centre).max()) or 1.0
-    for candidate in _candidates((points - centre) / scale, normals):
+    for candidate in _candidates((points - centre) / scale, normals, angle):
         surface = _scaled(candidate, centre, scale)
         surface = surface if np.sum(surface.normals(points) * normals) >= 0 else flipped(surface)
         if np.abs(surface.distance(points)).max() <= tolerance:
@@ -55,22 +58,24 @@ def fit_surface(
     return None
 
 
-def _candidates(points: Points, normals: Points) -> Iterator[Surface]:
-    """Best fits of each kind to points around the origin of size one, the simplest first."""
+def _candidates(points: Points, normals: Points, angle: float) -> Iterator[Surface]:
+    """Best fits, of the kinds that the normals allow, to points around the origin of size one; the simplest first."""
     for enough, fit in ((3, _plane), (6, _cylinder), (7, _cone), (5, _sphere)):
         if len(points) >= enough:
-            surface = fit(points, normals)
+            surface = fit(points, normals, angle)
             if surface is not None:
                 yield surface
 
 
-def _plane(points: Points, normals: Points) -> Plane:
+def _plane(points: Points, normals: Points, angle: float) -> Plane:
     normal = np.linalg.svd(points, full_matrices=False)[2][2]
     return Plane(np.zeros(3), normal)
 
 
-def _cylinder(points: Points, normals: Points) -> Cylinder:
+def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
     axis = np.linalg.eigh(normals.T @ normals)[1][:, 0]
+    if np.median(np.abs(normals @ axis)) > angle + _STRAY:
+        return None
     x = perpendicular(axis)
     y = np.cross(axis, x)
     flat = points @ np.stack([x, y], axis=-1)
@@ -82,9 +87,11 @@ def _cylinder(points: Points, normals: Points) -> Cylinder:
     return _refined(cylinder, np.array([0.0, 0.0, *middle, radius]), points)
 
 
-def _cone(points: Points, normals: Points) -> Cone | None:
+def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
     spread = normals - normals.mean(axis=0)
     axis = np.linalg.eigh(spread.T @ spread)[1][:, 0]
+    if np.median(np.abs(spread @ axis)) > angle + _STRAY:
+        return None
     # all tangent planes go through the apex
     apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)
     if rank < 3:
@@ -101,7 +108,7 @@ def _cone(points: Points, normals: Points) -> Cone | None:
     return found if 0 < found.half_angle < np.pi / 2 else None
 
 
-def _sphere(points: Points, normals: Points) -> Sphere:
+def _sphere(points: Points, normals: Points, angle: float) -> Sphere:
     centre, radius = _ball(points)
     return Sphere(centre, radius, 1)
 

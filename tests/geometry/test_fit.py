@@ -50,7 +50,7 @@ def placed(kind, turn, shift, scale=1.0):
 
 @pytest.mark.parametrize("kind", ["plane", "cylinder", "cone", "sphere"])
 @given(turn=st.floats(-3, 3), shift=st.tuples(*[st.floats(-5, 5)] * 3), part=st.floats(0.15, 1.0))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=15, deadline=None)
 def test_surfaces_come_back(kind, turn, shift, part):
     """Whole turns and parts of them: an arc of a sixth of a turn magnifies the rounding by some tens."""
     surface = placed(kind, turn, shift)
