@@ -9,6 +9,9 @@ from jaxkin.contacts.boxes import Boxes, boxes_of, bulge, crossing
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.part import Part
 
+TINY = np.finfo(float).tiny
+"""Under the line where degenerate triangles, which tessellations hold, would put zero."""
+
 
 def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
     """Which faces of two parts without a contact touch nevertheless, in words; None if they are apart.
@@ -29,31 +32,37 @@ def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
 
 
 def distances(a: Solid, b: Solid) -> Float[np.ndarray, "_"]:
-    """Distances between pairs of triangles, by corners over faces and edges over edges; triangles that pierce each
-    other count by the nearest of these."""
-    from trimesh.triangles import closest_point
+    """Distances between pairs of triangles, by corners over faces and edges over edges.
 
-    found = []
-    for triangles, others in ((a, b), (b, a)):
-        for corner in range(3):
-            points = others[:, corner]
-            found.append(np.linalg.norm(closest_point(triangles, points) - points, axis=-1))
-    for k in range(3):
-        for m in range(3):
-            found.append(_segment_distances(a[:, k], a[:, (k + 1) % 3], b[:, m], b[:, (m + 1) % 3]))
-    return np.min(found, axis=0)
+    Triangles that pierce each other count by the nearest of these.
+    """
+    return np.min([_corners_to(a, b), _corners_to(b, a), _crossing_edges(a, b)], axis=0)
 
 
-def _segment_distances(p: np.ndarray, p_end: np.ndarray, q: np.ndarray, q_end: np.ndarray) -> np.ndarray:
-    """Where the lines are nearest within both segments; ends over faces are covered by the corners."""
-    u, v, w = p_end - p, q_end - q, p - q
+def _corners_to(a: Solid, b: Solid) -> np.ndarray:
+    """From the nearest corner of the first triangle to the second."""
+    edges = np.roll(b, -1, axis=1) - b
+    offset = a[:, :, None] - b[:, None]  # pair, corner of a, edge of b
+    along = np.sum(offset * edges[:, None], axis=-1) / np.maximum(np.sum(edges**2, axis=-1), TINY)[:, None]
+    to_edges = np.linalg.norm(offset - along.clip(0, 1)[..., None] * edges[:, None], axis=-1).min(axis=-1)
+    normal = np.cross(edges[:, 0], edges[:, 1])[:, None]
+    over = np.all(np.sum(np.cross(edges[:, None], offset) * normal[:, None], axis=-1) > 0, axis=-1)
+    height = np.abs(np.sum(offset[:, :, 0] * normal, axis=-1)) / np.maximum(np.linalg.norm(normal, axis=-1), TINY)
+    return np.where(over, height, to_edges).min(axis=-1)
+
+
+def _crossing_edges(a: Solid, b: Solid) -> np.ndarray:
+    """Between the edges that cross each other; infinity where none do."""
+    u, v = (np.roll(a, -1, axis=1) - a)[:, :, None], (np.roll(b, -1, axis=1) - b)[:, None]
+    w = a[:, :, None] - b[:, None]
     uu, uv, vv, uw, vw = (np.sum(x * y, axis=-1) for x, y in ((u, u), (u, v), (v, v), (u, w), (v, w)))
     square = uu * vv - uv**2
-    flat = square <= 1e-12 * uu * vv
-    square = np.where(flat, 1.0, square)
+    parallel = square <= 1e-12 * uu * vv  # then a corner is as near
+    square = np.where(parallel, 1.0, square)
     s, t = (uv * vw - vv * uw) / square, (uu * vw - uv * uw) / square
-    inside = ~flat & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-    return np.where(inside, np.linalg.norm(w + s[:, None] * u - t[:, None] * v, axis=-1), np.inf)
+    within = ~parallel & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    apart = np.linalg.norm(w + s[..., None] * u - t[..., None] * v, axis=-1)
+    return np.where(within, apart, np.inf).min(axis=(1, 2))
 
 
 def _all_triangles(part: Part) -> tuple[Solid, np.ndarray, np.ndarray]:

@@ -55,7 +55,7 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     pairs = crossing(boxes_of(a), boxes_of(b), tolerance / radius + edge**2 / 4)  # the sphere bulges over its chords
     a, b = a[pairs[:, 0]], b[pairs[:, 1]]
     pole = _directions(a.mean(axis=1), 0.0)
-    x = _directions(a[:, 0] - np.sum(a[:, 0] * pole, axis=-1, keepdims=True) * pole, 0.0)
+    x = _directions(np.cross(pole, np.eye(3)[np.argmin(np.abs(pole), axis=-1)]), 0.0)
     axes = np.stack([x, np.cross(pole, x), pole], axis=-1)
     a, b = a @ axes, b @ axes
     ahead = (a[..., 2] > 0.1).all(axis=1) & (b[..., 2] > 0.1).all(axis=1)  # the others lie half a sphere apart

@@ -5,6 +5,7 @@ import pytest
 
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.states import find_state
+from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import perpendicular, rotation, unit
 
 X, Y, Z = np.eye(3)
@@ -152,3 +153,18 @@ def test_what_is_far_apart_is_not_mentioned(pair, solids):
     size = np.linalg.norm(np.ptp(np.concatenate([pair.face1.box, pair.face2.box]), axis=0))
     contacts = detect(solids, pair.face1, solids.moved(pair.face2, translated([0, 0, 3 * size])))
     assert len(contacts) == 0 and not contacts.near_misses
+
+
+def test_degenerate_triangles_change_nothing(pair, solids):
+    """Tessellations hold triangles without area: two corners at one point, or all three on a line."""
+
+    def spoiled(face):
+        points, lines = face.triangles[::5].copy(), face.triangles[::7].copy()
+        points[:, 1] = points[:, 0]
+        lines[:, 2] = (lines[:, 0] + lines[:, 1]) / 2
+        return Face(face.name, face.surface, np.concatenate([face.triangles, points, lines, points[:1, [0, 0, 0]]]))
+
+    contacts = detect(solids, spoiled(pair.face1), spoiled(pair.face2))
+    assert [(c.state, c.region) for c in contacts] == [(pair.letter, pair.region)] and not contacts.near_misses
+    away = solids.moved(spoiled(pair.face2), translated([0.0, 0.0, 5e-3]))
+    detect(solids, spoiled(pair.face1), away)  # whatever is near, nothing divides by zero
