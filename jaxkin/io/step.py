@@ -75,6 +75,9 @@ def _part(name: str, instance: Instance, metres: float) -> Part:
     faces, notes = [], []
     for index, described in enumerate(instance.faces):
         label, rows = f"face {index + 1}", np.flatnonzero(instance.face_of == index)
+        if len(rows) == 0:
+            notes.append(f"{label}: it came without triangles, so where it ends is not known: left out")
+            continue
         corners, normals = triangles[rows].reshape(-1, 3), instance.normals[rows].reshape(-1, 3)
         surface = _analytic(described, corners, metres) or fit_surface(corners, normals, 5 * tolerance, angle=1e-2)
         if surface is None:
@@ -85,15 +88,16 @@ def _part(name: str, instance: Instance, metres: float) -> Part:
         triangles[rows] = corners
         off = float(np.abs(surface.distance(corners)).max())
         if off > 10 * tolerance:
-            note = f"its triangles lie up to {off:.2g} off its {surface.kind}"
-        notes += [f"{label}: {note}"] if note else []
+            notes.append(f"{label}: its triangles lie up to {off:.2g} off its {surface.kind}")
+        if note:
+            notes.append(f"{label}: {note}")
         faces.append(Face(label, surface.moved(pose), apply(pose, corners)))
     return Part(name, merge_faces(faces, tolerance), apply(pose, triangles), instance.color, tuple(notes))
 
 
 def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:
     """The surface as cascadio describes it, in the frame of the mesh; its side says nothing."""
-    if described is None or len(corners) == 0:
+    if described is None:
         return None
     at = {key: np.array(described[key]) / metres for key in ("origin", "apex", "center") if key in described}
     match described["type"]:
@@ -127,7 +131,7 @@ def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surfa
     return (
         surface,
         corners,
-        f"triangles of the {surface.kind} overlap or face inwards: its side was taken from the solid",
+        f"its triangles overlap or face inwards: the side of the {surface.kind} is that of the solid",
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from jaxkin.examples import EXAMPLES, path
 from jaxkin.geometry.pose import apply, rotation, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 from jaxkin.io.step import read_step
+from jaxkin.io.step_glb import instances
 
 DATA = Path(__file__).parent / "data"
 read = cache(read_step)  # half a second each
@@ -182,6 +184,23 @@ def test_a_ball_trimmed_across_its_seam_is_no_socket():
     (sphere,) = (face for face in part.faces if isinstance(face.surface, Sphere))
     outwards = np.sum(areas(sphere.triangles) * (sphere.triangles.mean(axis=1) - ball.centre), axis=-1)
     assert np.all(outwards >= 0)
+
+
+def test_a_face_without_triangles_is_named(monkeypatch):
+    """The kernel cannot triangulate every face; here the triangles of one are taken away."""
+    import jaxkin.io.step as step
+
+    def without_face_3(glb):
+        for whole in instances(glb):
+            kept = whole.face_of != 2
+            yield replace(
+                whole, triangles=whole.triangles[kept], normals=whole.normals[kept], face_of=whole.face_of[kept]
+            )
+
+    monkeypatch.setattr(step, "instances", without_face_3)
+    (bush,), _ = read_step(DATA / "splines.step")
+    assert bush.notes == ("face 3: it came without triangles, so where it ends is not known: left out",)
+    assert "face 3" not in [face.name for face in bush.faces]
 
 
 def test_surfaces_written_as_splines_are_recognised():
