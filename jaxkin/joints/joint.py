@@ -31,11 +31,11 @@ class Joint:
     """"revolute", "prismatic", ..., or "contact b" for a contact state of the paper."""
     movements: tuple[str, ...]
     """Keys of `MOVEMENTS`, one a frame."""
-    before: Float[Array, "frames 4 4"]
+    before: Float[Array, "*batch frames 4 4"]
     """Pose of each frame on the side of part 1, in world coordinates of the assembled pose."""
-    after: Float[Array, "frames 4 4"]
+    after: Float[Array, "*batch frames 4 4"]
     """Pose of each frame on the side of part 2; equal to `before` unless lengths were changed."""
-    pitch: Float[Array, ""]
+    pitch: Float[Array, "*batch"]
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
 
     @property

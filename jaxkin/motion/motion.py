@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
@@ -59,7 +59,7 @@ class Motion:
         matrices = _transforms(self.mechanism.structure, self.mechanism.all_joints, self.displacements)
         return dict(zip(self.mechanism.parts, matrices, strict=True))
 
-    def points(self, part: str, point: jax.typing.ArrayLike) -> Float[Array, "poses 3"]:
+    def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
         if part not in self.transforms:
             raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")

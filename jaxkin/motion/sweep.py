@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from functools import partial
 
 import jax
 import jax.numpy as jnp
@@ -16,14 +15,13 @@ from jaxkin.motion.drive import Driven, resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.systems import block_arrays, block_system
+from jaxkin.solve.compiled import solve
 from jaxkin.solve.status import Status
-from jaxkin.solve.sweep import Solution, solve_system
+from jaxkin.solve.sweep import Solution
 from jaxkin.topology.structure import Block
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
 """Of several loop systems the worst decides the status of the pose."""
-
-_solve = partial(jax.jit, static_argnums=0)(solve_system)
 
 
 def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
@@ -48,7 +46,7 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     solutions = []
     for block in mechanism.structure.blocks:
         inputs = {name: entry for name, entry in driven.items() if entry.joint in block.joints}
-        if inputs or _edited([mechanism.all_joints[joint] for joint in block.joints]):
+        if len(first) and (inputs or _edited([mechanism.all_joints[joint] for joint in block.joints])):
             solutions.append(_solve_block(mechanism, block, list(inputs.values()), displacements))
     status, residual = _worst(solutions, first)
     inputs = {name: entry.values for name, entry in driven.items()}
@@ -61,7 +59,7 @@ def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displ
     system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven))
     dtype, poses = displacements[0].dtype, displacements[0].shape[0]
     inputs = jnp.stack([entry.values for entry in driven]) if driven else jnp.zeros((0, 1), dtype)
-    solution = _solve(system, *block_arrays(mechanism, block, dtype), _padded(inputs))
+    solution = solve(system, *block_arrays(mechanism, block, dtype), _padded(inputs))
     solution = jax.tree.map(lambda rows: rows[..., : inputs.shape[1]], solution)
     first = 0
     for joint in block.joints:
@@ -79,7 +77,7 @@ def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded
     program is compiled for their length anyway.
     """
     poses = inputs.shape[1]
-    if isinstance(inputs, jax.core.Tracer) or poses == 0:
+    if isinstance(inputs, jax.core.Tracer):
         return inputs
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)

@@ -53,7 +53,7 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
     half = 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
     residual = jnp.concatenate([half, translation]).swapaxes(0, 1)
-    loops = np.arange(len(system.loops))
+    loops = np.arange(len(system.loops), dtype=np.int32)
     jacobian = twists[steps(system).source, :, loops].transpose(1, 2, 0, 3)
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     rotated = jnp.sum((rotation - jnp.eye(3, dtype=rotation.dtype)[..., None, None]) ** 2, axis=(0, 1, 2))
@@ -148,7 +148,7 @@ def loop_geometry(
     frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
-    along = jnp.asarray(turned, frames.dtype)[table.axis]
+    along = jnp.asarray(turned[table.axis], frames.dtype)
     enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
     between = jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]])
     return Geometry(between, leave[-1], jnp.stack(pitch) / length), length

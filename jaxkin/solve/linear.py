@@ -71,12 +71,20 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
     def solve(right: Vector) -> Vector:
-        def eliminate(k: Array, system: Array) -> Array:
-            pivot = lax.dynamic_index_in_dim(system, k, axis=0, keepdims=False)
-            pivot = pivot / lax.dynamic_index_in_dim(pivot, k, axis=0, keepdims=False)
-            column = lax.dynamic_index_in_dim(system, k, axis=1, keepdims=True)
-            return lax.dynamic_update_index_in_dim(system - column * pivot[None], pivot, k, axis=0)
+        def eliminate(k: Array, carry: tuple[Array, Array]) -> tuple[Array, Array]:
+            gram, right = carry  # kept apart: the right side is linear, and must stay so for derivatives in reverse
+            pivot, at_pivot = _at(gram, k), _at(right, k)
+            column = lax.dynamic_index_in_dim(gram, k, axis=1, keepdims=False)
+            diagonal = _at(column, k)
+            pivot, at_pivot = pivot / diagonal, at_pivot / diagonal
+            gram = lax.dynamic_update_index_in_dim(gram - column[:, None] * pivot[None], pivot, k, axis=0)
+            right = lax.dynamic_update_index_in_dim(right - column * at_pivot[None], at_pivot, k, axis=0)
+            return gram, right
 
-        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, right[:, None]], axis=1))[:, -1]
+        return lax.fori_loop(0, n, eliminate, (gram, right))[1]
 
     return solve
+
+
+def _at(rows: Array, k: Array) -> Array:
+    return lax.dynamic_index_in_dim(rows, k, axis=0, keepdims=False)

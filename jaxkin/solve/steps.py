@@ -51,9 +51,9 @@ def steps(system: LoopSystem) -> Steps:
     length = max(map(len, loops))
     frames = sum(map(len, system.movements))
     idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 2, 2 * frames, 2 * frames)
-    filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops])
+    filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops], np.int32)
     tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
-    source = np.full((system.columns, len(loops)), 4 * length)
+    source = np.full((system.columns, len(loops)), 4 * length, np.int32)
     for (step, loop), column in np.ndenumerate(tables[0]):
         if column < system.columns:
             source[column, loop] = 4 * step

@@ -98,7 +98,7 @@ def test_two_inputs_of_a_five_bar():
     """Two cranks place the tip of a five-bar: it is where circles about the crank pins meet."""
     from reference.planar import meet, polar
 
-    a, b = np.linspace(0.0, 1.0, 60), np.linspace(0.0, -0.7, 60) + 0.1 * np.sin(np.linspace(0.0, 9.0, 60))
+    a, b = np.linspace(0.0, -1.0, 60), np.linspace(0.0, 0.7, 60) + 0.1 * np.sin(np.linspace(0.0, 9.0, 60))
     b -= b[0]
     left, right = polar(30.0, 2.0 + a), np.array([60.0, 0.0]) + polar(30.0, 1.0 + b)
     tip = meet(left, 50.0, right, 45.0, 1)
@@ -164,13 +164,13 @@ def test_the_rod_of_an_rssr_does_not_spin():
 
 
 def test_nothing_is_recompiled_for_new_numbers():
-    from jaxkin.motion.sweep import _solve
+    from jaxkin.solve.compiled import whole
 
     range_ = np.linspace(0.0, 1.0, 37)
     planar_fourbar(1.0).sweep({"A": range_})
-    traces = _solve._cache_size()
+    traces = whole()._cache_size()
     planar_fourbar(0.7, crank=35.0).sweep({"A": 2 * range_})
-    assert _solve._cache_size() == traces
+    assert whole()._cache_size() == traces
 
 
 def test_float32_warns_once_and_reaches_what_it_says():
