@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from jaxkin.contacts.contact import Contacts
+from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
@@ -34,47 +34,60 @@ class Assembly:
         """Names of the parts."""
         return tuple(part.name for part in self.parts)
 
-    def contacts(self) -> Contacts:
-        """The contacts between the parts, and what is nearly one; found once. See `jaxkin.contacts.detect`."""
-        return self._contacts
+    def contacts(self, *, length: float | None = None, angle: float = 1e-4, fit: float = 0.02) -> Contacts:
+        """The contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
-    def mechanism(self, *, fixed: Sequence[str], combine: bool = True) -> Mechanism:
+        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
+        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        """
+        tolerances = (length, angle, fit)
+        if tolerances not in self._found:
+            self._found[tolerances] = find_contacts(self.parts, *tolerances)
+        return self._found[tolerances]
+
+    def mechanism(
+        self, *, fixed: Sequence[str], combine: bool = True, contacts: Sequence[Contact] | None = None
+    ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+
+        `contacts` may be those found with other tolerances, or a selection; by default `self.contacts()`.
 
         With `combine` the contacts of two parts become the one joint that they amount to, where there is one; without
         it every contact is a joint, as in the paper. Contacts between fixed parts are left out. Raises ValueError where
         no part or an unknown one is fixed, and where a part touches nothing or hangs on nothing.
         """
         check_names(self.names, [], fixed)
-        contacts = [contact for contact in self.contacts() if not set(contact.parts) <= set(fixed)]
-        self._refuse_loose(fixed)
-        found = joints_from_contacts(contacts, self.names, combine=combine)
+        contacts = self.contacts() if contacts is None else contacts
+        self._refuse_loose(fixed, contacts)
+        moving = [contact for contact in contacts if not set(contact.parts) <= set(fixed)]
+        found = joints_from_contacts(moving, self.names, combine=combine)
         described = [(joint.name, *joint.parts) for joint in found.joints]
         return Mechanism(
             found.joints, structure(self.names, described, fixed), self.unit, self.parts, self._notes(found)
         )
 
     @cached_property
-    def _contacts(self) -> Contacts:
-        return find_contacts(self.parts)
+    def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
+        return {}
 
-    def _refuse_loose(self, fixed: Sequence[str]) -> None:
+    def _refuse_loose(self, fixed: Sequence[str], contacts: Sequence[Contact]) -> None:
         """Refuse parts that no chain of contacts ties to the fixed ones, with what is nearly a contact there."""
         held, before = set(fixed), 0
         while len(held) > before:
             before = len(held)
-            held.update(part for contact in self.contacts() if held & set(contact.parts) for part in contact.parts)
+            held.update(part for contact in contacts if held & set(contact.parts) for part in contact.parts)
         loose = [name for name in self.names if name not in held]
         if not loose:
             return
-        touching = {part for contact in self.contacts() for part in contact.parts}
+        touching = {part for contact in contacts for part in contact.parts}
         alone = [name for name in loose if name not in touching]
         if alone:
             problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
         else:
             problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
         misses = [miss for miss in self.contacts().near_misses if set(miss.parts) & set(alone or loose)]
-        nearly = [f"  {miss}" for miss in misses[:_LISTED]] or ["  and nothing there is nearly in contact"]
+        said = [note for note in self.contacts().notes if any(name in note for name in alone or loose)]
+        nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
         raise ValueError(
             "\n".join([f"{self.source}: {problem}; correct the model, or fix or leave out the part:", *nearly])
         )

@@ -32,7 +32,8 @@ class Mobility:
 
     def __str__(self) -> str:
         idle = f", idle: {', '.join(self.idle)}" if self.idle else ""
-        return f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}{idle}, {self.redundant} redundant equations"
+        freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
+        return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
 
 
 _near = partial(jax.jit, static_argnums=0)(jacobian_near)
