@@ -126,6 +126,9 @@ def _progress(steps: int) -> Iterator[Callable[[str], None]]:
     from rich.progress import Progress
 
     console = Console(stderr=True)
-    with Progress(console=console, transient=True, disable=not console.is_terminal) as progress:
+    if not console.is_terminal:
+        yield lambda text: None
+        return
+    with Progress(console=console, transient=True) as progress:
         task = progress.add_task("", total=steps, completed=-1)
         yield lambda text: progress.update(task, description=text, advance=1)
