@@ -27,8 +27,8 @@ class Canvas:
     """Where the picture lies in the view."""
 
     view: View
-    corner: Float[np.ndarray, "2"]
-    """Upper left corner of the picture, in coordinates of the view."""
+    corner: Float[np.ndarray, "3"]
+    """Upper left corner of the picture, halfway through the depth, in coordinates of the view."""
     scale: float
     """Pixels over the unit of length."""
     height: int
@@ -36,7 +36,7 @@ class Canvas:
 
     def pixels(self, points: Float[np.ndarray, "*batch 3"]) -> Float[np.ndarray, "*batch 3"]:
         """World coordinates to pixels: to the right, downwards, towards the viewer."""
-        return (self.view.project(points) - [*self.corner, 0.0]) * [self.scale, -self.scale, self.scale]
+        return (self.view.project(points) - self.corner) * [self.scale, -self.scale, self.scale]
 
 
 @dataclass(frozen=True, eq=False)

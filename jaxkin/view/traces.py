@@ -27,7 +27,10 @@ def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
     for part, value in points.items():
         if part not in parts:
             raise ValueError(f"points are given on a part {part!r}, which does not exist{nearest(part, parts)}")
-        array = np.asarray(value, float)
+        try:
+            array = np.asarray(value, float)
+        except (TypeError, ValueError):
+            array = np.array(np.nan)
         if array.shape[-1:] != (3,) or array.ndim > 2 or not np.isfinite(array).all():
             raise ValueError(
                 f"points[{part!r}] must be one finite (x, y, z) or a list of them, in the assembled pose; got {value!r}"
@@ -44,40 +47,32 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
     """
     size = float(np.linalg.norm(np.ptp(np.concatenate([part.box for part in parts]), axis=0)))
     flat = view.axes[:2].T @ view.axes[:2] if view.planar else np.eye(3)  # points one behind the other look the same
-
-    def path(part: str, point: Vector) -> Float[np.ndarray, "poses 3"]:
-        return move(displacements, part, point) @ flat
-
-    marks, paths = [], []
     ends: dict[str, list[Vector]] = {part.name: [] for part in parts}
-    covered: set[str] = set()
+    marks, paths, covered = [], [], set()
     for joint in mechanism.joints.values():
-        first, second = (np.asarray(frames[0, :3, 3], float) for frames in (joint.before, joint.after))
-        pair = dict(zip(joint.parts, (first, second), strict=True))
-        for part, point in pair.items():
+        points = {joint.parts[0]: joint.before[0, :3, 3], joint.parts[1]: joint.after[0, :3, 3]}
+        points = {part: np.asarray(point, float) for part, point in points.items()}
+        for part, point in points.items():
             ends[part].append(point)
-        track = path(joint.parts[0], first)
-        together = np.abs(track - path(joint.parts[1], second)).max() < SAME * size
-        if not together or _short(track, size):
+        one, other = (move(displacements, part, point) @ flat for part, point in points.items())
+        if _gap(one, other) > SAME * size or _extent(one) < SAME * size:
             continue
-        part = next((name for name in pair if name not in covered), joint.parts[0])
-        covered |= {*pair}
-        if not any(np.abs(track - other).max() < SAME * size for other in paths):
-            marks.append((part, pair[part]))
-            paths.append(track)
-    grounded = {
-        part for joint in mechanism.joints.values() if set(joint.parts) & {*mechanism.fixed} for part in joint.parts
-    }
+        part = next((name for name in points if name not in covered), joint.parts[0])
+        covered |= {*points}
+        if all(_gap(one, path) > SAME * size for path in paths):
+            marks.append((part, points[part]))
+            paths.append(one)
+    held = {name for joint in mechanism.joints.values() if {*joint.parts} & {*mechanism.fixed} for name in joint.parts}
     for part in parts:
-        if part.name in covered & grounded or part.name in mechanism.fixed:
+        if part.name in mechanism.fixed or part.name in covered & held:
             continue
         point, distance = _farthest(part, np.array(ends[part.name]).reshape(-1, 3), flat)
-        track = path(part.name, point)
-        if distance > NEAR * np.linalg.norm(np.ptp(part.box, axis=0)) and not _short(track, size):
+        path = move(displacements, part.name, point) @ flat
+        if distance > NEAR * np.linalg.norm(np.ptp(part.box, axis=0)) and _extent(path) > SAME * size:
             marks.append((part.name, point))
-            paths.append(track)
-    longest = np.argsort([-_length(track) for track in paths], kind="stable")[:MOST]
-    return [marks[index] for index in sorted(longest)]
+            paths.append(path)
+    longest = np.argsort([-np.linalg.norm(np.diff(path, axis=0), axis=1).sum() for path in paths], kind="stable")
+    return [marks[index] for index in sorted(longest[:MOST])]
 
 
 def _farthest(part: Part, joints: Float[np.ndarray, "joints 3"], flat: np.ndarray) -> tuple[Vector, float]:
@@ -89,9 +84,9 @@ def _farthest(part: Part, joints: Float[np.ndarray, "joints 3"], flat: np.ndarra
     return corners[index], float(gaps[index])
 
 
-def _length(path: Float[np.ndarray, "poses 3"]) -> float:
-    return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
+def _gap(one: Float[np.ndarray, "poses 3"], other: Float[np.ndarray, "poses 3"]) -> float:
+    return float(np.abs(one - other).max())
 
 
-def _short(path: Float[np.ndarray, "poses 3"], size: float) -> bool:
-    return bool(np.ptp(path, axis=0).max() < SAME * size)
+def _extent(path: Float[np.ndarray, "poses 3"]) -> float:
+    return float(np.ptp(path, axis=0).max())

@@ -5,7 +5,7 @@ from jaxkin.view.camera import View
 from jaxkin.view.illustration import FINE, PAPER, Canvas, compose, draw
 
 FRONT = View(np.eye(3), planar=True)
-CANVAS = Canvas(FRONT, corner=np.array([0.0, 8.0]), scale=10.0, height=80, width=120)  # x in 0..12, y in 0..8
+CANVAS = Canvas(FRONT, corner=np.array([0.0, 8.0, 0.0]), scale=10.0, height=80, width=120)  # x in 0..12, y in 0..8
 RED, BLUE = (0.8, 0.2, 0.1), (0.1, 0.2, 0.8)
 
 

@@ -5,9 +5,12 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from jaxkin.view.storyboard import CAPTION, GAP, HEAD, MARGIN, WIDTHS, storyboard
+from jaxkin.joints.pairs import revolute
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.view.sheet import CAPTION, GAP, HEAD, MARGIN
+from jaxkin.view.storyboard import WIDTHS, storyboard
 from reference.planar import fourbar
-from view.bars import COLORS, TURN
+from view.bars import COLORS, TURN, box
 
 
 def draw(motion, folder, **options):
@@ -23,6 +26,7 @@ def where(image, color):
 
 def test_six_panels_in_two_rows_with_every_part_in_its_colour(four_bar, tmp_path):
     image = draw(four_bar, tmp_path)
+    assert np.array_equal(image, draw(four_bar, tmp_path, poses=[0, 10, 20, 30, 40, 50]))  # 360 is 0
     width = 2 * MARGIN + 3 * WIDTHS[3] + 2 * GAP
     assert image.shape[1] == width and 600 < image.shape[0] < width
     assert (image[[0, -1]] == 1).all() and (image[:, [0, -1]] == 1).all()  # a white margin
@@ -87,3 +91,18 @@ def test_the_picture_is_the_same_in_another_unit(sticks, small, tmp_path):
 def test_a_motion_in_space_is_drawn_too(crane, tmp_path):
     image = draw(crane, tmp_path)
     assert 0.02 < (image[HEAD:] < 0.9).any(axis=-1).mean() < 0.6
+
+
+def test_any_name_of_a_part_is_drawn(tmp_path):
+    names = ["_hidden", "a $ b $ c", "x" * 200, "\u30af\u30e9\u30f3\u30af"]  # the last: a crank, in katakana
+    colors = [(0.8, 0.2, 0.2), (0.2, 0.2, 0.8), (0.2, 0.6, 0.2), (0.7, 0.2, 0.7)]
+    joints = [revolute(name, "ground", name, point=(0, 0, 0), axis=(0, 0, 1)) for name in names]
+    solids = [box("ground", [-5, -5, -5], [5, 5, 0])]
+    solids += [box(name, [-1, -1, i], [9, 1, i + 1], colors[i]) for i, name in enumerate(names)]
+    mechanism = replace(Mechanism.build(fixed=["ground"], joints=joints), solids=tuple(solids))
+    legend = draw(mechanism.sweep({name: np.array([0.3]) for name in names}), tmp_path)[-200:]
+    for color in colors:
+        swatch = where(legend, color)
+        middle, right = int(swatch[:, 0].mean()), swatch[:, 1].max()
+        assert len(swatch) > 100
+        assert (legend[middle - 8 : middle + 8, right + 12 : right + 60] < 0.6).any()  # letters beside it

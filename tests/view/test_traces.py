@@ -65,7 +65,7 @@ def test_points_of_the_user_replace_the_choice(four_bar):
 def test_points_on_no_part_or_of_no_place_are_refused():
     with pytest.raises(ValueError, match=r"'cupler'.*did you mean 'coupler'"):
         given_marks({"cupler": (0, 0, 0)}, ["crank", "coupler"])
-    for wrong in ((1.0, 2.0), (1.0, 2.0, np.nan), [[[1.0, 2.0, 3.0]]]):
+    for wrong in ((1.0, 2.0), (1.0, 2.0, np.nan), [[[1.0, 2.0, 3.0]]], "tip"):
         with pytest.raises(ValueError, match=r"points\['crank'\] must be one finite \(x, y, z\)"):
             given_marks({"crank": wrong}, ["crank"])
 
