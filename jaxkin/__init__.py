@@ -1,9 +1,9 @@
 """jaxkin: differentiable kinematics of closed-loop mechanisms, from solid models to joints, loops and motion.
 
-    assembly = jk.load("fourbar.step")
-    mechanism = assembly.mechanism(fixed=["ground"])
-    motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
-    motion.save("out/")
+assembly = jk.load("fourbar.step")
+mechanism = assembly.mechanism(fixed=["ground"])
+motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
+motion.save("out/")
 """
 
 from jaxkin.io import gltf as _gltf  # the writers of a motion register themselves

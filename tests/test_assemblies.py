@@ -8,10 +8,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from reference import planar
 
 import jaxkin as jk
 from jaxkin.examples import EXAMPLES, path
+from reference import planar
 
 TURN = np.linspace(0.0, 2 * np.pi, 3600)
 HINGES = {"fourbar": "ground-crank", "slider_crank": "ground-crank", "cam": "cam-frame"}
@@ -22,7 +22,9 @@ def expected(name, turn):
     size = EXAMPLES[name].dimensions
     angles = size["angle"] + turn
     if name == "fourbar":
-        rocker = np.unwrap(planar.fourbar(angles, size["ground"], size["crank"], size["coupler"], size["rocker"]).rocker)
+        rocker = np.unwrap(
+            planar.fourbar(angles, size["ground"], size["crank"], size["coupler"], size["rocker"]).rocker
+        )
         return "ground-rocker", rocker - rocker[0]
     if name == "slider_crank":
         slider = planar.slider_crank(angles, size["crank"], size["rod"], size["offset"]).slider

@@ -1,8 +1,8 @@
 """The paper's allowable movements T_z, T_phi, T_z_phi, T_xy_phi, T_theta_phi, T_theta_phi_psi (Section 3) in JAX.
 
 Each movement displaces a local frame; `x, y, z` are translations along and `theta, phi, psi` rotations about its axes.
-The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is written once,
-as a product of elementary ones (`MOVEMENTS`); its 4x4 matrix and everything that the solver needs follow from that.
+The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is written
+once, as a product of elementary ones (`MOVEMENTS`); its 4x4 matrix and all that the solver needs follow from that.
 `T_screw`, the helical pair, and `I`, no movement, are not in the paper.
 """
 
@@ -38,7 +38,7 @@ class Movement:
     coordinates: tuple[str, ...]
     elements: tuple[Element, ...]
     ball: bool = False
-    """True where the elements are the three angles of a ball: solved without angles, since they lock at phi = 90 deg."""
+    """True where the elements are the angles of a ball: solved without angles, since they lock at phi = 90 deg."""
 
 
 def _translate(axis: int, coordinate: int) -> Element:

@@ -17,6 +17,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.traced import traced
 
 Array = np.ndarray | jax.Array
 
@@ -61,13 +62,17 @@ jax.tree_util.register_dataclass(
 
 
 def joint(
-    name: str, parts: tuple[str, str], kind: str, movements: tuple[str, ...], frames: Sequence[Array] | Array, pitch: float | int | Array = 0.0
+    name: str,
+    parts: tuple[str, str],
+    kind: str,
+    movements: tuple[str, ...],
+    frames: Sequence[Array] | Array,
+    pitch: float | int | Array = 0.0,
 ) -> Joint:
     """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 
     Numbers stay float64 on the host until JAX computes with them; numbers that JAX traces stay traced.
     """
-    leaves = jax.tree.leaves((frames, pitch))
-    xp = jnp if any(isinstance(leaf, jax.core.Tracer) for leaf in leaves) else np
+    xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
     return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float))

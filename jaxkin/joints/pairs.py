@@ -15,6 +15,7 @@ import numpy as np
 
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import frame
+from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint, joint
 
 Triple = Sequence[float | int] | np.ndarray | jax.Array
@@ -54,7 +55,7 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
     pose = _frame(name, point, axis1, "axis1")
     x = _frame(name, point, axis2, "axis2")[:3, 2]
     y = pose[:3, 2]
-    if not _traced(point, axis1, axis2) and abs(float(x @ y)) > 1e-6:
+    if not traced(point, axis1, axis2) and abs(float(x @ y)) > 1e-6:
         raise ValueError(
             f"joint {name!r}: axis1 and axis2 of a universal joint must be perpendicular, the cosine between them is "
             f"{float(x @ y):.3g}; use two revolute joints and a part between them for a skew cross"
@@ -102,13 +103,9 @@ def contact_joint(
     return joint(name, (part1, part2), f"contact {state}", movements, frames)
 
 
-def _traced(*values: object) -> bool:
-    return any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(values))
-
-
 def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:
     """The frame with its z axis along the axis; numbers that JAX traces are taken as they are, others are checked."""
-    if _traced(point, axis):
+    if traced(point, axis):
         return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
     checked = {}
     for label, value in (("point", point), (what, axis)):

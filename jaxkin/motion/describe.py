@@ -9,14 +9,19 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     """Joints with their parts and freedoms, loops as paths, mobility, and what was noted on the way from solids."""
     unit = f", lengths in {mechanism.unit}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
-    lines = [f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {', '.join(mechanism.fixed)}{unit}", ""]
+    lines = [
+        f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {', '.join(mechanism.fixed)}{unit}",
+        "",
+    ]
     rows = [("joint", "parts", "kind", "coordinates")]
     rows += [
         (joint.name, " - ".join(joint.parts), joint.kind, ", ".join(joint.coordinates) or "none")
         for joint in mechanism.all_joints
     ]
     widths = [max(len(row[i]) for row in rows) for i in range(4)]
-    lines += ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines += [
+        "  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows
+    ]
     lines += ["", f"Loops: {len(mechanism.structure.loops)}"]
     lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     lines += ["", f"Mobility: {mechanism.mobility()}"]

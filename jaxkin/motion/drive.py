@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.traced import traced
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.names import nearest
 
@@ -83,7 +84,7 @@ def _values(key: str, values: object) -> Float[Array, " poses"]:
             f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "
             f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
         )
-    if not isinstance(values, jax.core.Tracer) and not np.all(np.isfinite(np.asarray(values))):
+    if not traced(values) and not np.all(np.isfinite(np.asarray(values))):
         first = int(np.flatnonzero(~np.isfinite(np.asarray(values)))[0])
         raise ValueError(
             f"drive {key!r}: pose {first} is {float(values[first])}; all displacements must be finite numbers"

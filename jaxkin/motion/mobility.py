@@ -72,7 +72,9 @@ def _idle(mechanism: Mechanism, block: Block, motions: np.ndarray) -> list[str]:
         if part in mechanism.fixed or len(neighbours) < 2:
             continue
         elsewhere = [i for i, (joint, _) in enumerate(owners) if joint not in around]
-        _, values, combinations = np.linalg.svd(motions[:, elsewhere].T) if elsewhere else (0, np.zeros(0), np.eye(len(motions)))
+        _, values, combinations = (
+            np.linalg.svd(motions[:, elsewhere].T) if elsewhere else (0, np.zeros(0), np.eye(len(motions)))
+        )
         alone = combinations[int((values > 1e-6).sum()) :] @ motions
         for column, (joint, name) in enumerate(owners):
             if np.any(np.abs(alone[:, column]) > 1e-6):

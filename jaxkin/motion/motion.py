@@ -69,15 +69,15 @@ class Motion:
             raise ValueError(f"a point must be three numbers (x, y, z), got shape {point.shape}")
         return jnp.einsum("pij,j->pi", transforms[:, :3, :3], point) + transforms[:, :3, 3]
 
-    def save(
-        self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None
-    ) -> tuple[Path, ...]:
-        """Write tables, animation and pictures into a directory; returns the paths. See `jaxkin.motion.writers.save`."""
+    def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
+        """Write tables, animation and pictures into a directory; returns the paths. See `motion.writers.save`."""
         return writers.save(self, directory, only)
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        lines = [f"Motion of {len(self.mechanism.parts)} parts over {len(self)} poses, driven by {', '.join(self.inputs)}"]
+        lines = [
+            f"Motion of {len(self.mechanism.parts)} parts over {len(self)} poses, driven by {', '.join(self.inputs)}"
+        ]
         lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
         if counts[Status.CLOSED]:
             largest = float(np.max(np.asarray(self.residual)[np.asarray(self.closed)]))

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.drive import Driven, resolve
 from jaxkin.motion.mechanism import Mechanism
@@ -77,7 +78,7 @@ def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded
     program is compiled for their length anyway.
     """
     poses = inputs.shape[1]
-    if isinstance(inputs, jax.core.Tracer):
+    if traced(inputs):
         return inputs
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
@@ -86,10 +87,7 @@ def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded
 
 def _edited(joints: list[Joint]) -> bool:
     """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
-    leaves = jax.tree.leaves(joints)
-    if any(isinstance(leaf, jax.core.Tracer) for leaf in leaves):
-        return True
-    return any(not np.array_equal(joint.before, joint.after) for joint in joints)
+    return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
 
 
 def _worst(solutions: list[Solution], like: Float[Array, " poses"]) -> tuple[Array, Array]:
@@ -108,7 +106,7 @@ _warned = False
 
 def _warn_of_float32() -> None:
     global _warned  # noqa: PLW0603
-    if _warned or jax.config.jax_enable_x64:
+    if _warned or jnp.zeros(()).dtype == jnp.float64:
         return
     _warned = True
     warnings.warn(

@@ -22,8 +22,13 @@ def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, in
     return LoopSystem(tuple(joint.movements for joint in joints), loops, columns)
 
 
-def block_arrays(mechanism: Mechanism, block: Block, dtype) -> tuple[tuple[Array, ...], ...]:
+Arrays = tuple[Array, ...]
+
+
+def block_arrays(mechanism: Mechanism, block: Block, dtype) -> tuple[Arrays, Arrays, Arrays]:
     """Frames before, frames after and pitches of the block's joints, on the device."""
     joints = [mechanism.all_joints[joint] for joint in block.joints]
-    before, after, pitch = ([jnp.asarray(getattr(joint, leaf), dtype) for joint in joints] for leaf in ("before", "after", "pitch"))
+    before, after, pitch = (
+        [jnp.asarray(getattr(joint, leaf), dtype) for joint in joints] for leaf in ("before", "after", "pitch")
+    )
     return tuple(before), tuple(after), tuple(pitch)

@@ -6,11 +6,12 @@ from functools import cache, partial
 
 import jax
 
+from jaxkin.geometry.traced import traced
 from jaxkin.solve.sweep import Solution, solve_system
 from jaxkin.solve.system import LoopSystem
 
 OPTIONS = {"xla_cpu_use_fusion_emitters": False}
-"""With its newer emitters XLA takes 1.7 times as long to compile the solver for the CPU, and the program is no faster."""
+"""With its newer emitters XLA takes 1.7 times as long to compile the solver for the CPU, for a program no faster."""
 
 
 def solve(system: LoopSystem, before, after, pitch, inputs) -> Solution:
@@ -19,8 +20,7 @@ def solve(system: LoopSystem, before, after, pitch, inputs) -> Solution:
     Inside a program that is being traced it becomes part of that: options are for whole programs only.
     """
     arrays = (before, after, pitch, inputs)
-    traced = any(isinstance(leaf, jax.core.Tracer) for leaf in jax.tree.leaves(arrays))
-    return (part if traced else whole())(system, *arrays)
+    return (part if traced(arrays) else whole())(system, *arrays)
 
 
 part = partial(jax.jit, static_argnums=0)(solve_system)

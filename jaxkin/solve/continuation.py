@@ -100,7 +100,9 @@ def substep(
     inputs = jnp.where(moved >= left, target, here + (target - here) * (moved / jnp.where(left > 0, left, 1.0)))
     inputs = jnp.where(following | in_gap, inputs, here)
 
-    along = jax.tree.map(lambda x, d: x + jnp.where(following & front.has_secant, moved, 0.0) * d, front.state, front.secant)
+    along = jax.tree.map(
+        lambda x, d: x + jnp.where(following & front.has_secant, moved, 0.0) * d, front.state, front.secant
+    )
     across = jax.tree.map(lambda x, b: 2 * b - x, front.state, front.before_gap)
     predicted = choose(mirroring, across, along)
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)

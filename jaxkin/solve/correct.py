@@ -45,7 +45,11 @@ def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equation
 
 def spread(system: LoopSystem, free: Float[Array, "free poses"]) -> Float[Array, "columns poses"]:
     """A change of the free coordinates as a change of all, the driven ones at rest."""
-    return jnp.zeros((system.columns, *free.shape[1:]), free.dtype).at[jnp.array(system.free, int)].set(free, unique_indices=True)
+    return (
+        jnp.zeros((system.columns, *free.shape[1:]), free.dtype)
+        .at[jnp.array(system.free, int)]
+        .set(free, unique_indices=True)
+    )
 
 
 def floor(dtype) -> float:

@@ -1,8 +1,8 @@
 """Derivatives of closed poses by the implicit function theorem.
 
 A closed pose satisfies r(geometry, inputs, free coordinates) = 0, so its free coordinates change by the least-norm
-solution of `J delta = -dr`: forward, reverse and nested, without differentiating any iteration. Poses that did not close
-have no derivative: theirs is zero, and none of their numbers enters that of the others.
+solution of `J delta = -dr`: forward, reverse and nested, without differentiating any iteration. Poses that did not
+close have no derivative: theirs is zero, and none of their numbers enters that of the others.
 """
 
 from __future__ import annotations
@@ -22,7 +22,11 @@ from jaxkin.solve.system import LoopSystem
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
 def attach(
-    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], solved: State, closed: Bool[Array, " poses"]
+    system: LoopSystem,
+    geometry: Geometry,
+    inputs: Float[Array, "driven poses"],
+    solved: State,
+    closed: Bool[Array, " poses"],
 ) -> State:
     """The solved state, as the differentiable function of geometry and inputs that it is where `closed` holds."""
     del geometry, inputs, closed

@@ -12,8 +12,8 @@ from jax import lax
 from jaxtyping import Array, Float
 
 UNROLLED, MANY = 9, 1024
-"""Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for fewer poses it
-is not worth the time that it takes to compile."""
+"""Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
+fewer poses it is not worth the time that it takes to compile."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
@@ -48,7 +48,9 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
     pivots: list[Array] = []
     for j in range(n):
         column = [jnp.sum(jacobian[i] * jacobian[j], axis=0) for i in range(j, n)]
-        column = [entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)]
+        column = [
+            entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)
+        ]
         pivots.append(column[0] + damping)
         for i in range(j + 1, n):
             lower[i, j] = column[i - j] / pivots[j]

@@ -18,7 +18,7 @@ Quaternions = Float[Array, "balls 4 poses"]
 
 
 class State(NamedTuple):
-    """Coordinates of all joints (radians and scaled lengths; the columns of balls are unused) and turns of the balls."""
+    """Coordinates of all joints (radians, scaled lengths; the columns of balls are unused) and turns of the balls."""
 
     x: Coordinates
     turns: Quaternions
@@ -32,7 +32,7 @@ def assembled(system: LoopSystem, poses: int, dtype) -> State:
 
 
 def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
-    """The state moved by `delta`: added to coordinates, applied as a rotation vector on the left of each ball's turn."""
+    """The state moved by `delta`: added to coordinates, a rotation vector on the left of each ball's turn."""
     x, turns = state.x + delta, state.turns
     for ball, first in _free_balls(system):
         turn = multiply(exponential(delta[first : first + 3]), turns[ball])
@@ -127,7 +127,9 @@ def angles(turn: Float[Array, "4 poses"]) -> Float[Array, "3 poses"]:
     sin_phi = jnp.clip(-columns[0][2], -1.0, 1.0)
     locked = jnp.abs(sin_phi) > 1.0 - 1e-14
     one = jnp.ones_like(sin_phi)
-    theta = jnp.where(locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, columns[1][2]), jnp.where(locked, one, columns[2][2])))
+    theta = jnp.where(
+        locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, columns[1][2]), jnp.where(locked, one, columns[2][2]))
+    )
     psi_sin = jnp.where(locked, -columns[1][0], columns[0][1])
     psi_cos = jnp.where(locked, columns[1][1], columns[0][0])
     cos_phi = jnp.sqrt(jnp.where(locked, 1.0, columns[0][0] ** 2 + columns[0][1] ** 2))

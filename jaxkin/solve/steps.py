@@ -61,7 +61,7 @@ def steps(system: LoopSystem) -> Steps:
         if ball < len(system.balls):
             first = system.balls[ball]
             source[first : first + 3, loop] = 4 * step + 1 + np.arange(3)
-    return Steps(*tables, source)
+    return Steps._make([*tables, source])
 
 
 def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[int, ...]]:

@@ -29,7 +29,7 @@ FEWEST_KNOTS, MOST_KNOTS = 512, 65536
 takes about fifty."""
 NEWTON_STEPS = 2
 FARTHEST_CORRECTION = 0.02
-"""Radians, or characteristic lengths: a pose that lies farther from its prediction is not trusted to be on the branch."""
+"""Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
 GROUP = 256
 
 
@@ -37,7 +37,7 @@ class Solution(NamedTuple):
     """Poses of one loop system."""
 
     coordinates: Float[Array, "columns poses"]
-    """Displacements of all joints, in radians and in the unit of the mechanism; least-residual ones where not closed."""
+    """Displacements of all joints, in radians and lengths of the mechanism; of least residual where not closed."""
     status: Int[Array, " poses"]
     gap: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length."""
@@ -105,7 +105,12 @@ def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 pos
         closed = closure(system, geometry, state)
         better = closed.gap < least
         best = jax.tree.map(lambda new, old: jnp.where(better, new, old), state, best)
-        return retract(system, state, newton_step(system, closed)), closed.gap, best, jnp.where(better, closed.gap, least)
+        return (
+            retract(system, state, newton_step(system, closed)),
+            closed.gap,
+            best,
+            jnp.where(better, closed.gap, least),
+        )
 
     unknown = jnp.full_like(values, jnp.inf)
     _, _, state, gap = lax.fori_loop(0, NEWTON_STEPS + 1, newton, (predicted, unknown, predicted, unknown))
@@ -140,11 +145,15 @@ def _follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses
         front, final = substep(system, geometry, front, target)
         row = jnp.where(final & (count < room), count, room)  # out of bounds is dropped
         entry = (front.state, front.slope, front.status)
-        kept = jax.tree.map(lambda store, new: store.at[row, ..., lanes].set(jnp.moveaxis(new, -1, 0), mode="drop"), kept, entry)
+        kept = jax.tree.map(
+            lambda store, new: store.at[row, ..., lanes].set(jnp.moveaxis(new, -1, 0), mode="drop"), kept, entry
+        )
         return front, count + final, kept
 
     front, count, kept = lax.while_loop(running, step, (front, jnp.zeros(2, int), kept))
-    used = jnp.minimum(jnp.arange(room)[:, None], jnp.minimum(count, room) - 1)  # rows that were not used repeat the last
+    used = jnp.minimum(
+        jnp.arange(room)[:, None], jnp.minimum(count, room) - 1
+    )  # rows that were not used repeat the last
 
     def row(store: Array) -> Array:
         falling, rising = store[used[::-1, 0], ..., 0], store[used[:, 1], ..., 1]
@@ -193,11 +202,12 @@ def _hermite(system: LoopSystem, knots: _Knots, left: Int[Array, " poses"], valu
     weights = ((1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * width, t * t * (3 - 2 * t), t * t * (t - 1) * width)
 
     def blend(x: Array, d: Array) -> Array:
-        parts = (x[..., left], d[..., left], x[..., left + 1], d[..., left + 1])
-        return sum(weight * part for weight, part in zip(weights, parts, strict=True))
+        start, end = weights[0] * x[..., left] + weights[1] * d[..., left], weights[2] * x[..., left + 1]
+        return start + end + weights[3] * d[..., left + 1]
 
     curve = jax.tree.map(blend, knots.state, knots.slope)
-    first, last = (jax.tree.map(lambda x: x[..., knot], knots.state) for knot in (left, left + 1))
+    first = jax.tree.map(lambda x: x[..., left], knots.state)
+    last = jax.tree.map(lambda x: x[..., left + 1], knots.state)
     chord = jax.tree.map(lambda a, b: a + t * (b - a), first, last)
     # at a change point the tangent is not unique and the slope of its knot says nothing: keep to the chord there
     smooth = difference(curve, chord) <= 0.25 * difference(first, last)

@@ -5,6 +5,9 @@ Tolerance: 1e-9 of the size is asked for; rounding leaves about 1e-14 away from 
 
 import numpy as np
 import pytest
+
+from jaxkin.joints.pairs import cylindrical
+from reference import higher_pairs, planar, spatial
 from reference.mechanisms import (
     ball_in_bore,
     bennett_linkage,
@@ -15,9 +18,6 @@ from reference.mechanisms import (
     slider_crank,
     spherical_linkage,
 )
-from reference import higher_pairs, planar, spatial
-
-from jaxkin.joints.pairs import cylindrical
 
 TURN = np.linspace(0.0, 2 * np.pi, 3600)
 

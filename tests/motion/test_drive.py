@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from reference.mechanisms import cam, planar_fourbar, rssr_linkage
 
 from jaxkin.joints.pairs import cylindrical
 from jaxkin.motion.drive import resolve
+from reference.mechanisms import cam, planar_fourbar, rssr_linkage
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_a_joint_of_several_coordinates_asks_which():
 
 
 def test_a_ball_is_driven_whole():
-    with pytest.raises(ValueError, match="drive all of 'B.theta', 'B.phi', 'B.psi', or none"):
+    with pytest.raises(ValueError, match=r"drive all of 'B\.theta', 'B\.phi', 'B\.psi', or none"):
         resolve(rssr_linkage(), {"B.phi": [0.1]})
 
 

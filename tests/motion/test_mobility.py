@@ -1,6 +1,8 @@
 """Mobility from the rank, where counting is wrong too."""
 
 import pytest
+
+from jaxkin.joints.pairs import cylindrical
 from reference.mechanisms import (
     ball_in_bore,
     bennett_linkage,
@@ -11,8 +13,6 @@ from reference.mechanisms import (
     slider_crank,
     spherical_linkage,
 )
-
-from jaxkin.joints.pairs import cylindrical
 
 
 @pytest.mark.parametrize(

@@ -4,13 +4,13 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from reference import planar
-from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
 
 from jaxkin.joints.pairs import prismatic, revolute, spherical
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.sweep import sweep
 from jaxkin.solve.status import Status
+from reference import planar
+from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
 
 NON_GRASHOF = {"ground": 40.0, "crank": 20.0, "coupler": 25.0, "rocker": 30.0}
 LIMIT = np.arccos((40.0**2 + 20.0**2 - 55.0**2) / (2 * 40.0 * 20.0))
@@ -138,8 +138,12 @@ def test_an_open_chain_moves_without_being_solved():
 def test_only_loops_that_are_driven_are_solved():
     """A second loop on its own, not driven, stays at rest exactly."""
     driven, other = planar_fourbar(1.0), planar_fourbar(2.0)
-    renamed = [revolute(f"{j.name}2", *(p if p == "ground" else f"{p}2" for p in j.parts), point=j.before[0][:3, 3],
-                        axis=(0, 0, 1)) for j in other.all_joints]
+    renamed = [
+        revolute(
+            f"{j.name}2", *(p if p == "ground" else f"{p}2" for p in j.parts), point=j.before[0][:3, 3], axis=(0, 0, 1)
+        )
+        for j in other.all_joints
+    ]
     both = Mechanism.build(fixed=["ground"], joints=[*driven.all_joints, *renamed])
     motion = both.sweep({"A": np.linspace(0.0, 1.0, 10)})
     for joint in ("A2", "B2", "C2", "D2"):
@@ -151,8 +155,11 @@ def test_only_loops_that_are_driven_are_solved():
 def test_a_ball_driven_by_its_three_angles():
     mechanism = Mechanism.build(fixed=["base"], joints=[spherical("ball", "base", "stick", point=(0, 0, 0))])
     motion = mechanism.sweep({"ball.theta": [0.1], "ball.phi": [0.2], "ball.psi": [0.3]})
-    np.testing.assert_allclose(motion.points("stick", (1, 0, 0))[0], [
-        np.cos(0.3) * np.cos(0.2), np.sin(0.3) * np.cos(0.2), -np.sin(0.2)], atol=1e-15)
+    np.testing.assert_allclose(
+        motion.points("stick", (1, 0, 0))[0],
+        [np.cos(0.3) * np.cos(0.2), np.sin(0.3) * np.cos(0.2), -np.sin(0.2)],
+        atol=1e-15,
+    )
 
 
 def test_the_rod_of_an_rssr_does_not_spin():

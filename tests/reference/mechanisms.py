@@ -1,11 +1,11 @@
 """Mechanisms by hand, in world coordinates, for which `reference` holds closed forms. Lengths in mm."""
 
 import numpy as np
-from reference.planar import FourBar, fourbar
-from reference.spatial import bennett, bennett_length, rssr, spherical_fourbar
 
 from jaxkin.joints.pairs import contact_joint, prismatic, revolute, spherical, universal
 from jaxkin.motion.mechanism import Mechanism
+from reference.planar import FourBar, fourbar
+from reference.spatial import bennett, bennett_length, rssr, spherical_fourbar
 
 Z = (0.0, 0.0, 1.0)
 
@@ -50,7 +50,9 @@ def cam(theta=np.pi / 6, radius=15.0, eccentricity=5.0) -> Mechanism:
     """The paper's Fig. 6: eccentric disc under a flat-faced follower, contact state (b)."""
     centre = np.array([eccentricity * np.cos(theta), eccentricity * np.sin(theta), 6.0])
     foot = np.eye(4)
-    foot[:3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]).T  # z1 along the normal -y of the foot
+    foot[:3, :3] = np.array(
+        [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]
+    ).T  # z1 along the normal -y of the foot
     foot[:3, 3] = centre + [0.0, radius, 0.0]
     disc = np.eye(4)
     disc[:3, 3] = centre
@@ -84,7 +86,9 @@ def bennett_linkage(theta=0.9, twist=0.7, other_twist=1.2, length=60.0) -> Mecha
     other = bennett_length(length, twist, other_twist)
     pose, joints = np.eye(4), []
     links = ["ground", "first", "second", "third", "ground"]
-    for i, (angle, distance, tilt) in enumerate(zip(angles, (length, other) * 2, (twist, other_twist) * 2, strict=True)):
+    for i, (angle, distance, tilt) in enumerate(
+        zip(angles, (length, other) * 2, (twist, other_twist) * 2, strict=True)
+    ):
         joints.append(revolute("ABCD"[i], links[i], links[i + 1], point=pose[:3, 3], axis=pose[:3, 2]))
         pose = pose @ denavit_hartenberg(angle, distance, tilt)
     return Mechanism.build(fixed=["ground"], joints=joints)
