@@ -10,6 +10,8 @@ from jaxtyping import Float
 from jaxkin.motion.motion import Motion
 from jaxkin.solve.status import Status
 
+LISTED = 3  # driven displacements that are told; there may be many, and no place for them
+
 
 @dataclass(frozen=True, eq=False)
 class Input:
@@ -35,8 +37,8 @@ def inputs(motion: Motion) -> tuple[Input, ...]:
 
 
 def named(inputs: tuple[Input, ...], pose: int) -> str:
-    """All driven displacements at a pose, with their names."""
-    return ", ".join(f"{entry.name} {entry.at(pose)}" for entry in inputs)
+    """The driven displacements at a pose, with their names; of many the first ones."""
+    return _some([f"{entry.name} {entry.at(pose)}" for entry in inputs], ", ")
 
 
 def title(inputs: tuple[Input, ...], pose: int) -> str:
@@ -46,7 +48,7 @@ def title(inputs: tuple[Input, ...], pose: int) -> str:
 
 def headline(motion: Motion) -> tuple[str, str]:
     """What drives the motion over which range, and how many of its poses could be closed."""
-    drives = "; ".join(f"{entry.name}, {_range(entry)}" for entry in inputs(motion))
+    drives = _some([f"{entry.name}, {_range(entry)}" for entry in inputs(motion)], "; ")
     status = np.asarray(motion.status)[~np.asarray(motion.closed)]
     facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]
     if len(status):
@@ -55,6 +57,11 @@ def headline(motion: Motion) -> tuple[str, str]:
         facts.append(f"not drawn: {', '.join(causes)}")
     facts.append(f"lengths in {motion.mechanism.unit or 'the unit of the input'}")
     return f"Motion driven by {drives}", "  ·  ".join(facts)
+
+
+def _some(texts: list[str], comma: str) -> str:
+    more = len(texts) - LISTED
+    return comma.join(texts) if more <= 0 else f"{comma.join(texts[:LISTED])} and {more} more"
 
 
 def _range(entry: Input) -> str:

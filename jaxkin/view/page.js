@@ -24,7 +24,8 @@ function play(on) {
 function step(now) {
   if (!playing) return;
   const end = closed.length - 1;
-  place += direction * Math.min(now - last, 100) * Math.max(end, 1) / DURATION;
+  const passed = Math.min(Math.max(now - last, 0), 100);  // a frame may be timed a little before the click that asked for it
+  place += direction * passed * end / DURATION;
   last = now;
   if (motion.cyclic) place %= end;
   else if (place >= end || place <= 0) [place, direction] = place <= 0 ? [0, 1] : [end, -1];
@@ -101,7 +102,7 @@ function start() {
   $("subtitle").textContent = motion.subtitle;
   const last = motion.labels.length - 1, stop = i => `${Math.min(100, Math.max(0, 100 * i / Math.max(last, 1)))}%`;
   $("slider").max = last;
-  $("value").style.minWidth = `${Math.max(...motion.labels.map(label => label.length))}ch`;
+  $("value").style.minWidth = `${Math.min(24, Math.max(...motion.labels.map(label => label.length)))}ch`;
   $("play").disabled = closed.length < 2;
   $("face").hidden = !motion.planar;
   $("slider").style.background = `linear-gradient(to right, ${motion.problems.map((problem, i) =>

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Color = tuple[float, float, float]
+Place = tuple[float | int, float | int]
 
 DPI = 150
 MARGIN, GAP, HEAD, CAPTION, FOOT, LINE = 54, 36, 122, 44, 64, 34
@@ -38,9 +39,7 @@ class Sheet(NamedTuple):
         row, column = divmod(index, self.columns)
         return MARGIN + column * (self.canvas.width + GAP), HEAD + row * (self.canvas.height + CAPTION + GAP)
 
-    def write(
-        self, at: tuple[float | int, int], text: str, size: int, color: Color, weight="normal", ha="left"
-    ) -> None:
+    def write(self, at: Place, text: str, size: int, color: Color, weight="normal", ha="left") -> None:
         """One line of text that begins at a point (or as `ha` says), halfway up; a dollar sign is one."""
         self.axes.text(*at, text, size=size, color=color, weight=weight, ha=ha, va="center", parse_math=False)
 
@@ -66,8 +65,9 @@ def make_sheet(canvas: Canvas, columns: int, rows: int, entries: list[tuple[Arti
 
 def _columns(entries: list[tuple[Artist, str]], width: int) -> int:
     """How many entries fit in a line of the legend, beside the scale."""
-    longest = max(len(label) for _, label in entries)
-    return min(len(entries), max(1, int(0.8 * width) // (75 + 13 * longest)))
+    widths = [75 + 11 * len(label) for _, label in entries]  # symbol and gaps, and letters of the legend's size
+    room = int(0.8 * width)
+    return len(entries) if sum(widths) <= room else max(1, room // max(widths))
 
 
 def draw_legend(sheet: Sheet, entries: list[tuple[Artist, str]]) -> None:

@@ -50,7 +50,7 @@ def storyboard(
     sheet = make_sheet(_canvas(scene, WIDTHS[columns]), columns, -(-len(shown) // columns) or 1, entries)
     _panels(sheet, scene, inputs(motion), shown)
     first, second = headline(motion)
-    sheet.write((MARGIN, 50), clip(first, sheet.width // 15), 13, INK, weight="bold")
+    sheet.write((MARGIN, 50), clip(first, sheet.width // 18), 13, INK, weight="bold")
     sheet.write((MARGIN, 87), second, 9, GREY)
     draw_legend(sheet, entries)
     draw_scale(sheet, motion.mechanism.unit)
@@ -100,7 +100,7 @@ def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[
     for index, pose in enumerate(shown or [None]):
         left, top = sheet.place(index)
         caption, color = ("the assembled pose", GREY) if pose is None else (title(entries, pose), INK)
-        sheet.write((left, top + 14), clip(caption, canvas.width // 11), 10, color, weight="bold")
+        sheet.write((left, top + 14), clip(caption, canvas.width // 13), 10, color, weight="bold")
         moving = draw(canvas, [], []) if pose is None else _layer(scene, canvas, False, pose)
         image = compose(fixed, moving, ghost)
         sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - canvas.height)  # pixel on pixel

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from jaxkin.view.labels import Input
+from jaxkin.view.labels import Input, named, title
 
 
 @pytest.mark.parametrize(
@@ -17,3 +17,10 @@ def test_angles_are_rounded_to_a_tenth_of_a_degree(value, text):
 )
 def test_lengths_have_four_digits_and_their_unit(value, text):
     assert Input("A", np.array([value]), " mm").at(0) == text
+
+
+def test_one_input_needs_no_name_and_of_many_some_are_told():
+    entries = tuple(Input(f"j{i}", np.array([10.0 * i]), "°") for i in range(5))
+    assert title(entries[1:2], 0) == "10°" and named(entries[1:2], 0) == "j1 10°"
+    assert title(entries[:2], 0) == named(entries[:2], 0) == "j0 0°, j1 10°"
+    assert named(entries, 0) == "j0 0°, j1 10°, j2 20° and 2 more"
