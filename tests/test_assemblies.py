@@ -70,6 +70,24 @@ def test_closed_form_and_both_ways_of_taking_contacts(name):
         np.testing.assert_allclose(difference, 0.0, atol=1e-10 * 100)  # mm; both ways start from the same frames
 
 
+@pytest.mark.parametrize("prefix, unit", [("$", "m"), (".MICRO.", "um")])
+def test_the_same_file_in_other_units_gives_the_same_angles(tmp_path, prefix, unit):
+    """The numbers of the file taken as metres or micrometres: a mechanism a thousand times larger or smaller."""
+    text = path("fourbar").read_text(encoding="latin-1")
+    assert "SI_UNIT(.MILLI.,.METRE.)" in text
+    file = tmp_path / "fourbar.step"
+    file.write_text(text.replace("SI_UNIT(.MILLI.,.METRE.)", f"SI_UNIT({prefix},.METRE.)"), encoding="latin-1")
+    turn = TURN[::10]
+    assembly = jk.load(file)
+    assert assembly.unit == unit
+    scaled = assembly.mechanism(fixed=["ground"]).sweep({"ground-crank": turn})
+    original = jk.load(path("fourbar")).mechanism(fixed=["ground"]).sweep({"ground-crank": turn})
+    assert np.all(scaled.closed)
+    assert np.max(scaled.residual) < 1e-12
+    for joint, angles in original.coordinates.items():
+        np.testing.assert_allclose(scaled.coordinates[joint], angles, atol=5e-7)
+
+
 def test_a_gradient_through_the_whole_path():
     """How the swing of the rocker changes with the place of a pin that was read from the file."""
     mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])
