@@ -96,6 +96,9 @@ def contact_joint(
         movements = find_state(state, region).movements
     except ValueError as error:
         raise ValueError(f"joint {name!r}: {error}") from None
+    if any(np.shape(pose) != (4, 4) for pose in frames):
+        shapes = ", ".join(str(np.shape(pose)) for pose in frames)
+        raise ValueError(f"joint {name!r}: frames must be 4x4 poses, got the shapes {shapes}")
     if len(frames) != len(movements):
         raise ValueError(
             f"joint {name!r}: contact state ({state}) has {len(movements)} frames (Table 1), got {len(frames)}"
