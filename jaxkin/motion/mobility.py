@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.systems import block_arrays, block_system
+from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.quality import jacobian_near
 from jaxkin.topology.structure import Block
 
@@ -50,7 +50,7 @@ def mobility(mechanism: Mechanism) -> Mobility:
     redundant = 0
     for block in mechanism.structure.blocks:
         system = block_system(mechanism, block, ())
-        jacobians = np.asarray(_near(system, *block_arrays(mechanism, block, jnp.zeros(0).dtype), _STEP))
+        jacobians = np.asarray(_near(system, *block_joints(mechanism, block, jnp.zeros(0).dtype), _STEP))
         least = 1e-9 if jacobians.dtype == np.float64 else 1e-4
         decompositions = [np.linalg.svd(jacobian) for jacobian in jacobians]
         ranks = [int((values > least * values[0]).sum()) if values.size else 0 for _, values, _ in decompositions]

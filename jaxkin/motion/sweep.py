@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
@@ -15,10 +16,10 @@ from jaxkin.joints.joint import Joint
 from jaxkin.motion.drive import Driven, resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
-from jaxkin.motion.systems import block_arrays, block_system
+from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.compiled import solve
 from jaxkin.solve.status import Status
-from jaxkin.solve.sweep import Solution
+from jaxkin.solve.sweep import Poses
 from jaxkin.topology.structure import Block
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
@@ -54,21 +55,21 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     return Motion(mechanism, inputs, tuple(displacements), status, residual)
 
 
-def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displacements: list[Array]) -> Solution:
+def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displacements: list[Array]) -> Poses:
     """One structure element solved; its joints' displacements are set in place. Without a drive: one pose for all."""
     driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
     system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven))
     dtype, poses = displacements[0].dtype, displacements[0].shape[0]
     inputs = jnp.stack([entry.values for entry in driven]) if driven else jnp.zeros((0, 1), dtype)
-    solution = solve(system, *block_arrays(mechanism, block, dtype), _padded(inputs))
-    solution = jax.tree.map(lambda rows: rows[..., : inputs.shape[1]], solution)
+    coordinates, found = solve(system, block_joints(mechanism, block, dtype), _padded(inputs))
+    coordinates, found = jax.tree.map(lambda rows: rows[..., : inputs.shape[1]], (coordinates, found))
     first = 0
     for joint in block.joints:
         freedoms = mechanism.all_joints[joint].freedoms
-        rows = solution.coordinates[first : first + freedoms].T
+        rows = coordinates[first : first + freedoms].T
         displacements[joint] = jnp.broadcast_to(rows, (poses, freedoms))
         first += freedoms
-    return solution
+    return found
 
 
 def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded"]:
@@ -78,7 +79,7 @@ def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded
     program is compiled for their length anyway.
     """
     poses = inputs.shape[1]
-    if traced(inputs):
+    if traced(lax.stop_gradient(inputs)):
         return inputs
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
@@ -90,7 +91,7 @@ def _edited(joints: list[Joint]) -> bool:
     return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
 
 
-def _worst(solutions: list[Solution], like: Float[Array, " poses"]) -> tuple[Array, Array]:
+def _worst(solutions: list[Poses], like: Float[Array, " poses"]) -> tuple[Array, Array]:
     """Status and residual of the mechanism from those of its loop systems."""
     rank = jnp.zeros(len(Status), int).at[jnp.array([s.value for s in SEVERITY])].set(jnp.arange(len(Status)))
     worst, square = jnp.zeros(like.shape, int), jnp.zeros_like(like)

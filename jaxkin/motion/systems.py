@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import jax.numpy as jnp
-from jaxtyping import Array
 
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.solve.sweep import Joints
 from jaxkin.solve.system import LoopSystem
 from jaxkin.topology.structure import Block
 
@@ -22,13 +22,8 @@ def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, in
     return LoopSystem(tuple(joint.movements for joint in joints), loops, columns)
 
 
-Arrays = tuple[Array, ...]
-
-
-def block_arrays(mechanism: Mechanism, block: Block, dtype) -> tuple[Arrays, Arrays, Arrays]:
-    """Frames before, frames after and pitches of the block's joints, on the device."""
+def block_joints(mechanism: Mechanism, block: Block, dtype) -> Joints:
+    """Frames and pitches of the block's joints, on the device."""
     joints = [mechanism.all_joints[joint] for joint in block.joints]
-    before, after, pitch = (
-        [jnp.asarray(getattr(joint, leaf), dtype) for joint in joints] for leaf in ("before", "after", "pitch")
-    )
-    return tuple(before), tuple(after), tuple(pitch)
+    columns = [[jnp.asarray(getattr(joint, leaf), dtype) for joint in joints] for leaf in Joints._fields]
+    return Joints(*map(tuple, columns))

@@ -33,20 +33,21 @@ FARTHEST_CORRECTION = 0.02
 GROUP = 256
 
 
-class Solution(NamedTuple):
-    """Poses of one loop system."""
+class Poses(NamedTuple):
+    """Poses as they were found: numbers without derivatives."""
 
-    coordinates: Float[Array, "columns poses"]
-    """Displacements of all joints, in radians and lengths of the mechanism; of least residual where not closed."""
+    state: State
     status: Int[Array, " poses"]
     gap: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length."""
 
 
-class _Poses(NamedTuple):
-    state: State
-    status: Int[Array, " poses"]
-    gap: Float[Array, " poses"]
+class Joints(NamedTuple):
+    """The joints of a loop system, one entry a joint, as in `Joint`."""
+
+    before: tuple[Float[Array, "frames 4 4"], ...]
+    after: tuple[Float[Array, "frames 4 4"], ...]
+    pitch: tuple[Float[Array, ""], ...]
 
 
 class _Knots(NamedTuple):
@@ -58,43 +59,50 @@ class _Knots(NamedTuple):
     status: Int[Array, " knots"]
 
 
-def solve_system(
-    system: LoopSystem,
-    before: tuple[Array, ...],
-    after: tuple[Array, ...],
-    pitch: tuple[Array, ...],
-    inputs: Float[Array, "driven poses"],
-) -> Solution:
-    """Displacements of all joints of the loops for the given inputs, differentiable in all arrays.
+def find_poses(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]) -> Poses:
+    """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism."""
+    joints, inputs = lax.stop_gradient((joints, inputs))
+    geometry, lengths = _scaled(system, joints)
+    return _search(system, geometry, inputs / lengths[jnp.array(system.driven, int)])
 
-    Frames as in `Joint`, one entry a joint; inputs in the order of `system.driven`, radians and lengths.
+
+def displacements(
+    system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"], poses: Poses
+) -> Float[Array, "columns poses"]:
+    """Displacements of all joints in the poses found, as the differentiable functions of joints and inputs they are.
+
+    In radians and lengths of the mechanism; those of least residual where a pose did not close.
     """
-    geometry, length = loop_geometry(system, before, after, pitch)
-    lengths = jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
+    geometry, lengths = _scaled(system, joints)
+    poses = lax.stop_gradient(poses)
     scaled = inputs / lengths[jnp.array(system.driven, int)]
-
-    found = jax.tree.map(lax.stop_gradient, _search(system, lax.stop_gradient(geometry), lax.stop_gradient(scaled)))
-    state = attach(system, geometry, scaled, found.state, is_closed(found.status))
-    return Solution(_coordinates(system, state) * lengths, found.status, found.gap)
+    state = attach(system, geometry, scaled, poses.state, is_closed(poses.status))
+    return _coordinates(system, state) * lengths
 
 
-def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"]) -> _Poses:
+def _scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
+    """The geometry, and what the coordinates of the solver are multiplied by to be those of the mechanism."""
+    geometry, length = loop_geometry(system, *joints)
+    return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
+
+
+def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"]) -> Poses:
     """Closed poses, by continuation from the assembled pose."""
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
     inputs = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
-        poses = _Poses(state, classify(gap, finite, finite), gap)
+        poses = Poses(state, classify(gap, finite, finite), gap)
     elif len(system.driven) != 1:
         states, status, gap = visit(system, geometry, inputs.T[:, :, None])
-        poses = _Poses(State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), status[:, 0], gap[:, 0])
+        poses = Poses(State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), status[:, 0], gap[:, 0])
     else:
         poses = _at_once(system, geometry, inputs)
     return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
 
 
-def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 poses"]) -> _Poses:
+def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 poses"]) -> Poses:
     values = inputs[0]
     knots, bases = _follow(system, geometry, values)
     left = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, 0, knots.at.shape[0] - 2)
@@ -122,7 +130,7 @@ def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 pos
     between = good[left] & good[left + 1]
     nearest = jnp.where(good[left] | ~good[left + 1], left, left + 1)
     begin = choose(between, predicted, jax.tree.map(lambda knot: knot[..., nearest], knots.state))
-    poses = _Poses(state, status, gap)
+    poses = Poses(state, status, gap)
     settled = _rescue(system, geometry, bases, drive(system, begin, inputs), between, poses, ~trusted & covered)
     return settled._replace(status=jnp.where(covered, settled.status, Status.STALLED.value))
 
@@ -169,9 +177,9 @@ def _rescue(
     bases: Orientation,
     begin: State,
     between: Bool[Array, " poses"],
-    poses: _Poses,
+    poses: Poses,
     open_: Bool[Array, " poses"],
-) -> _Poses:
+) -> Poses:
     """The open poses, a group at a time, by the damped corrector.
 
     `between` tells the poses that lie between two closed knots: those are on their branch if they end near where they
@@ -188,7 +196,7 @@ def _rescue(
         near = difference(found.state, guess) <= 5 * FARTHEST_CORRECTION
         sign = orientation_sign(bases, free_jacobian(system, found.closure))
         same = jnp.where(between[chosen] & near, poses.status[chosen] != Status.JUMPED.value, sign >= 0)
-        settled = _Poses(found.state, classify(found.closure.gap, found.stationary, same), found.closure.gap)
+        settled = Poses(found.state, classify(found.closure.gap, found.stationary, same), found.closure.gap)
         merged = jax.tree.map(lambda old, new: old.at[..., group].set(new, mode="drop"), poses, settled)
         return open_.at[group].set(False, mode="drop"), merged
 

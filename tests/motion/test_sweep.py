@@ -171,13 +171,13 @@ def test_the_rod_of_an_rssr_does_not_spin():
 
 
 def test_nothing_is_recompiled_for_new_numbers():
-    from jaxkin.solve.compiled import whole
+    from jaxkin.solve.compiled import finder
 
     range_ = np.linspace(0.0, 1.0, 37)
     planar_fourbar(1.0).sweep({"A": range_})
-    traces = whole()._cache_size()
+    traces = finder()._cache_size()
     planar_fourbar(0.7, crank=35.0).sweep({"A": 2 * range_})
-    assert whole()._cache_size() == traces
+    assert finder()._cache_size() == traces
 
 
 def test_float32_warns_once_and_reaches_what_it_says():
