@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
-from jaxkin.solve.closure import closure, loop_geometry
+from jaxkin.solve import closure as module
 from jaxkin.solve.state import angles, assembled, drive, from_angles, multiply, retract, rotation_matrix
 from jaxkin.solve.system import LoopSystem
+
+closure = jax.jit(module.closure, static_argnums=0)
+loop_geometry = jax.jit(module.loop_geometry, static_argnums=0)
+travel = jax.jit(module._travel, static_argnums=0)
 
 CHAINS = (("T_z_phi",), ("T_xy_phi", "T_phi"), ("T_theta_phi_psi",), ("T_screw",), ("T_theta_phi",), ("I",))
 
@@ -79,16 +83,14 @@ def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     geometry_closed = close_behind(system, geometry, state)
     np.testing.assert_allclose(closure(system, geometry_closed, state).gap, 0.0, atol=1e-13)
     free = [column for column in range(system.columns)]
-    jacobian = jax.jacfwd(end)(jnp.zeros((system.columns, 1)))[..., 0]
+    jacobian = jax.jit(jax.jacfwd(end))(jnp.zeros((system.columns, 1)))[..., 0]
     found = closure(system, geometry_closed, state).jacobian[..., 0]
     np.testing.assert_allclose(found[:, free], jacobian[:, free], atol=1e-12)
 
 
 def close_behind(system, geometry, state):
     """The geometry whose last constant closes the loop at this state."""
-    from jaxkin.solve.closure import _travel
-
-    rotation, translation, _ = _travel(system, geometry, state)
+    rotation, translation, _ = travel(system, geometry, state)
     end = np.eye(4)
     end[:3, :3], end[:3, 3] = np.asarray(rotation)[..., 0, 0].T, np.asarray(translation)[:, 0, 0]
     return geometry._replace(end=geometry.end @ np.linalg.inv(end))
