@@ -20,6 +20,8 @@ from jaxkin.solve.system import LoopSystem
 
 LONGEST_STEP = 0.5
 """Radians, or characteristic lengths: what a linear model of a rotation is good for."""
+STAGNANT = 1e-9
+"""Relative decrease of the merit in one step below which it has reached its least value."""
 
 
 class Corrected(NamedTuple):
@@ -87,7 +89,9 @@ def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Ar
         delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))
         # below 32 eps^2 of the merit, and for steps of a few eps, only rounding is left
         exhausted = ~taken & (length < 4 * eps)
-        done = iterate.done | (chosen.merit < 32 * eps**2) | exhausted | ~jnp.isfinite(chosen.merit)
+        # a residual that nothing lessens any more, though no damping is in the way: the loops cannot close
+        least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT) * iterate.closure.merit)
+        done = iterate.done | (chosen.merit < 32 * eps**2) | exhausted | least | ~jnp.isfinite(chosen.merit)
         return _Iterate(
             iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, spread(system, delta))
         )

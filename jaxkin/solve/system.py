@@ -68,3 +68,16 @@ class LoopSystem:
     def free(self) -> tuple[int, ...]:
         """Columns to be solved for."""
         return tuple(column for column in range(self.columns) if column not in self.driven)
+
+    @cached_property
+    def periodic(self) -> bool:
+        """Whether a single coordinate is driven and it is an angle: a full turn more is the same input."""
+        if len(self.driven) != 1:
+            return False
+        (driven,) = self.driven
+        for chain in self.chains:
+            for name, _, column, _ in chain:
+                for element in MOVEMENTS[name].elements:
+                    if column + element.coordinate == driven:
+                        return element.kind == "rotate" and not MOVEMENTS[name].ball
+        return False

@@ -46,13 +46,13 @@ def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
 
 def test_sweep_takes_degrees_and_says_what_cannot_be_reached(tmp_path):
     """The rocker of a crank-rocker swings between two dead points, where crank and coupler are in line."""
-    done = invoke("sweep", FOURBAR, "--fixed", "ground", "--drive", "ground-rocker=-60:100:41", "--out", tmp_path)
+    done = invoke("sweep", FOURBAR, "--fixed", "ground", "--drive", "ground-rocker=-180:180:91", "--out", tmp_path)
     assert done.exit_code == 0, done.output
-    assert "UNREACHABLE" in done.output
+    assert "UNREACHABLE" in done.output and "JUMPED" in done.output  # the mirrored circuit lies in the range too
     with np.load(tmp_path / "motion.npz") as arrays:
         rocker, crank = arrays["input:ground-rocker.phi"], arrays["joint:ground-crank"][:, 0]
         closed = arrays["status_names"][arrays["status"]] == "CLOSED"
-    np.testing.assert_allclose(rocker, np.radians(np.linspace(-60, 100, 41)))
+    np.testing.assert_allclose(rocker, np.radians(np.linspace(-180, 180, 91)))
     dead_points = np.arccos([(100**2 + 80**2 - length**2) / (2 * 100 * 80) for length in (120 - 40, 120 + 40)])
     assert closed.sum() == pytest.approx(np.degrees(np.ptp(dead_points)) / 4, abs=1)
     # both axes point the same way along the pins, but that may be either way

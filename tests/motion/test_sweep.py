@@ -38,6 +38,23 @@ def test_statuses_next_to_the_limit(margin):
     assert list(motion.status) == [Status.CLOSED, Status.UNREACHABLE]
 
 
+@pytest.mark.parametrize("turns", [1, 2])
+@pytest.mark.parametrize("shift", [0.0, 0.3, -0.25])
+def test_behind_a_gap_on_another_circuit_is_jumped(turns, shift):
+    """The rocker of a crank-rocker, driven: its two circuits have the same sign of the Jacobian, and mirrored ranges."""
+    start = np.pi / 3
+    assembled = planar.fourbar(np.array([start])).rocker[0] % (2 * np.pi)
+    dead_points = [np.arccos((100**2 + 80**2 - length**2) / (2 * 100 * 80)) for length in (120 - 40, 120 + 40)]
+    inputs = np.linspace(-turns * np.pi, turns * np.pi, 91) + shift
+    motion = planar_fourbar(start).sweep({"D": inputs})
+    between = (assembled + inputs) % (2 * np.pi)  # angle of the rocker from the line of the ground
+    own = (np.pi - between > dead_points[0]) & (np.pi - between < dead_points[1])
+    mirrored = (between - np.pi > dead_points[0]) & (between - np.pi < dead_points[1])
+    expected = np.select([own, mirrored], [Status.CLOSED, Status.JUMPED], Status.UNREACHABLE)
+    np.testing.assert_array_equal(motion.status, expected)
+    assert np.sum(own) > 5 and np.sum(mirrored) > 5
+
+
 @pytest.mark.parametrize("poses", [50, 721])
 @pytest.mark.parametrize("inputs", [(0.0, 2 * np.pi), (0.0, -2 * np.pi), (-1.0, 2 * np.pi - 1.0), (-1.0, 5 * np.pi)])
 def test_a_parallelogram_stays_one_through_its_change_points(poses, inputs):
