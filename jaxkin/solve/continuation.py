@@ -1,10 +1,10 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
-A secant predictor carries the motion through change points, where a plain warm start leaves the branch; a step is taken
-only if the corrector stays near the prediction. Where the motion ends (a limit of the range) the damped corrector goes
-on alone, towards the least residual. Where the loops close again behind such a gap the pose has jumped: no motion of the
-input led there. (The sign of the determinant of the Jacobian would not tell: two circuits can share it.) Several lanes
-march side by side; each substep evaluates the closure at one place, which keeps the compiled code small.
+A secant predictor carries the motion through change points, where a plain warm start leaves the branch; a step is
+taken only if the corrector stays near the prediction. Where the motion ends (a limit of the range) the damped corrector
+goes on alone, towards the least residual. Where the loops close again behind such a gap the pose has jumped: no motion
+of the input led there. (The sign of the determinant of the Jacobian would not tell: two circuits can share it.) Several
+lanes march side by side; each substep evaluates the closure at one place, which keeps the compiled code small.
 """
 
 from __future__ import annotations

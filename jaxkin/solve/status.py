@@ -26,8 +26,7 @@ class Status(IntEnum):
 _MESSAGES = {
     Status.CLOSED: "all loops closed, on the branch of the assembled pose",
     Status.UNREACHABLE: "the loops cannot close for this input: leave it out of the range, or change the lengths",
-    Status.JUMPED: "closed, but on another branch than the assembled pose: the range between "
-    "them cannot be passed",
+    Status.JUMPED: "closed, but on another branch than the assembled pose: the range between them cannot be passed",
     Status.STALLED: "not converged: give more poses in between, or start from a pose that is less singular",
     Status.NONFINITE: "the input or the geometry holds NaN or infinity: correct it",
 }

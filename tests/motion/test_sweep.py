@@ -41,7 +41,7 @@ def test_statuses_next_to_the_limit(margin):
 @pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("shift", [0.0, 0.3, -0.25])
 def test_behind_a_gap_on_another_circuit_is_jumped(turns, shift):
-    """The rocker of a crank-rocker, driven: its two circuits have the same sign of the Jacobian, and mirrored ranges."""
+    """A crank-rocker driven by its rocker: the two circuits share the sign of the Jacobian, their ranges mirror."""
     start = np.pi / 3
     assembled = planar.fourbar(np.array([start])).rocker[0] % (2 * np.pi)
     dead_points = [np.arccos((100**2 + 80**2 - length**2) / (2 * 100 * 80)) for length in (120 - 40, 120 + 40)]
