@@ -38,7 +38,7 @@ def axis_sign(mechanism, joint, direction):
     return np.sign(float(np.asarray(mechanism.joints[joint].before)[0][:3, 2] @ direction))
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", HINGES)
 def test_closed_form_and_both_ways_of_taking_contacts(name):
     example = EXAMPLES[name]
     assembly = jk.load(path(name))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import cadquery as cq
-from make_examples import write
+from shapes import write
 from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 
 FOLDER = Path(__file__).parents[2] / "tests" / "io" / "data"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import cadquery as cq
 import numpy as np
-from make_examples import write
+from shapes import write
 
 FILE = Path(__file__).parents[2] / "tests" / "contacts" / "data" / "states.step"
 

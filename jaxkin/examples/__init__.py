@@ -1,4 +1,4 @@
-"""Three assemblies that come with the package, and the dimensions that they were drawn with.
+"""Assemblies that come with the package, and the dimensions that they were drawn with.
 
 Each is a STEP file in millimetres. It was drawn in a plane, z being the direction of the pins, and then placed in the
 world by one rigid pose, so that nothing in the file is parallel to an axis; `benchmarks/examples/make_examples.py`
@@ -7,40 +7,13 @@ makes the files from the numbers below.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
 import numpy as np
 
-from jaxkin.geometry.pose import Pose, Vector, rotation, unit
-
-
-@dataclass(frozen=True)
-class Example:
-    """One shipped assembly."""
-
-    file: str
-    description: str
-    fixed: tuple[str, ...]
-    """The parts that are fixed."""
-    drive: tuple[str, str]
-    """The two parts whose joint is driven, by an angle about z of the drawing."""
-    unit: str
-    dimensions: dict[str, float]
-    """Lengths in `unit`, angles in radians, by name; in the coordinates of the drawing."""
-    turn: tuple[Vector, float]
-    """The rotation from the drawing to the world: its axis and its angle in radians."""
-    shift: Vector
-    """The origin of the drawing in the world."""
-
-    @property
-    def placement(self) -> Pose:
-        """The pose of the drawing in the world: `apply(placement, point_of_the_drawing)` is where the file has it."""
-        pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = rotation(unit(self.turn[0]), self.turn[1]), self.shift
-        return pose
-
+from jaxkin.examples.example import Example as Example
+from jaxkin.examples.paper import PAPER_EXAMPLES
 
 EXAMPLES: dict[str, Example] = {
     "fourbar": Example(
@@ -102,6 +75,7 @@ EXAMPLES: dict[str, Example] = {
         turn=(np.array([0.27, 0.71, -0.44]), 0.78),
         shift=np.array([19.4, 32.7, -41.5]),
     ),
+    **PAPER_EXAMPLES,
 }
 
 
