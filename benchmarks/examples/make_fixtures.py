@@ -8,8 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import cadquery as cq
-from shapes import write
 from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
+from shapes import write
 
 FOLDER = Path(__file__).parents[2] / "tests" / "io" / "data"
 

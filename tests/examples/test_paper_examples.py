@@ -49,7 +49,7 @@ def test_contacts_are_those_of_the_tables(name, expected):
 @pytest.mark.parametrize(
     ("fixed", "loops", "freedoms"),
     [
-        # three loops in the plane: 1 freedom, 7 parts float along their pins; the fourth: 1 and 3; six free pins: 2 each
+        # three loops: 1 in the plane, 7 parts float along their pins; the fourth: 1 and 3; six free pins: 2 each
         (("p1", "p9"), [3, 1], 8 + 4 + 12),
         (("p1",), [1, 1, 1], 3 * 4 + 2 * 8),
     ],
