@@ -10,13 +10,9 @@ from functools import cached_property
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
-from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
+from jaxkin.joints.joint import Joint
+from jaxkin.motion.from_solids import mechanism_from_solids
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.topology.checks import check_names
-from jaxkin.topology.structure import structure
-
-_LISTED = 8
-"""Names, or near misses, that a message lists at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,58 +42,37 @@ class Assembly:
         return self._found[tolerances]
 
     def mechanism(
-        self, *, fixed: Sequence[str], combine: bool = True, contacts: Sequence[Contact] | None = None
+        self,
+        *,
+        fixed: Sequence[str],
+        rigid: Sequence[Sequence[str]] = (),
+        ignore: Sequence[Sequence[str]] = (),
+        joints: Sequence[Joint] = (),
+        combine: bool = True,
+        contacts: Sequence[Contact] | None = None,
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
 
-        `contacts` may be those found with other tolerances, or a selection; by default `self.contacts()`.
+        - `rigid`: groups of parts that do not move relative to each other, `[["bolt", "plate"]]`. A group is one body;
+          its first part in the order of the assembly holds each of the others by a joint without freedoms.
+        - `ignore`: contacts to leave out, by their two parts, `[["slider", "stop"]]`, or by their faces as reports
+          print them, `[["slider face 3", "stop face 7"]]`.
+        - `joints`: joints by hand. They replace all contacts between their two bodies, or join what does not touch.
+        - `combine`: the contacts of two bodies become the one joint that they amount to, where there is one; without
+          it every contact is a joint, as in the paper. All fixed parts are one body (Section 4.1).
+        - `contacts`: those found with other tolerances, or a selection; by default `self.contacts()`.
 
-        With `combine` the contacts of two parts become the one joint that they amount to, where there is one; without
-        it every contact is a joint, as in the paper. Contacts between fixed parts are left out. Raises ValueError where
-        no part or an unknown one is fixed, and where a part touches nothing or hangs on nothing.
+        Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
+        groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
         """
-        check_names(self.names, [], fixed)
         contacts = self.contacts() if contacts is None else contacts
-        self._refuse_loose(fixed, contacts)
-        moving = [contact for contact in contacts if not set(contact.parts) <= set(fixed)]
-        found = joints_from_contacts(moving, self.names, combine=combine)
-        described = [(joint.name, *joint.parts) for joint in found.joints]
-        return Mechanism(
-            found.joints, structure(self.names, described, fixed), self.unit, self.parts, self._notes(found)
+        return mechanism_from_solids(
+            self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine
         )
 
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
         return {}
-
-    def _refuse_loose(self, fixed: Sequence[str], contacts: Sequence[Contact]) -> None:
-        """Refuse parts that no chain of contacts ties to the fixed ones, with what is nearly a contact there."""
-        held, before = set(fixed), 0
-        while len(held) > before:
-            before = len(held)
-            held.update(part for contact in contacts if held & set(contact.parts) for part in contact.parts)
-        loose = [name for name in self.names if name not in held]
-        if not loose:
-            return
-        touching = {part for contact in contacts for part in contact.parts}
-        alone = [name for name in loose if name not in touching]
-        if alone:
-            problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
-        else:
-            problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
-        misses = [miss for miss in self.contacts().near_misses if set(miss.parts) & set(alone or loose)]
-        said = [note for note in self.contacts().notes if any(name in note for name in alone or loose)]
-        nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
-        raise ValueError(
-            "\n".join([f"{self.source}: {problem}; correct the model, or fix or leave out the part:", *nearly])
-        )
-
-    def _notes(self, found: FoundJoints) -> tuple[str, ...]:
-        noise = (
-            f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
-            f"and axes by {found.length:.1g} {self.unit}"
-        )
-        return (*found.notes, *map(str, self.contacts().near_misses), *self.contacts().notes, noise)
 
     def __str__(self) -> str:
         lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {self.unit}"]
@@ -111,8 +86,3 @@ class Assembly:
 
     def __repr__(self) -> str:
         return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"
-
-
-def _listed(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
-    return ", ".join(map(repr, names[:_LISTED])) + more

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import jax
 
+from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.structure import Structure, structure
@@ -23,8 +24,8 @@ class Mechanism:
     """Parts held together by joints, in their assembled pose.
 
     A pytree: its leaves are the frames and pitches of the joints, float arrays all; names and structure are static. A
-    new geometry of the same structure compiles nothing anew. Solids and notes are for pictures and tables only: they
-    are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
+    new geometry of the same structure compiles nothing anew. Solids, notes and contacts are for pictures and tables
+    only: they are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
     """
 
     all_joints: tuple[Joint, ...]
@@ -34,6 +35,8 @@ class Mechanism:
     solids: tuple[Part, ...] = field(default=())
     notes: tuple[str, ...] = field(default=())
     """What was found, combined or refused on the way from solids to joints, in words."""
+    contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
+    """The contacts that a joint stands for, by its name; none for joints by hand."""
 
     @staticmethod
     def build(*, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "") -> Mechanism:
@@ -41,8 +44,6 @@ class Mechanism:
 
         Raises ValueError where names repeat, a fixed part is in no joint, or a part hangs on nothing.
         """
-        if isinstance(fixed, str):
-            raise ValueError(f"fixed must be a list of part names, got the text {fixed!r}; write fixed=[{fixed!r}]")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         described = [(joint.name, *joint.parts) for joint in joints]
         return Mechanism(tuple(joints), structure(parts, described, fixed), unit)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.motions import is_length
 from jaxkin.motion.motion import Motion
 from jaxkin.solve.status import Status
 
@@ -75,6 +76,6 @@ def _range(entry: Input) -> str:
 def _input(motion: Motion, key: str, values: Float[np.ndarray, " poses"]) -> Input:
     joint, _, coordinate = key.rpartition(".")
     name = joint if len(motion.mechanism.joints[joint].coordinates) == 1 else key
-    if coordinate.rstrip("0123456789") in ("x", "y", "z"):
+    if is_length(coordinate):
         return Input(name, values, f" {motion.mechanism.unit}".rstrip())
     return Input(name, np.rad2deg(values), "°")
