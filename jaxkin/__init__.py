@@ -9,6 +9,7 @@ motion.save("out/")
 from jaxkin.io import gltf as _gltf  # the writers of a motion register themselves
 from jaxkin.io import tables as _tables
 from jaxkin.io.load import load as load
+from jaxkin.io.study import load_study as load_study
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.pairs import contact_joint as contact_joint
 from jaxkin.joints.pairs import cylindrical as cylindrical

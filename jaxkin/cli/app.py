@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jaxkin.cli.drives import parse_drives, to_radians
 from jaxkin.cli.errors import one_line_errors
+from jaxkin.cli.options import Options
 
 if TYPE_CHECKING:
-    from jaxkin.motion.assembly import Assembly
-    from jaxkin.motion.mechanism import Mechanism
+    from jaxkin.io.study import Study
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -24,9 +23,33 @@ app = typer.Typer(
     help="Kinematics of mechanisms: from solid models to joints, loops and motion.",
 )
 
-File = Annotated[Path, typer.Argument(metavar="FILE", help="A STEP file of the assembled mechanism.")]
+File = Annotated[
+    Path,
+    typer.Argument(
+        metavar="FILE",
+        help="A STEP file of the assembled mechanism, or a study: a TOML file that names the geometry and says what is "
+        "fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
+    ),
+]
 Fixed = Annotated[
     list[str], typer.Option("--fixed", metavar="PART", help="A part that does not move; may be given several times.")
+]
+Rigid = Annotated[
+    list[str],
+    typer.Option(
+        "--rigid",
+        metavar="PART,PART",
+        help="Parts that do not move relative to each other; may be given several times.",
+    ),
+]
+Ignore = Annotated[
+    list[str],
+    typer.Option(
+        "--ignore",
+        metavar="PART,PART",
+        help="Contacts to leave out: all between two parts, or one, as in 'slider face 3 - stop face 7'; may be given "
+        "several times.",
+    ),
 ]
 Drive = Annotated[
     list[str],
@@ -52,54 +75,74 @@ def demo(out: Out = Path("jaxkin-demo")) -> None:
 
     example = EXAMPLES["fourbar"]
     with one_line_errors():
-        _sweep(path("fourbar"), list(example.fixed), [f"{'-'.join(example.drive)}=0:360:361"], out, combine=True)
+        options = Options(fixed=list(example.fixed), drive=[f"{'-'.join(example.drive)}=0:360:361"])
+        _sweep(path("fourbar"), out, options)
 
 
 @app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground")
-def inspect(file: File, fixed: Fixed = [], no_combine: PerContact = False) -> None:  # noqa: B006
+def inspect(
+    file: File,
+    fixed: Fixed = [],
+    rigid: Rigid = [],
+    ignore: Ignore = [],
+    no_combine: PerContact = False,
+) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
     with one_line_errors():
-        import jaxkin as jk
         from jaxkin.cli import report
 
         with _progress(2) as step:
             step(f"reading {file.name}")
-            assembly = jk.load(file)
+            study = Options(fixed, rigid, ignore, no_combine=no_combine).on(file)
             step("finding contacts")
-            contacts = assembly.contacts()
-        report.say(f"{assembly}\n\n{contacts}\n")
+            contacts = study.contacts
+        if study.assembly:
+            report.print_contacts(study.assembly, contacts)
         # only now: what stands above helps to see why the mechanism is refused
-        report.say(str(_mechanism(assembly, fixed, combine=not no_combine)))
+        report.print_mechanism(_checked(study).mechanism, contacts)
 
 
-@app.command(epilog="Example:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion")
-def sweep(file: File, out: Out, fixed: Fixed = [], drive: Drive = [], no_combine: PerContact = False) -> None:  # noqa: B006
+@app.command(
+    epilog="Examples:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion, "
+    "jaxkin sweep study.toml --out motion"
+)
+def sweep(
+    file: File,
+    out: Out,
+    fixed: Fixed = [],
+    rigid: Rigid = [],
+    ignore: Ignore = [],
+    drive: Drive = [],
+    no_combine: PerContact = False,
+) -> None:
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
     Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
     (motion.html) and a picture (motion.png).
     """
     with one_line_errors():
-        _sweep(file, fixed, drive, out, combine=not no_combine)
+        _sweep(file, out, Options(fixed, rigid, ignore, drive, no_combine))
 
 
-def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, *, combine: bool) -> None:
-    drives = parse_drives(drive)
+def _sweep(file: Path, out: Path, options: Options) -> None:
     start = time.perf_counter()
     import jax
 
-    import jaxkin as jk
     from jaxkin.cli import report
     from jaxkin.motion.writers import filenames
 
     with _progress(3 + len(filenames())) as step:
         step(f"reading {file.name}")
-        assembly = jk.load(file)
+        study = options.on(file)
         step("finding contacts and joints")
-        mechanism = _mechanism(assembly, fixed, combine=combine)
-        drives = to_radians(mechanism, drives)
+        mechanism = _checked(study).mechanism
+        if not study.ranges:
+            names = ", ".join(f"{joint.name}.{c}" for joint in mechanism.all_joints for c in joint.coordinates)
+            raise ValueError(
+                f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are {names}"
+            )
         step("solving")
-        motion = jax.block_until_ready(mechanism.sweep(drives))
+        motion = jax.block_until_ready(study.sweep())
         paths = []
         for filename in filenames():
             step(f"writing {filename}")
@@ -111,12 +154,12 @@ def _sweep(file: Path, fixed: list[str], drive: list[str], out: Path, *, combine
     report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. Open {out / 'motion.html'} in a browser.")
 
 
-def _mechanism(assembly: Assembly, fixed: list[str], *, combine: bool) -> Mechanism:
-    if not fixed:
-        raise ValueError(
-            f"no part is fixed: give --fixed PART, once or more; the parts are {', '.join(assembly.names)}"
-        )
-    return assembly.mechanism(fixed=fixed, combine=combine)
+def _checked(study: Study) -> Study:
+    """The study, if a part is fixed."""
+    if study.assembly and not study.fixed:
+        names = ", ".join(study.assembly.names)
+        raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
+    return study
 
 
 @contextmanager

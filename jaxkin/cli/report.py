@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,12 +16,28 @@ from rich.text import Text
 from jaxkin.geometry.motions import is_length
 
 if TYPE_CHECKING:
+    from jaxkin.contacts.contact import Contacts
+    from jaxkin.motion.assembly import Assembly
+    from jaxkin.motion.mechanism import Mechanism
     from jaxkin.motion.motion import Motion
 
 
 def say(text: str = "") -> None:
     """Print text as it is: no markup, no colours, no wrapping."""
     Console().print(Text(text), soft_wrap=True)
+
+
+def print_contacts(assembly: Assembly, contacts: Contacts) -> None:
+    """Parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
+    said = {f"{part.name}: {note}" for part in assembly.parts for note in part.notes}
+    notes = tuple(note for note in contacts.notes if note not in said)
+    say(f"{assembly}\n\n{replace(contacts, notes=notes)}\n")
+
+
+def print_mechanism(mechanism: Mechanism, contacts: Contacts) -> None:
+    """Joints, loops, mobility and notes, but for the notes that were told with the contacts."""
+    said = {*map(str, contacts.near_misses), *contacts.notes}
+    say(str(replace(mechanism, notes=tuple(note for note in mechanism.notes if note not in said))))
 
 
 def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers: Iterable[int] = ()) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.pose import frame
-from jaxkin.joints.from_contacts import joints_from_contacts
+from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
 from jaxkin.motion.ignore import without
@@ -59,8 +59,7 @@ def mechanism_from_solids(
         *found.notes,
         *_left_out(len(contacts) - len(used), replaced, by_hand, body),
         *_told(contacts),
-        f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
-        f"and axes by {found.length:.1g} {assembly.unit}",
+        *_noise(found, assembly.unit),
     )
     return Mechanism(every, structure(names, described, fixed), assembly.unit, assembly.parts, notes, found.contacts)
 
@@ -88,6 +87,15 @@ def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body:
             what = "contact" if len(states) == 1 else f"{len(states)} contacts"
             notes.append(f"joint {name!r}, given by hand, replaces the {what} {', '.join(states)} between its parts")
     return notes
+
+
+def _noise(found: FoundJoints, unit: str) -> list[str]:
+    if not found.angle and not found.length:
+        return []
+    return [
+        f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
+        f"and axes by {found.length:.1g} {unit}"
+    ]
 
 
 def _told(contacts: Sequence[Contact]) -> tuple[str, ...]:

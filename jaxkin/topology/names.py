@@ -12,9 +12,15 @@ _LISTED = 8
 def nearest(name: str, known: Iterable[str]) -> str:
     """The end of a message about an unknown name: "; did you mean 'crank'?", else the names that there are."""
     known = list(known)
-    if close := get_close_matches(name, known, n=1):
-        return f"; did you mean {close[0]!r}?"
+    if close := closest(name, known):
+        return close
     if not known:
         return "; there is none"
     more = f" and {len(known) - _LISTED} more" if len(known) > _LISTED else ""
     return f"; there is {', '.join(repr(other) for other in known[:_LISTED])}{more}"
+
+
+def closest(name: object, known: Iterable[str]) -> str:
+    """The end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing."""
+    close = get_close_matches(str(name), list(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""

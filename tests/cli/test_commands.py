@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -80,6 +81,48 @@ def test_inspect_without_combining_keeps_every_contact():
     assert separate.exit_code == 0, separate.output
     assert "revolute" not in separate.output
     assert len(separate.output.splitlines()) > len(combined.output.splitlines())
+
+
+STUDY = """
+geometry = "fourbar.step"
+fixed = ["base"]
+
+[rename]
+ground = "base"
+
+[drive]
+base-crank = "0:360:5"
+"""
+
+
+def test_a_study_is_swept_and_inspected_like_the_options_that_it_stands_for(tmp_path):
+    (tmp_path / "fourbar.step").write_bytes(path("fourbar").read_bytes())
+    study = tmp_path / "study.toml"
+    study.write_text(STUDY)
+    for arguments, folder in (([study], "study"), ([FOURBAR, *CRANK], "options")):
+        done = invoke("sweep", *arguments, "--out", tmp_path / folder)
+        assert done.exit_code == 0, done.output
+    tables = [(tmp_path / folder / "motion.csv").read_text() for folder in ("study", "options")]
+    assert tables[0].replace("base", "ground") == tables[1]
+
+    study.write_text(STUDY.replace("base-crank", "base-cranc"))
+    done = invoke("sweep", study, "--out", tmp_path / "none")
+    assert done.exit_code == 2
+    assert "did you mean 'base-crank'?" in done.stderr
+    done = invoke("inspect", study, "--rigid", "crank,coupler", "--ignore", "coupler - rocker")
+    assert done.exit_code == 0, done.output
+    assert ["crank-coupler", "crank", "-", "coupler", "fixed", "none"] in map(str.split, done.output.splitlines())
+    assert "2 contacts ignored" in done.output
+
+
+def test_inspect_tells_everything_once(tmp_path):
+    """A misfit, and a torus, are told where they are found."""
+    file = tmp_path / "fillet.toml"
+    fillet = Path(__file__).parents[1] / "io" / "data" / "fillet.step"
+    file.write_text(f"geometry = {fillet.as_posix()!r}\nfixed = ['shaft']\n")
+    done = invoke("inspect", file)
+    assert done.exit_code == 0, done.output
+    assert done.output.count("torus") == 1
 
 
 def moved_rocker(text: str) -> str:

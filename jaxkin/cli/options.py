@@ -1,0 +1,76 @@
+"""What stands on the command line beside the file: ranges of `--drive`, parts of `--rigid` and `--ignore`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from jaxkin.io.ranges import FORM, Range, read_range
+
+if TYPE_CHECKING:
+    from jaxkin.io.study import Study
+
+_HELP = f"write JOINT={FORM}"
+_BETWEEN = re.compile(r"\s-\s|,(?!\s*\d)")
+"""What stands between the parts of an option: a comma, or the dash of the reports; but "face 3, 8" is one face."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options as they were written."""
+
+    fixed: Sequence[str] = ()
+    rigid: Sequence[str] = ()
+    ignore: Sequence[str] = ()
+    drive: Sequence[str] = ()
+    no_combine: bool = False
+
+    def on(self, file: Path) -> Study:
+        """The study of a file, with the options."""
+        from jaxkin.io.load import load
+        from jaxkin.io.study import Study, load_study
+
+        drives = parse_drives(self.drive)
+        rigid, ignore = parse_parts("--rigid", self.rigid), parse_parts("--ignore", self.ignore)
+        study = load_study(file) if file.suffix.lower() == ".toml" else Study(file.name, load(file))
+        return replace(
+            study,
+            fixed=list(dict.fromkeys((*study.fixed, *self.fixed))),
+            rigid=[*study.rigid, *rigid],
+            ignore=[*study.ignore, *ignore],
+            ranges=drives or study.ranges,
+            combine=study.combine and not self.no_combine,
+        )
+
+
+def parse_drives(options: Iterable[str]) -> dict[str, Range]:
+    """Displacements by name as they were written, one option each: "crank=0:360:361" or "crank=0,10,25".
+
+    Raises ValueError for an option that cannot be read, and for a name given twice.
+    """
+    drives: dict[str, Range] = {}
+    for option in options:
+        name, equals, values = option.rpartition("=")
+        if not equals or not name:
+            raise ValueError(f"--drive {option}: {_HELP}")
+        if name in drives:
+            raise ValueError(f"--drive {option}: {name} was given a range already; give each joint coordinate once")
+        try:
+            drives[name] = Range(read_range(values))
+        except ValueError as error:
+            raise ValueError(f"--drive {option}: {error}") from None
+    return drives
+
+
+def parse_parts(option: str, values: Iterable[str]) -> list[list[str]]:
+    """The parts that each value of an option names: "bolt,plate" or "bolt face 3 - plate face 7"; two at least."""
+    groups = []
+    for value in values:
+        names = [name.strip() for name in _BETWEEN.split(value)]
+        if len(names) < 2 or not all(names):
+            raise ValueError(f"{option} {value}: expected two parts with a comma between them, as in bolt,plate")
+        groups.append(names)
+    return groups

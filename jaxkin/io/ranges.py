@@ -1,0 +1,73 @@
+"""Ranges of displacements as people write them: "0:360:361", "0,10,25"; degrees where they do not say otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.motions import is_length
+from jaxkin.io.units import METRES
+
+if TYPE_CHECKING:
+    from jaxkin.motion.mechanism import Mechanism
+
+Values = Float[np.ndarray, " poses"]
+
+FORM = "START:STOP:COUNT, as in 0:360:361, or VALUE,VALUE,..."
+"""What a range looks like."""
+MOST = 10_000_000
+"""Poses of a range at most: a slip of the finger must not fill the memory."""
+RADIANS = {"deg": np.pi / 180, "rad": 1.0, "turn": 2 * np.pi}
+
+
+class Range(NamedTuple):
+    """Displacements of one joint coordinate, as they were written."""
+
+    values: Values
+    unit: str = ""
+    """A key of `RADIANS` or `METRES`; empty for degrees, or for the unit of the mechanism."""
+
+
+def read_range(text: str) -> Values:
+    """The displacements of a text "START:STOP:COUNT", ends included, or "VALUE,VALUE,..."; ValueError otherwise."""
+    try:
+        if ":" not in text:
+            return np.array([float(value) for value in text.split(",")])
+        start, stop, count = text.split(":")
+        start, stop, count = float(start), float(stop), int(count)
+    except ValueError:
+        raise ValueError(f"cannot read {text!r} as a range; write {FORM}") from None
+    if not 1 <= count <= MOST:
+        raise ValueError(f"COUNT must be a number from 1 to {MOST}, got {count}; write {FORM}")
+    return np.linspace(start, stop, count)
+
+
+def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, Values]:
+    """The drive for `sweep`, by the full names of its coordinates: radians, and lengths in the unit of the mechanism.
+
+    Raises ValueError for names that do not exist, for a unit of length on an angle, and the other way round.
+    """
+    from jaxkin.motion.drive import resolve
+
+    names = resolve(mechanism, {name: given.values for name, given in ranges.items()})
+    return {
+        name: given.values * _factor(key, name, given.unit, mechanism.unit)
+        for name, (key, given) in zip(names, ranges.items(), strict=True)
+    }
+
+
+def _factor(key: str, name: str, unit: str, unit_of_lengths: str) -> float:
+    lengths = is_length(name.rpartition(".")[2])
+    if not unit or (unit == unit_of_lengths and lengths):
+        return 1.0 if lengths else RADIANS["deg"]
+    if lengths and unit in METRES and unit_of_lengths:
+        return METRES[unit] / METRES[unit_of_lengths]
+    if not lengths and unit in RADIANS:
+        return RADIANS[unit]
+    known = list(filter(None, METRES) if unit_of_lengths else []) if lengths else RADIANS
+    why = f"{name!r} is {'a length' if lengths else 'an angle'}"
+    instead = f"write one of {', '.join(known)}" if known else "leave the unit out, the mechanism was given none"
+    raise ValueError(f"drive {key!r}: the unit is {unit!r}, but {why}; {instead}")

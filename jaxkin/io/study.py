@@ -1,0 +1,116 @@
+"""A study: an assembly or joints by hand, what the user says about it, and its drive; read from one TOML file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+
+from jaxkin.contacts.contact import Contacts
+from jaxkin.io.load import load
+from jaxkin.io.ranges import Range, Values, in_radians
+from jaxkin.joints.joint import Joint
+from jaxkin.motion.assembly import Assembly
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
+from jaxkin.topology.names import nearest
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """All that a sweep needs, each step taken when it is first asked for."""
+
+    source: str
+    """The file that says it."""
+    assembly: Assembly | None
+    """None where all joints are by hand."""
+    fixed: Sequence[str] = ()
+    rigid: Sequence[Sequence[str]] = ()
+    ignore: Sequence[Sequence[str]] = ()
+    joints: Sequence[Joint] = ()
+    combine: bool = True
+    tolerance: Mapping[str, float] = field(default_factory=dict)
+    """Of `Assembly.contacts`: length, angle, fit."""
+    ranges: Mapping[str, Range] = field(default_factory=dict)
+    """The drive as it was written, by joint or coordinate."""
+    unit: str = ""
+    """Of lengths, where there is no assembly to say it."""
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """The contacts of the assembly, within the tolerances of the study."""
+        return self.assembly.contacts(**self.tolerance) if self.assembly else Contacts(())
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """The mechanism; ValueError where what is said about it makes none."""
+        if self.assembly is None:
+            return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit)
+        if not self.fixed:
+            raise ValueError(f"no part is fixed; the parts are {', '.join(self.assembly.names)}")
+        return self.assembly.mechanism(
+            fixed=self.fixed,
+            rigid=self.rigid,
+            ignore=self.ignore,
+            joints=self.joints,
+            combine=self.combine,
+            contacts=self.contacts,
+        )
+
+    @cached_property
+    def drive(self) -> Mapping[str, Values]:
+        """The driven displacements by coordinate, in radians and in the unit of the mechanism."""
+        if not self.ranges:
+            joints = self.mechanism.all_joints
+            names = ", ".join(f"{joint.name}.{c}" for joint in joints for c in joint.coordinates)
+            raise ValueError(f"nothing is driven; there are {names or 'no coordinates at all'}")
+        return in_radians(self.mechanism, self.ranges)
+
+    def sweep(self) -> Motion:
+        """The motion of the mechanism for the drive."""
+        return self.mechanism.sweep(self.drive)
+
+
+def load_study(path: str | Path) -> Study:
+    """The study that a TOML file describes; its geometry is looked for beside the file.
+
+    Raises FileNotFoundError where there is no such file, and ValueError, with the key, what arrived and what was
+    expected, where it is no study. What it says about parts and joints is checked when `mechanism` or `drive` is asked
+    for.
+    """
+    from jaxkin.io.study_file import read_study_file
+
+    path = Path(path)
+    said = read_study_file(path)
+    joints = said.made_joints(path.name)
+    common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "joints": joints}
+    common |= {"combine": said.combine, "ranges": said.ranges(), "unit": said.unit}
+    if said.geometry is None:
+        return Study(path.name, None, **common)
+    place = path.parent
+    source = said.geometry
+    assembly = load(
+        place / source if isinstance(source, str) else {part: place / file for part, file in source.items()}
+    )
+    if said.unit and said.unit != assembly.unit:
+        raise ValueError(
+            f"{path.name}: unit is {said.unit!r}, but {assembly.source} is in {assembly.unit!r}; write all lengths of "
+            f"{path.name} in {assembly.unit} and unit = {assembly.unit!r}"
+        )
+    assembly = _renamed(assembly, said.rename, path.name)
+    return Study(path.name, assembly, tolerance=said.tolerance.given(), **common)
+
+
+def _renamed(assembly: Assembly, names: Mapping[str, str], source: str) -> Assembly:
+    for old in names:
+        if old not in assembly.names:
+            raise ValueError(
+                f"{source}: rename: {assembly.source} has no part {old!r} to rename{nearest(old, assembly.names)}"
+            )
+    parts = tuple(replace(part, name=names.get(part.name, part.name)) for part in assembly.parts)
+    taken = [part.name for part in parts]
+    for new in names.values():
+        if taken.count(new) > 1:
+            raise ValueError(f"{source}: rename: two parts would be called {new!r}; give each a name of its own")
+    return replace(assembly, parts=parts)

@@ -1,0 +1,205 @@
+"""The TOML file of a study: its keys, validated, and messages about what is wrong in it."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterable
+from functools import partial
+from inspect import signature
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+
+from jaxkin.io.ranges import FORM, MOST, RADIANS, Range, read_range
+from jaxkin.io.study_errors import messages
+from jaxkin.io.units import METRES
+from jaxkin.joints import pairs
+from jaxkin.joints.joint import Joint
+from jaxkin.topology.names import closest
+
+KINDS = {
+    "revolute": pairs.revolute,
+    "prismatic": pairs.prismatic,
+    "cylindrical": pairs.cylindrical,
+    "planar": pairs.planar,
+    "spherical": pairs.spherical,
+    "universal": pairs.universal,
+    "screw": pairs.screw,
+    "fixed": pairs.fixed,
+    "contact": pairs.contact_joint,
+}
+"""Kinds of joints by hand; the keys that each takes are the arguments of its function."""
+
+LARGEST = 1_000_000
+"""Bytes of a study at most; they are written by people."""
+
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
+Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
+Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
+
+
+def _one_of(known: Iterable[str], value: object) -> object:
+    if value not in list(known):
+        listed = ", ".join(map(repr, filter(None, known)))
+        raise ValueError(f"expected one of {listed}, got {value!r}{closest(value, known)}")
+    return value
+
+
+def _geometry(value: object) -> object:
+    values = value.values() if isinstance(value, dict) and value else [value]
+    if not all(isinstance(file, str) and file for file in values):
+        raise ValueError(f"expected the name of a file, or a table of files by part, got {value!r}")
+    return value
+
+
+def _as_range(value: object) -> object:
+    """A text or a list as the table that says the same."""
+    if isinstance(value, str):
+        return {"values": read_range(value).tolist()}
+    if isinstance(value, list):
+        return {"values": value}
+    if isinstance(value, dict):
+        return value
+    raise ValueError(f"expected a text {FORM}, a list of numbers, or a table, got {value!r}")
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class ToleranceTable(_Table):
+    """What still counts as touching: the arguments of `Assembly.contacts`."""
+
+    length: Annotated[Number, Field(gt=0)] | None = None
+    angle: Annotated[Number, Field(gt=0)] | None = None
+    fit: Annotated[Number, Field(ge=0)] | None = None
+
+    def given(self) -> dict[str, float]:
+        """Those that were said."""
+        return self.model_dump(exclude_none=True)
+
+
+class JointTable(_Table):
+    """A joint by hand: its kind, its two parts, and what the function of that kind takes."""
+
+    kind: Annotated[str, BeforeValidator(partial(_one_of, KINDS))]
+    parts: Pair
+    point: Triple | None = None
+    axis: Triple | None = None
+    axis1: Triple | None = None
+    axis2: Triple | None = None
+    normal: Triple | None = None
+    pitch: Number | None = None
+    state: str | None = None
+    frames: list[Frame] | None = None
+    region: Annotated[str, BeforeValidator(partial(_one_of, ("circle",)))] | None = None
+
+    @model_validator(mode="after")
+    def _keys_of_the_kind(self) -> JointTable:
+        needed = {name: p for name, p in signature(KINDS[self.kind]).parameters.items() if p.kind is p.KEYWORD_ONLY}
+        missing = [name for name, p in needed.items() if p.default is p.empty and getattr(self, name) is None]
+        if missing:
+            raise ValueError(f"a joint of kind {self.kind!r} needs {' and '.join(missing)}")
+        if beyond := [name for name in self.arguments() if name not in needed]:
+            takes = f"takes {', '.join(needed)}" if needed else "takes nothing but its parts"
+            raise ValueError(f"a joint of kind {self.kind!r} has no {beyond[0]}; it {takes}")
+        return self
+
+    def arguments(self) -> dict[str, Any]:
+        """What was said beside the kind and the parts."""
+        said = self.model_dump(exclude_none=True, exclude={"kind", "parts"})
+        return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
+
+
+class RangeTable(_Table):
+    """The displacements of a joint coordinate: `values`, or `poses` of them evenly `from` one `to` another."""
+
+    first: Number | None = Field(None, alias="from")
+    last: Number | None = Field(None, alias="to")
+    poses: Annotated[int, Field(ge=1, le=MOST)] | None = None
+    values: list[Number] | None = None
+    unit: Annotated[str, BeforeValidator(partial(_one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
+
+    @model_validator(mode="after")
+    def _one_way(self) -> RangeTable:
+        ends = [self.first, self.last, self.poses]
+        if (self.values is None) == (None in ends) or (self.values is not None and ends != [None] * 3):
+            raise ValueError("expected either values, or from, to and poses, beside the unit")
+        return self
+
+    def range(self) -> Range:
+        """The values themselves."""
+        if self.values is not None:
+            return Range(np.array(self.values, float), self.unit)
+        return Range(np.linspace(self.first or 0.0, self.last or 0.0, self.poses or 1), self.unit)
+
+
+class StudyFile(_Table):
+    """The keys of a study."""
+
+    geometry: Annotated[Any, BeforeValidator(_geometry)] = None
+    unit: Annotated[str, BeforeValidator(partial(_one_of, METRES))] = ""
+    rename: dict[str, str] = {}
+    fixed: Annotated[list[str], Field(min_length=1)]
+    rigid: list[Annotated[list[str], Field(min_length=2)]] = []
+    ignore: list[Pair] = []
+    combine: bool = True
+    tolerance: ToleranceTable = ToleranceTable()
+    joints: dict[str, JointTable] = {}
+    drive: dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]] = {}
+
+    @model_validator(mode="after")
+    def _solids_or_joints(self) -> StudyFile:
+        if self.geometry is None:
+            if not self.joints:
+                raise ValueError("there is nothing to study: expected geometry, or joints, or both")
+            for key in ("rename", "rigid", "ignore", "tolerance"):
+                if key in self.model_fields_set:
+                    raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
+        return self
+
+    def made_joints(self, file: str) -> tuple[Joint, ...]:
+        """The joints by hand; ValueError for an axis that is none, and the like."""
+        made = []
+        for name, table in self.joints.items():
+            try:
+                made.append(KINDS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
+            except ValueError as error:
+                raise ValueError(f"{file}: {error}") from None
+        return tuple(made)
+
+    def ranges(self) -> dict[str, Range]:
+        """The drive as it was written."""
+        return {name: table.range() for name, table in self.drive.items()}
+
+
+_KEYS = {
+    (): tuple(StudyFile.model_fields),
+    ("tolerance",): tuple(ToleranceTable.model_fields),
+    ("joints", "*"): tuple(JointTable.model_fields),
+    ("drive", "*"): ("from", "to", "poses", "values", "unit"),
+}
+
+
+def read_study_file(path: Path) -> StudyFile:
+    """The file as it is written, validated; ValueError, FileNotFoundError otherwise."""
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder: give the TOML file of the study itself")
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist: give the path of a study, a TOML file")
+    if path.stat().st_size > LARGEST:
+        raise ValueError(f"{path.name} has {path.stat().st_size} bytes: a study has {LARGEST} at most")
+    try:
+        said = tomllib.loads(path.read_bytes().decode())
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path.name} cannot be read as TOML: {error}") from None
+    except RecursionError:
+        raise ValueError(f"{path.name} cannot be read as TOML: it is nested too deeply") from None
+    try:
+        return StudyFile.model_validate(said)
+    except ValidationError as error:
+        raise ValueError(messages(error, path.name, _KEYS)) from None
