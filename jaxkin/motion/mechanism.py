@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import jax
 
@@ -72,6 +72,55 @@ class Mechanism:
         from jaxkin.motion.sweep import sweep
 
         return sweep(self, drive)
+
+    @cached_property
+    def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:
+        """All distances and angles between the joints of each part, and the radii of contact surfaces, by name.
+
+        `(part, joint, joint)` is the distance: of two balls, of a ball and an axis, of two axes along their common
+        normal; from a plane it is counted along its normal. `(part, joint, joint, "angle")` is the angle between two
+        axes (a plane has its normal), in radians. `(part, joint, other, "offset")` is how far along the axis of the
+        first joint, from its origin, the other one stands: the foot of a ball, or of the common normal of the two axes.
+        `(joint, "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the
+        sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
+        parts are one part; a joint without movement has no lengths.
+        """
+        from jaxkin.motion.lengths import lengths
+
+        return lengths(self)
+
+    def with_lengths(self, changes: Mapping[Any, Any]) -> Mechanism:
+        """The mechanism with some of its `lengths` changed and all others as they are.
+
+        Of the two joints that a key names the first stays where it is on its part and the second moves, with all that
+        coincide with it; the part's third joint and further ones stay too, and their distances and angles to the moved
+        one are kept (where a part has three axes or more that are not parallel, their offsets follow). Axes that
+        coincide move apart along the x axis of the first one's frame. The loops are closed again, on the branch of the
+        assembled pose, when the mechanism is swept; solids, which do not follow, are left behind.
+
+        Works inside `jax.jit`, `vmap` and `grad`. Raises ValueError for a length that does not exist, is negative, or
+        cannot hold together with those to be kept; where the numbers are traced the latter gives NONFINITE poses.
+        """
+        from jaxkin.motion.lengths import with_lengths
+
+        return with_lengths(self, changes)
+
+    def with_frames(self, frames: Mapping[Any, Any]) -> Mechanism:
+        """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
+
+        A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only: then
+        lengths of this part change and those of the other one do not. Works inside `jit`, `vmap` and `grad`. Raises
+        ValueError for names that do not exist and for what is no rigid pose.
+        """
+        from jaxkin.motion.placing import with_frames
+
+        return with_frames(self, frames)
+
+    def with_points(self, points: Mapping[Any, Any]) -> Mechanism:
+        """The mechanism with the origins of some joint frames moved to given points; keys as in `with_frames`."""
+        from jaxkin.motion.placing import with_points
+
+        return with_points(self, points)
 
     def mobility(self) -> Mobility:
         """Freedoms, idle freedoms and redundant constraints at the assembled pose."""
