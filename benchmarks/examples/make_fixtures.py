@@ -77,12 +77,32 @@ def sheet() -> cq.Assembly:
     return _single("sheet", cq.Workplane(cq.Face.makePlane(10, 10)))
 
 
+def fasteners() -> cq.Assembly:
+    """An arm on a boss under a washer, and two screws, one of them on a loose washer: only the arm has work to do."""
+    base = cq.Workplane().box(80, 50, 6).translate((10, 0, -3))
+    base = base.cut(cq.Workplane().pushPoints([(30, 15), (30, -15)]).circle(3).extrude(-6))
+    base = base.union(cq.Workplane().circle(5).extrude(14))
+    arm = cq.Workplane().box(60, 14, 6).translate((-20, 0, 3)).cut(cq.Workplane().circle(5).extrude(6))
+    washer = cq.Workplane().circle(9).circle(5).extrude(2)
+    screw = cq.Workplane().circle(3).extrude(-5).union(cq.Workplane().polygon(6, 12).extrude(4))
+    long_screw = cq.Workplane().circle(3).extrude(-6).union(cq.Workplane().polygon(6, 12).extrude(4))
+    loose = cq.Workplane().circle(7).circle(3.4).extrude(1.5)
+    assembly = cq.Assembly(name="fastened", loc=cq.Location((12, -7, 31), (0.3, 0.8, -0.5), 50))
+    assembly.add(base, name="base")
+    assembly.add(arm, name="arm")
+    assembly.add(washer, name="washer", loc=cq.Location((0, 0, 6)))
+    assembly.add(screw, name="screw", loc=cq.Location((30, 15, 0)))
+    assembly.add(long_screw, name="long screw", loc=cq.Location((30, -15, 1.5)))
+    assembly.add(loose, name="loose washer", loc=cq.Location((30, -15, 0)))
+    return assembly
+
+
 def _single(name: str, shape: cq.Workplane) -> cq.Assembly:
     return cq.Assembly(name=f"{name} alone").add(shape, name=name)
 
 
 def main() -> None:
-    for make in (nested, halves, fillet, ball, splines, painted, sheet):
+    for make in (nested, halves, fillet, ball, splines, painted, sheet, fasteners):
         path = FOLDER / f"{make.__name__}.step"
         write(make(), path)
         print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")

@@ -14,12 +14,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Pose, Vector, frame
 from jaxkin.joints.regularise import AXIS, CENTRE, Noise, movements
-from jaxkin.joints.screws import Screws, chain, freedoms, misfit
+from jaxkin.joints.screws import Screws, chain, complement, freedoms, misfit
 
 # Freedoms of rotation and of pure translation tell the lower pairs apart: (kind, movement).
 LOWER_PAIRS = {
@@ -60,7 +59,7 @@ def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
     ]
     # a few sums of entries that are each within the noise
     tolerance = 4 * noise.angle
-    forbidden = np.vstack([_complement(screws) for screws in allowed])
+    forbidden = np.vstack([complement(screws) for screws in allowed])
     _, strengths, twists = np.linalg.svd(forbidden, full_matrices=True)
     rank = int(np.sum(strengths > tolerance))
     candidate = _candidate(twists[rank:].T, np.concatenate(scaled), tolerance)
@@ -82,12 +81,6 @@ def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
     result = frames.copy()
     result[:, :3, 3] = (result[:, :3, 3] - centre) / size
     return result
-
-
-def _complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
-    """An orthonormal basis of what a contact forbids: all rows vanish on the twists that it allows."""
-    basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
-    return basis[:, int(np.sum(strengths > 1e-9)) :].T
 
 
 def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[str, str, Pose] | None:

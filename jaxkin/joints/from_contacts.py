@@ -96,7 +96,7 @@ def joints_from_contacts(
                 (_contact_joint(regular.contacts[k], label, pair), [k]) for k, label in _labels(name, members, contacts)
             )
     joints, angle, length = _aligned([*(joint for joint, _ in found), *given], noise)
-    joints = (*map(_forwards, joints[: len(found)]), *joints[len(found) :])
+    joints = (*map(_joint_forwards, joints[: len(found)]), *joints[len(found) :])
     sources = {joint.name: tuple(contacts[k] for k in members) for joint, members in found}
     return FoundJoints(joints, sources, max(angle, regular.angle), max(length, regular.length), tuple(notes))
 
@@ -158,13 +158,13 @@ def _aligned(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, ...], 
     return tuple(aligned.get(each.name, each) for each in joints), angle, length
 
 
-def _forwards(joint: Joint) -> Joint:
+def _joint_forwards(joint: Joint) -> Joint:
     """The joint with the z axes of its frames pointing forwards."""
-    poses = np.array([_signed(pose) for pose in joint.before])
+    poses = np.array([forwards(pose) for pose in joint.before])
     return replace(joint, before=poses, after=poses)
 
 
-def _signed(pose: Pose) -> Pose:
+def forwards(pose: Pose) -> Pose:
     """The frame, turned by half a turn about x where its z axis points backwards."""
     return pose if _forward(pose[:3, 2]) else pose @ np.diag([1.0, -1.0, -1.0, 1.0])
 

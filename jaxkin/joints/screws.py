@@ -18,11 +18,13 @@ Screws = Float[np.ndarray, "6 freedoms"]
 """Columns (w; v): angular velocity, and velocity of the point of the body at the world's origin."""
 
 
-def chain(movements: Sequence[str], frames: Frames, q: Float[np.ndarray, "freedoms"]) -> tuple[Pose, Screws]:
+def chain(
+    movements: Sequence[str], frames: Frames, q: Float[np.ndarray, "freedoms"], pitch: float = 0.0
+) -> tuple[Pose, Screws]:
     """The displacement of part 2 relative to part 1 in world coordinates, and the screws of the freedoms there.
 
     `q` holds the coordinates of the movements in turn. A column of the screws is the rate of the displacement for one
-    coordinate; its product with the displacement is the derivative. Movements with a pitch are not for this function.
+    coordinate; its product with the displacement is the derivative. `pitch` is the advance of a screw in a turn.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
@@ -37,10 +39,19 @@ def chain(movements: Sequence[str], frames: Frames, q: Float[np.ndarray, "freedo
             else:
                 screws[:3, k], screws[3:, k] = axis, np.cross(pose[:3, 3], axis)
                 step[:3, :3] = rotation(np.eye(3)[element.axis], q[k])
+            if element.kind == "screw":
+                screws[3:, k] += axis * pitch / (2 * np.pi)
+                step[element.axis, 3] = q[k] * pitch / (2 * np.pi)
             pose = pose @ step
         pose = pose @ inverse(frame)
         first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
+
+
+def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
+    """An orthonormal basis of what is forbidden: all rows vanish on the screws that are allowed."""
+    basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
+    return basis[:, int(np.sum(strengths > 1e-9)) :].T
 
 
 def freedoms(movements: Sequence[str]) -> int:

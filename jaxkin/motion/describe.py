@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from jaxkin.motion.freeing import LISTED, freeing
 from jaxkin.motion.mechanism import Mechanism
 
 
@@ -24,7 +25,22 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     ]
     lines += ["", f"Loops: {len(mechanism.structure.loops)}"]
     lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
-    lines += ["", f"Mobility: {mechanism.mobility()}"]
+    mobility = mechanism.mobility()
+    lines += ["", f"Mobility: {mobility}"]
+    if moving and not mobility.useful:
+        lines += _why_it_cannot_move(mechanism)
     if mechanism.notes:
         lines += ["", "Notes:", *(f"  {note}" for note in mechanism.notes)]
     return "\n".join(lines)
+
+
+def _why_it_cannot_move(mechanism: Mechanism) -> list[str]:
+    ways = freeing(mechanism)
+    if not ways:
+        return ["It cannot move, and no single contact is the reason."]
+    more = [f"  and {len(ways) - LISTED} more"] if len(ways) > LISTED else []
+    return [
+        "It cannot move. It could without one of these (leave a contact out with ignore=):",
+        *(f"  {way}" for way in ways[:LISTED]),
+        *more,
+    ]

@@ -14,6 +14,7 @@ from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.spinning import left_at_rest
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.structure import structure
@@ -61,7 +62,9 @@ def mechanism_from_solids(
         *_told(contacts),
         *_noise(found, assembly.unit),
     )
-    return Mechanism(every, structure(names, described, fixed), assembly.unit, assembly.parts, notes, found.contacts)
+    structured = structure(names, described, fixed)
+    mechanism = Mechanism(every, structured, assembly.unit, assembly.parts, notes, found.contacts)
+    return left_at_rest(mechanism) if combine else mechanism
 
 
 def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:

@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.spinning import spinning
 from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.quality import jacobian_near
 from jaxkin.topology.structure import Block
@@ -29,10 +30,21 @@ class Mobility:
     """Coordinates "joint.coordinate" in which a single part moves within its loops while all others rest."""
     redundant: int
     """Closure equations, six a loop, that follow from the others."""
+    spinning: tuple[str, ...] = ()
+    """Parts that only spin, such as screws and washers: all that they can do is idle. They are left at rest."""
+    spins: int = 0
+    """Freedoms that belong to the parts that only spin."""
+
+    @property
+    def useful(self) -> int:
+        """Freedoms that are not those of parts that only spin."""
+        return self.freedoms - self.spins
 
     def __str__(self) -> str:
         idle = f", idle: {', '.join(self.idle)}" if self.idle else ""
         freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
+        if self.spinning:
+            freedoms += f" ({self.spins} of them of parts that only spin: {', '.join(self.spinning)})"
         return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
 
 
@@ -59,7 +71,9 @@ def mobility(mechanism: Mechanism) -> Mobility:
         freedoms += len(motions)
         redundant += system.equations - ranks[best]
         idle += _idle(mechanism, block, motions)
-    return Mobility(freedoms, tuple(idle), redundant)
+    spins = spinning(mechanism)
+    idle = [name for name in idle if not spins.keys() & set(mechanism.joints[name.rpartition(".")[0]].parts)]
+    return Mobility(freedoms, tuple(idle), redundant, tuple(spins), sum(spin.freedoms for spin in spins.values()))
 
 
 def _idle(mechanism: Mechanism, block: Block, motions: np.ndarray) -> list[str]:
