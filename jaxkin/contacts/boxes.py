@@ -1,4 +1,4 @@
-"""Broad phase: which axis-aligned boxes overlap, by sorting along one axis and sweeping."""
+"""Broad phase: which axis-aligned boxes overlap, by sorting them into the cells of grids."""
 
 from __future__ import annotations
 
@@ -10,26 +10,57 @@ from jaxkin.geometry.part import Face
 Boxes = Float[np.ndarray, "_ 2 d"]
 Pairs = Int[np.ndarray, "_ 2"]
 
+_MIXING = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
+"""Odd numbers without pattern: multiples of them, summed, tell the cells of a grid apart."""
+
 
 def overlapping(boxes: Boxes, margin: float) -> Pairs:
     """Pairs `i < j` of boxes (lowest and highest corner) no farther apart than `margin` along each axis, in order.
 
-    The sweep goes along the axis in which the boxes are spread most for their size, so that few meet there.
+    Boxes are sorted into the cells of grids, one grid for each power of two that is the size of a box: on the grid of
+    its own size a box, like any smaller one, lies in two cells along an axis at most. So the work is that of sorting,
+    and of the pairs found, wherever the boxes lie and however their sizes differ.
     """
     if len(boxes) < 2:
         return np.zeros((0, 2), int)
-    lows, highs = boxes[:, 0], boxes[:, 1] + margin
-    spread = np.ptp(lows + highs, axis=0) / np.maximum((highs - lows).mean(axis=0), np.finfo(float).tiny)
-    axis = int(np.argmax(spread))
-    order = np.argsort(lows[:, axis], kind="stable")
-    until = np.searchsorted(lows[order, axis], highs[order, axis], side="right")
-    counts = until - np.arange(len(order)) - 1
-    first = np.repeat(np.arange(len(order)), counts)
-    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(counts) - counts, counts)
-    pairs = np.sort(np.stack([order[first], order[second]], axis=-1), axis=-1)
-    i, j = pairs.T
-    pairs = pairs[np.all((lows[i] <= highs[j]) & (lows[j] <= highs[i]), axis=-1)]
-    return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    lows, highs = boxes[:, 0] - boxes[:, 0].min(axis=0), boxes[:, 1] - boxes[:, 0].min(axis=0) + margin
+    sizes = np.maximum((highs - lows).max(axis=1), 1e-9 * highs.max())  # points have none
+    levels = np.ceil(np.log2(np.where(sizes > 0, sizes, 1.0))).astype(int)
+    found = [np.zeros((0, 2), int)]
+    for level in np.unique(levels).tolist():
+        own, other = _cells(lows, highs, level, levels == level), _cells(lows, highs, level, levels <= level)
+        found.append(_meeting(lows, highs, own, other))
+    return np.unique(np.concatenate(found), axis=0)
+
+
+def _cells(lows: np.ndarray, highs: np.ndarray, level: int, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Keys of the cells of a grid that some boxes lie in, sorted, and the box of each; far cells may share a key."""
+    members = np.flatnonzero(which)
+    first, last = (np.floor(ends[members] / 2.0**level).astype(np.int64) for ends in (lows, highs))
+    d = lows.shape[1]
+    corners = np.stack(np.meshgrid(*[[0, 1]] * d, indexing="ij"), axis=-1).reshape(-1, 1, d)
+    cells = first + corners
+    inside = np.all(cells <= last, axis=-1)
+    keys = (cells.astype(np.uint64) * _MIXING[:d]).sum(axis=-1)
+    keys, owners = keys[inside], np.broadcast_to(members, inside.shape)[inside]
+    order = np.argsort(keys, kind="stable")
+    return keys[order], owners[order]
+
+
+def _meeting(
+    lows: np.ndarray, highs: np.ndarray, own: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray]
+) -> Pairs:
+    """The pairs of a box of the first cells and one of the others, in the same cell, that overlap."""
+    start, stop = (np.searchsorted(own[0], other[0], side=side) for side in ("left", "right"))
+    pairs = [np.zeros((0, 2), int)]
+    for some in np.array_split(np.arange(len(start)), 1 + (stop - start).sum() // 4_000_000):  # bounds the memory
+        counts = (stop - start)[some]
+        second = np.repeat(other[1][some], counts)
+        within = np.arange(len(second)) - np.repeat(np.cumsum(counts) - counts, counts)
+        first = own[1][np.repeat(start[some], counts) + within]
+        meet = (first != second) & np.all((lows[first] <= highs[second]) & (lows[second] <= highs[first]), axis=-1)
+        pairs.append(np.sort(np.stack([first[meet], second[meet]], axis=-1), axis=-1))
+    return np.unique(np.concatenate(pairs), axis=0)
 
 
 def crossing(boxes1: Boxes, boxes2: Boxes, margin: float) -> Pairs:

@@ -112,7 +112,8 @@ def test_intervals_are_sets(first, second):
 def test_boxes_meet_as_all_with_all(seed, count, margin):
     rng = np.random.default_rng(seed)
     lows = rng.uniform(-5, 5, (count, 3)) * rng.permutation([1, 1, 0.1])
-    boxes = np.stack([lows, lows + rng.exponential(1, (count, 3))], axis=1)
+    sizes = rng.exponential(1, (count, 3)) * 10 ** rng.uniform(-6, 1, (count, 1)) * rng.integers(0, 2, (count, 1))
+    boxes = np.stack([lows, lows + sizes], axis=1)  # of very different sizes, some of them points
 
     def meet(a, b):
         return bool(np.all(a[0] <= b[1] + margin) and np.all(b[0] <= a[1] + margin))
