@@ -19,31 +19,34 @@ Screws = Float[np.ndarray, "6 freedoms"]
 
 
 def chain(
-    movements: Sequence[str], frames: Frames, q: Float[np.ndarray, "freedoms"], pitch: float = 0.0
+    movements: Sequence[str],
+    frames: Frames,
+    q: Float[np.ndarray, "freedoms"],
+    pitch: float = 0.0,
+    after: Frames | None = None,
 ) -> tuple[Pose, Screws]:
     """The displacement of part 2 relative to part 1 in world coordinates, and the screws of the freedoms there.
 
     `q` holds the coordinates of the movements in turn. A column of the screws is the rate of the displacement for one
-    coordinate; its product with the displacement is the derivative. `pitch` is the advance of a screw in a turn.
+    coordinate; its product with the displacement is the derivative. `pitch` is the advance of a screw in a turn;
+    `after` are the frames on the side of part 2 where they are not those of part 1.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
-    for movement, frame in zip(movements, frames, strict=True):
+    for movement, frame, leave in zip(movements, frames, frames if after is None else after, strict=True):
         pose = pose @ frame
         for element in MOVEMENTS[movement].elements:
             k = first + element.coordinate
             axis, step = pose[:3, element.axis], np.eye(4)
-            if element.kind == "translate":
-                screws[3:, k] = axis
-                step[element.axis, 3] = q[k]
-            else:
+            if element.kind != "translate":
                 screws[:3, k], screws[3:, k] = axis, np.cross(pose[:3, 3], axis)
                 step[:3, :3] = rotation(np.eye(3)[element.axis], q[k])
-            if element.kind == "screw":
-                screws[3:, k] += axis * pitch / (2 * np.pi)
-                step[element.axis, 3] = q[k] * pitch / (2 * np.pi)
+            if element.kind != "rotate":
+                advance = 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
+                screws[3:, k] += advance * axis
+                step[element.axis, 3] = advance * q[k]
             pose = pose @ step
-        pose = pose @ inverse(frame)
+        pose = pose @ inverse(leave)
         first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
 
@@ -52,6 +55,12 @@ def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
     """An orthonormal basis of what is forbidden: all rows vanish on the screws that are allowed."""
     basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
     return basis[:, int(np.sum(strengths > 1e-9)) :].T
+
+
+def moved(pose: Pose, screws: Screws) -> Screws:
+    """The screws of a body that has been displaced with them."""
+    turned = pose[:3, :3] @ screws[:3]
+    return np.concatenate([turned, pose[:3, :3] @ screws[3:] + np.cross(pose[:3, 3], turned, axisb=0, axisc=0)])
 
 
 def freedoms(movements: Sequence[str]) -> int:

@@ -27,6 +27,7 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     mobility = mechanism.mobility()
     lines += ["", f"Mobility: {mobility}"]
+    lines += [f"  {mobility.counting}"] if mobility.counting else []
     if moving and not mobility.useful:
         lines += _why_it_cannot_move(mechanism)
     if mechanism.notes:

@@ -34,11 +34,11 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
         raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
     driven: dict[str, Driven] = {}
     for key, values in drive.items():
-        joint, coordinate = _coordinate(mechanism, key)
-        name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[coordinate]}"
+        joint, index = coordinate(mechanism, key)
+        name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[index]}"
         if name in driven:
             raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
-        driven[name] = Driven(joint, coordinate, _values(key, values))
+        driven[name] = Driven(joint, index, _values(key, values))
     lengths = {name: entry.values.shape[0] for name, entry in driven.items()}
     if len(set(lengths.values())) > 1:
         listed = ", ".join(f"{name!r}: {length}" for name, length in lengths.items())
@@ -47,22 +47,23 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
     return driven
 
 
-def _coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
+def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
+    """The joint and the coordinate that a name "joint" or "joint.coordinate" means; ValueError where it means none."""
     names = [joint.name for joint in mechanism.all_joints]
     if key in names:
         joint = mechanism.all_joints[names.index(key)]
         if joint.freedoms != 1:
-            choices = " or ".join(repr(f"{key}.{coordinate}") for coordinate in joint.coordinates)
+            choices = " or ".join(repr(f"{key}.{name}") for name in joint.coordinates)
             what = f"has {joint.freedoms} coordinates: write {choices}" if choices else "has no coordinate to drive"
             raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
         return names.index(key), 0
-    name, _, coordinate = key.rpartition(".")
+    name, _, part = key.rpartition(".")
     if name in names:
         joint = mechanism.all_joints[names.index(name)]
-        if coordinate not in joint.coordinates:
+        if part not in joint.coordinates:
             known = ", ".join(joint.coordinates) or "none"
-            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {coordinate!r}; it has: {known}")
-        return names.index(name), joint.coordinates.index(coordinate)
+            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {part!r}; it has: {known}")
+        return names.index(name), joint.coordinates.index(part)
     if len(pair := _pair(mechanism, name or key)) > 1:
         raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
     raise ValueError(f"there is no joint {key!r} to drive{nearest(name if '.' in key and name else key, names)}")

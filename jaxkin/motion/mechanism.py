@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -15,8 +15,10 @@ from jaxkin.joints.joint import Joint
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
+    from jaxkin.motion.freedoms import LoopFreedoms
     from jaxkin.motion.mobility import Mobility
     from jaxkin.motion.motion import Motion
+    from jaxkin.motion.plan import Plan
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,11 +124,24 @@ class Mechanism:
 
         return with_points(self, points)
 
+    def plan(self, drive: Iterable[str]) -> Plan:
+        """What a drive of these coordinates moves, and in which order: see `jaxkin.motion.plan.plan`."""
+        from jaxkin.motion.plan import plan
+
+        return plan(self, drive)
+
     def mobility(self) -> Mobility:
         """Freedoms, idle freedoms and redundant constraints at the assembled pose."""
         from jaxkin.motion.mobility import mobility
 
         return mobility(self)
+
+    @cached_property
+    def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:
+        """What the loops of each structure element allow at first order, in the order of `structure.blocks`."""
+        from jaxkin.motion.freedoms import loop_freedoms
+
+        return loop_freedoms(self)
 
     def __str__(self) -> str:
         from jaxkin.motion.describe import describe_mechanism

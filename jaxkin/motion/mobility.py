@@ -1,23 +1,22 @@
-"""Mobility from the rank of the closure Jacobian: counting alone is wrong for every overconstrained mechanism."""
+"""Mobility from the rank of the closure Jacobian, beside what counting gives (Gruebler 1917, Kutzbach 1929).
+
+Counting alone is wrong for every overconstrained mechanism; with the equations of each loop's displacement subgroup in
+place of six it is right for planar and spherical ones, and still wrong for Bennett's.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 
-import jax
-import jax.numpy as jnp
 import numpy as np
+from jaxtyping import Float
 
+from jaxkin.joints.subgroups import Subgroup
+from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.spinning import spinning
-from jaxkin.motion.systems import block_joints, block_system
-from jaxkin.solve.quality import jacobian_near
-from jaxkin.topology.structure import Block
-
-_STEP = 0.05
-"""How far the second look is taken from the assembled pose, in radians or characteristic lengths: far enough to leave a
-singular pose behind, near enough to close."""
+from jaxkin.solve.system import EQUATIONS
+from jaxkin.topology.rates import independent
 
 
 @dataclass(frozen=True)
@@ -30,25 +29,33 @@ class Mobility:
     """Coordinates "joint.coordinate" in which a single part moves within its loops while all others rest."""
     redundant: int
     """Closure equations, six a loop, that follow from the others."""
-    spinning: tuple[str, ...] = ()
-    """Parts that only spin, such as screws and washers: all that they can do is idle. They are left at rest."""
-    spins: int = 0
-    """Freedoms that belong to the parts that only spin."""
+    idle_freedoms: int
+    """How many of the freedoms are of that kind."""
+    counted: int
+    """Coordinates less six a loop: negative or too small where equations are redundant."""
+    counted_in_subgroups: int
+    """Coordinates less the equations of each loop's displacement subgroup: three a planar loop, and so on."""
+    subgroups: tuple[Subgroup, ...]
+    """The displacement subgroup of each loop."""
+    drivable: tuple[str, ...]
+    """Coordinates whose displacements, given together, leave nothing but idle freedoms; one choice of several, joints
+    at the fixed parts first."""
 
     @property
-    def useful(self) -> int:
-        """Freedoms that are not those of parts that only spin."""
-        return self.freedoms - self.spins
+    def counting(self) -> str:
+        """What counting gives, in words; empty where there are no loops to count."""
+        if not self.subgroups:
+            return ""
+        text = f"counting gives {self.counted} with six equations a loop"
+        if all(subgroup.dimension == EQUATIONS for subgroup in self.subgroups):
+            return text
+        kinds = dict.fromkeys(f"{kind.name}: {kind.dimension}" for kind in self.subgroups)
+        return f"{text}, {self.counted_in_subgroups} with those of its subgroup ({', '.join(kinds)})"
 
     def __str__(self) -> str:
-        idle = f", idle: {', '.join(self.idle)}" if self.idle else ""
+        idle = f", {self.idle_freedoms} of them idle: {', '.join(self.idle)}" if self.idle else ""
         freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
-        if self.spinning:
-            freedoms += f" ({self.spins} of them of parts that only spin: {', '.join(self.spinning)})"
         return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
-
-
-_near = partial(jax.jit, static_argnums=0)(jacobian_near)
 
 
 def mobility(mechanism: Mechanism) -> Mobility:
@@ -56,41 +63,53 @@ def mobility(mechanism: Mechanism) -> Mobility:
 
     At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained.
     """
+    blocks = mechanism.loop_freedoms
     in_loops = {joint for block in mechanism.structure.blocks for joint in block.joints}
-    freedoms = sum(joint.freedoms for i, joint in enumerate(mechanism.all_joints) if i not in in_loops)
-    idle: list[str] = []
-    redundant = 0
-    for block in mechanism.structure.blocks:
-        system = block_system(mechanism, block, ())
-        jacobians = np.asarray(_near(system, *block_joints(mechanism, block, jnp.zeros(0).dtype), _STEP))
-        least = 1e-9 if jacobians.dtype == np.float64 else 1e-4
-        decompositions = [np.linalg.svd(jacobian) for jacobian in jacobians]
-        ranks = [int((values > least * values[0]).sum()) if values.size else 0 for _, values, _ in decompositions]
-        best = int(np.argmax(ranks))
-        motions = decompositions[best][2][ranks[best] :]
-        freedoms += len(motions)
-        redundant += system.equations - ranks[best]
-        idle += _idle(mechanism, block, motions)
-    spins = spinning(mechanism)
-    idle = [name for name in idle if not spins.keys() & set(mechanism.joints[name.rpartition(".")[0]].parts)]
-    return Mobility(freedoms, tuple(idle), redundant, tuple(spins), sum(spin.freedoms for spin in spins.values()))
+    outside = [
+        f"{joint.name}.{coordinate}"
+        for index, joint in enumerate(mechanism.all_joints)
+        if index not in in_loops
+        for coordinate in joint.coordinates
+    ]
+    kinds = tuple(found.subgroup(dict(loop)) for found in blocks for loop in found.block.loops)
+    coordinates = sum(joint.freedoms for joint in mechanism.all_joints)
+    idle = [name for found in blocks for name in names(mechanism, found, moving_columns(found, found.idle))]
+    return Mobility(
+        freedoms=len(outside) + sum(len(found.motions) for found in blocks),
+        idle=tuple(idle),
+        redundant=sum(EQUATIONS * len(found.block.loops) - found.rank for found in blocks),
+        idle_freedoms=sum(len(found.idle) for found in blocks),
+        counted=coordinates - EQUATIONS * len(kinds),
+        counted_in_subgroups=coordinates - sum(kind.dimension for kind in kinds),
+        subgroups=kinds,
+        drivable=(*outside, *(name for found in blocks for name in names(mechanism, found, drivable(found, [])))),
+    )
 
 
-def _idle(mechanism: Mechanism, block: Block, motions: np.ndarray) -> list[str]:
-    """Coordinates of the freedoms in which only one part of the loops moves, a part that is held by several others."""
-    owners = [(joint, name) for joint in block.joints for name in mechanism.all_joints[joint].coordinates]
-    idle: list[str] = []
-    for part in mechanism.parts:
-        around = {joint for joint in block.joints if part in mechanism.all_joints[joint].parts}
-        neighbours = {p for joint in around for p in mechanism.all_joints[joint].parts} - {part}
-        if part in mechanism.fixed or len(neighbours) < 2:
-            continue
-        elsewhere = [i for i, (joint, _) in enumerate(owners) if joint not in around]
-        _, values, combinations = (
-            np.linalg.svd(motions[:, elsewhere].T) if elsewhere else (0, np.zeros(0), np.eye(len(motions)))
-        )
-        alone = combinations[int((values > 1e-6).sum()) :] @ motions
-        for column, (joint, name) in enumerate(owners):
-            if np.any(np.abs(alone[:, column]) > 1e-6):
-                idle.append(f"{mechanism.all_joints[joint].name}.{name}")
-    return list(dict.fromkeys(idle))
+def names(mechanism: Mechanism, found: LoopFreedoms, columns: Iterable[int]) -> list[str]:
+    """The full names of coordinates by their columns."""
+    chosen = (found.columns[column] for column in columns)
+    return [f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}" for joint, k in chosen]
+
+
+def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"]) -> list[int]:
+    """The columns that some of the motions move."""
+    return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.noise.rate).tolist()
+
+
+def drivable(found: LoopFreedoms, driven: Sequence[int]) -> list[int]:
+    """Columns that can be driven besides some others, until nothing but idle freedoms is left."""
+    idle = moving_columns(found, found.idle)
+    order = [column for column in range(len(found.columns)) if column not in idle]
+    order.sort(key=lambda column: found.fixed not in found.ends[found.columns[column][0]])
+    return largest(found, order, driven)
+
+
+def largest(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
+    """Those of the columns, each in turn, that can be given besides the ones before."""
+    taken: list[int] = []
+    for column in columns:
+        together = [*given, *taken, column]
+        if independent(found.motions, together, found.noise) == len(together):
+            taken.append(column)
+    return taken

@@ -16,6 +16,8 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.joints.joint import Joint
 from jaxkin.motion import writers
+from jaxkin.motion.dead_ends import left_free, listed
+from jaxkin.motion.drive import coordinate
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.solve.status import Status
 from jaxkin.topology.names import nearest
@@ -82,6 +84,11 @@ class Motion:
         if counts[Status.CLOSED]:
             largest = float(np.max(np.asarray(self.residual)[np.asarray(self.closed)]))
             lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
+        driven = [coordinate(self.mechanism, name) for name in self.inputs]
+        if free := left_free(self.mechanism, driven):
+            lines.append(
+                f"  the drive leaves freedoms, which move as little as they can; also to be driven: {listed(free)}"
+            )
         return "\n".join(lines)
 
 

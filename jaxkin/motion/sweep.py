@@ -13,6 +13,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
+from jaxkin.motion.dead_ends import dead_end
 from jaxkin.motion.drive import Driven, resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
@@ -35,9 +36,11 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     given. Only loops that a driven joint moves are solved; coordinates that nothing drives stay at rest.
 
     Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`, it is never
-    an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`).
+    an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that the
+    loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
     """
     driven = resolve(mechanism, drive)
+    _refuse_dead_ends(mechanism, driven)
     _warn_of_float32()
     first = next(iter(driven.values())).values
     displacements: list[Float[Array, "poses _"]] = [
@@ -84,6 +87,13 @@ def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
     return jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
+
+
+def _refuse_dead_ends(mechanism: Mechanism, driven: Mapping[str, Driven]) -> None:
+    if traced(mechanism) or not all(np.all(np.isfinite(leaf)) for leaf in jax.tree.leaves(mechanism)):
+        return
+    if text := dead_end(mechanism, [(entry.joint, entry.coordinate) for entry in driven.values()]):
+        raise ValueError(text)
 
 
 def _edited(joints: list[Joint]) -> bool:

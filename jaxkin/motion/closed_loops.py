@@ -1,0 +1,95 @@
+"""The loops of a structure element on the host: closed by Newton steps in numpy, whatever the device does (Eq. 10)."""
+
+from __future__ import annotations
+
+import jax
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.joints.screws import Screws, chain, moved
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.topology.rates import DOUBLE, SINGLE
+from jaxkin.topology.structure import Block
+
+_ITERATIONS = 60
+
+Row = Float[np.ndarray, " columns"]
+Rows = Float[np.ndarray, " equations"]
+
+
+class ClosedLoops:
+    """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
+
+    def __init__(self, mechanism: Mechanism, block: Block) -> None:
+        joints = {index: mechanism.all_joints[index] for index in block.joints}
+        self.block = block
+        self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
+        single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
+        self.noise = SINGLE if single else DOUBLE
+        row_of = mechanism.structure.row_of
+        self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
+        origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints.values()])
+        centre = origins.mean(axis=0)
+        length = np.sqrt(((origins - centre) ** 2).sum(axis=1).mean()) or 1.0
+
+        def scaled(frames) -> np.ndarray:
+            frames = np.array(frames, float)
+            frames[:, :3, 3] = (frames[:, :3, 3] - centre) / length
+            return frames
+
+        self.chains = {
+            index: (joint.movements, scaled(joint.before), scaled(joint.after), float(joint.pitch) / length)
+            for index, joint in joints.items()
+        }
+        first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
+        self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
+
+    def closed(self, q: Row) -> tuple[Row, Screws, float]:
+        """Newton steps of least norm, damped by the residual: the coordinates, the screws there and what remains."""
+        residual, jacobian, screws = self._travel(q)
+        for _ in range(_ITERATIONS):
+            gap = float(np.linalg.norm(residual))
+            if gap < 1e-14:
+                break
+            q = q - least_norm(jacobian, residual, max(1e-14, 1e-2 * min(1.0, gap**2)))
+            residual, jacobian, screws = self._travel(q)
+            if self.noise.closed > np.linalg.norm(residual) >= gap:
+                break  # rounding
+        return q, screws, float(np.linalg.norm(residual))
+
+    def _travel(self, q: Row) -> tuple[Rows, Float[np.ndarray, "equations columns"], Screws]:
+        """Misfits of the loops as twists, their derivatives, and the screws of all joints, in world coordinates."""
+        steps = {
+            index: chain(movements, before, q[self.slices[index]], pitch, after)
+            for index, (movements, before, after, pitch) in self.chains.items()
+        }
+        places: dict[str, Pose] = {}
+        residual = np.zeros((len(self.block.loops), 6))
+        jacobian = np.zeros((len(self.block.loops), 6, len(q)))
+        screws = np.zeros((6, len(q)))
+        for row, (misfit, twists) in enumerate(zip(residual, jacobian, strict=True)):
+            loop = self.block.loops[row]
+            # a loop starts at a part that the loops before it hold (Section 4.2)
+            start = pose = places.setdefault(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1], np.eye(4))
+            for joint, sign in loop:
+                step, own = steps[joint]
+                if sign > 0:
+                    turned, pose = moved(pose, own), pose @ step
+                else:
+                    pose = pose @ inverse(step)
+                    turned = moved(pose, own)
+                screws[:, self.slices[joint]] = turned
+                twists[:, self.slices[joint]] = sign * turned
+                places.setdefault(self.ends[joint][1 if sign > 0 else 0], pose)
+            left = pose @ inverse(start)
+            skew = left[:3, :3] - left[:3, :3].T
+            misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
+        return residual.ravel(), jacobian.reshape(-1, len(q)), screws
+
+
+def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:
+    """The x of least norm with J x = r, damping over the mean square of the rows of J."""
+    gram = jacobian @ jacobian.T
+    floor = damping * max(float(np.trace(gram)) / max(len(gram), 1), 1e-300)
+    return jacobian.T @ np.linalg.solve(gram + floor * np.eye(len(gram)), right)

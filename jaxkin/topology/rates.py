@@ -1,0 +1,67 @@
+"""Loops at first order: the rates of the joints that keep them closed, as linear equations in numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.joints.screws import Screws
+
+
+class Noise(NamedTuple):
+    """What counts as zero, lengths over the characteristic one: what the numbers of a mechanism are good for."""
+
+    closed: float
+    """Largest residual of a closed pose."""
+    rank: float
+    """Singular values of a Jacobian below this, over the largest, are zero."""
+    rate: float
+    """Rates below this, of motions of unit size, are zero."""
+
+
+DOUBLE, SINGLE = Noise(1e-11, 1e-9, 1e-6), Noise(1e-5, 1e-4, 1e-3)
+"""For mechanisms in float64 and in float32."""
+
+Columns = Sequence[tuple[int, int]]
+"""(joint, coordinate) of each column."""
+
+
+def loop_jacobian(
+    loops: Sequence[Sequence[tuple[int, int]]], columns: Sequence[tuple[int, int]], screws: Screws
+) -> Float[np.ndarray, "equations columns"]:
+    """Six rows a loop of (joint, sign): the sum of its joints' twists, each in its direction of travel, is zero."""
+    rows = np.zeros((len(loops), 6, len(columns)))
+    of_joint: dict[int, list[int]] = {}
+    for column, (joint, _) in enumerate(columns):
+        of_joint.setdefault(joint, []).append(column)
+    for row, loop in zip(rows, loops, strict=True):
+        for joint, sign in loop:
+            row[:, of_joint.get(joint, [])] = sign * screws[:, of_joint.get(joint, [])]
+    return rows.reshape(-1, len(columns))
+
+
+def null_space(
+    matrix: Float[np.ndarray, "rows columns"], noise: Noise
+) -> tuple[int, Float[np.ndarray, "free columns"]]:
+    """The rank of a Jacobian, and an orthonormal basis of what it takes to zero."""
+    if not matrix.shape[0]:
+        return 0, np.eye(matrix.shape[1])
+    _, values, directions = np.linalg.svd(matrix)
+    rank = int((values > noise.rank * values[0]).sum()) if values.size else 0
+    return rank, directions[rank:]
+
+
+def without(
+    motions: Float[np.ndarray, "n columns"], resting: Sequence[int], noise: Noise
+) -> Float[np.ndarray, "m columns"]:
+    """A basis of those motions in which some columns rest."""
+    _, values, mixes = np.linalg.svd(motions[:, list(resting)].T)
+    return mixes[int((values > noise.rate).sum()) :] @ motions
+
+
+def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], noise: Noise) -> int:
+    """How many of the rates of these columns the motions allow independently of each other."""
+    return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > noise.rate).sum())
