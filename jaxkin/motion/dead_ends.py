@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.mobility import drivable, largest, moving_columns, names
+from jaxkin.motion.spinning import spinning
+from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent
 
 Coordinate = tuple[int, int]
 """(joint, coordinate)."""
-_LISTED = 8
-"""Names that a message lists at most."""
 
 
 def dead_end(mechanism: Mechanism, driven: Sequence[Coordinate]) -> str | None:
@@ -50,7 +50,7 @@ def left_free(mechanism: Mechanism, driven: Sequence[Coordinate]) -> tuple[str, 
     return tuple(
         name
         for found, columns in _driven_blocks(mechanism, driven)
-        for name in names(mechanism, found, drivable(found, columns))
+        for name in names(mechanism, found, drivable(found, columns, spinning(mechanism)))
     )
 
 
@@ -58,12 +58,6 @@ def _mechanism_of(found: LoopFreedoms) -> str:
     """The loops of a structure element by some of its parts."""
     parts = dict.fromkeys(part for pair in found.ends.values() for part in pair)
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
-
-
-def listed(words: Sequence[str]) -> str:
-    """Names with commas, the first few of many."""
-    more = f" and {len(words) - _LISTED} more" if len(words) > _LISTED else ""
-    return ", ".join(words[:_LISTED]) + more
 
 
 def _driven_blocks(mechanism: Mechanism, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:

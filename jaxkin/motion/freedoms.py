@@ -7,7 +7,7 @@ it compiles nothing and decides nothing by the precision of the device.
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Collection, Container
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,8 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.rates import loop_jacobian, null_space, without
 from jaxkin.topology.structure import Block
 
+_TOGETHER = 3
+"""Parts in a row that may be idle together."""
 _STEP = 0.05
 """How far the second look is taken from the assembled pose, in radians or characteristic lengths: far enough to leave a
 singular pose behind, near enough to close."""
@@ -82,22 +84,39 @@ class LoopFreedoms:
         """The same at the assembled pose, where there may be more of them."""
         return null_space(loop_jacobian(self.block.loops, self.columns, self.assembled), self.noise)[1]
 
-    @cached_property
-    def idle(self) -> Float[np.ndarray, "idle columns"]:
-        """An orthonormal basis of the motions in which a single part moves within the loops while all others rest.
+    def idle(self, left_out: Collection[str] = ()) -> Float[np.ndarray, "idle columns"]:
+        """An orthonormal basis of the motions in which one part of the loops moves while all others rest.
 
-        Only of parts that are held by several others: between two parts any motion is of use.
+        A part that is held by several others: between two parts any motion is of use. A few parts in a row that stay
+        together, such as the two halves of a leg that spins between its balls, are one part here. Motions of parts that
+        are left out are not looked for.
         """
-        parts = {part for pair in self.ends.values() for part in pair}
         found = [np.zeros((0, len(self.columns)))]
-        for part in sorted(parts - {self.fixed}):
-            around = {joint for joint, pair in self.ends.items() if part in pair}
-            if len({other for joint in around for other in self.ends[joint]}) < 3:
+        for parts in self._held_by_several():
+            if parts & set(left_out):
                 continue
-            elsewhere = [column for column, (joint, _) in enumerate(self.columns) if joint not in around]
-            found.append(without(self.motions, elsewhere, self.noise))
+            within = {joint for joint, ends in self.ends.items() if (ends[0] in parts) != (ends[1] in parts)}
+            found.append(
+                without(
+                    self.motions, [c for c, (joint, _) in enumerate(self.columns) if joint not in within], self.noise
+                )
+            )
         _, values, directions = np.linalg.svd(np.concatenate(found), full_matrices=False)
         return directions[values > self.noise.rate]
+
+    def _held_by_several(self) -> set[frozenset[str]]:
+        """Parts with two or more neighbours, and rows of up to three that have two neighbours each."""
+        near: dict[str, set[str]] = {}
+        for part, other in self.ends.values():
+            near.setdefault(part, set()).add(other)
+            near.setdefault(other, set()).add(part)
+        single = {frozenset((part,)) for part in near if part != self.fixed and len(near[part]) > 1}
+        rows = {row for row in single if all(len(near[part]) == 2 for part in row)}
+        found, chain = set(single), {part for row in rows for part in row}
+        for _ in range(_TOGETHER - 1):
+            rows = {row | {other} for row in rows for part in row for other in near[part] & chain - row}
+            found |= {row for row in rows if len(set.union(*(near[part] for part in row)) - row) > 1}
+        return found
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """The smallest displacement subgroup that holds these joints."""

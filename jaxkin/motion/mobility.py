@@ -6,7 +6,7 @@ place of six it is right for planar and spherical ones, and still wrong for Benn
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,9 @@ from jaxtyping import Float
 from jaxkin.joints.subgroups import Subgroup
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.spinning import spinning
 from jaxkin.solve.system import EQUATIONS
+from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent
 
 
@@ -31,6 +33,10 @@ class Mobility:
     """Closure equations, six a loop, that follow from the others."""
     idle_freedoms: int
     """How many of the freedoms are of that kind."""
+    spinning: tuple[str, ...]
+    """Parts that only spin, such as screws and washers: all that they can do is idle. They are left at rest."""
+    spins: int
+    """Freedoms that belong to the parts that only spin; they are not among the idle ones."""
     counted: int
     """Coordinates less six a loop: negative or too small where equations are redundant."""
     counted_in_subgroups: int
@@ -40,6 +46,11 @@ class Mobility:
     drivable: tuple[str, ...]
     """Coordinates whose displacements, given together, leave nothing but idle freedoms; one choice of several, joints
     at the fixed parts first."""
+
+    @property
+    def useful(self) -> int:
+        """Freedoms that are neither idle nor those of parts that only spin."""
+        return self.freedoms - self.idle_freedoms - self.spins
 
     @property
     def counting(self) -> str:
@@ -53,8 +64,10 @@ class Mobility:
         return f"{text}, {self.counted_in_subgroups} with those of its subgroup ({', '.join(kinds)})"
 
     def __str__(self) -> str:
-        idle = f", {self.idle_freedoms} of them idle: {', '.join(self.idle)}" if self.idle else ""
+        idle = f", {self.idle_freedoms} of them idle: {listed(self.idle)}" if self.idle else ""
         freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
+        if self.spinning:
+            freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
         return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
 
 
@@ -64,25 +77,36 @@ def mobility(mechanism: Mechanism) -> Mobility:
     At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained.
     """
     blocks = mechanism.loop_freedoms
+    spins = spinning(mechanism)
     in_loops = {joint for block in mechanism.structure.blocks for joint in block.joints}
     outside = [
         f"{joint.name}.{coordinate}"
         for index, joint in enumerate(mechanism.all_joints)
-        if index not in in_loops
+        if index not in in_loops and not spins.keys() & set(joint.parts)
         for coordinate in joint.coordinates
     ]
     kinds = tuple(found.subgroup(dict(loop)) for found in blocks for loop in found.block.loops)
+    at_ends = sum(joint.freedoms for index, joint in enumerate(mechanism.all_joints) if index not in in_loops)
     coordinates = sum(joint.freedoms for joint in mechanism.all_joints)
-    idle = [name for found in blocks for name in names(mechanism, found, moving_columns(found, found.idle))]
+    idle = [found.idle(spins) for found in blocks]
     return Mobility(
-        freedoms=len(outside) + sum(len(found.motions) for found in blocks),
-        idle=tuple(idle),
+        freedoms=at_ends + sum(len(found.motions) for found in blocks),
+        idle=tuple(
+            name
+            for found, motions in zip(blocks, idle, strict=True)
+            for name in names(mechanism, found, moving_columns(found, motions))
+        ),
         redundant=sum(EQUATIONS * len(found.block.loops) - found.rank for found in blocks),
-        idle_freedoms=sum(len(found.idle) for found in blocks),
+        idle_freedoms=sum(map(len, idle)),
+        spinning=tuple(spins),
+        spins=sum(spin.freedoms for spin in spins.values()),
         counted=coordinates - EQUATIONS * len(kinds),
         counted_in_subgroups=coordinates - sum(kind.dimension for kind in kinds),
         subgroups=kinds,
-        drivable=(*outside, *(name for found in blocks for name in names(mechanism, found, drivable(found, [])))),
+        drivable=(
+            *outside,
+            *(name for found in blocks for name in names(mechanism, found, drivable(found, [], spins))),
+        ),
     )
 
 
@@ -97,10 +121,11 @@ def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"])
     return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.noise.rate).tolist()
 
 
-def drivable(found: LoopFreedoms, driven: Sequence[int]) -> list[int]:
-    """Columns that can be driven besides some others, until nothing but idle freedoms is left."""
-    idle = moving_columns(found, found.idle)
+def drivable(found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
+    """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin."""
+    idle = moving_columns(found, found.idle())
     order = [column for column in range(len(found.columns)) if column not in idle]
+    order = [column for column in order if not set(spins) & set(found.ends[found.columns[column][0]])]
     order.sort(key=lambda column: found.fixed not in found.ends[found.columns[column][0]])
     return largest(found, order, driven)
 

@@ -16,11 +16,11 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.joints.joint import Joint
 from jaxkin.motion import writers
-from jaxkin.motion.dead_ends import left_free, listed
+from jaxkin.motion.dead_ends import left_free
 from jaxkin.motion.drive import coordinate
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.solve.status import Status
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import listed, nearest
 from jaxkin.topology.structure import Structure
 
 
@@ -86,9 +86,7 @@ class Motion:
             lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
         driven = [coordinate(self.mechanism, name) for name in self.inputs]
         if free := left_free(self.mechanism, driven):
-            lines.append(
-                f"  the drive leaves freedoms, which move as little as they can; also to be driven: {listed(free)}"
-            )
+            lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
         return "\n".join(lines)
 
 

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from jaxkin.joints.subgroups import Subgroup
-from jaxkin.motion.dead_ends import dead_end, left_free, listed
+from jaxkin.motion.dead_ends import dead_end, left_free
 from jaxkin.motion.drive import coordinate
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.mobility import names
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
+from jaxkin.topology.names import listed
 from jaxkin.topology.order import Group, solve_order
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 _LISTED = 8
@@ -16,8 +16,13 @@ def nearest(name: str, known: Iterable[str]) -> str:
         return close
     if not known:
         return "; there is none"
-    more = f" and {len(known) - _LISTED} more" if len(known) > _LISTED else ""
-    return f"; there is {', '.join(repr(other) for other in known[:_LISTED])}{more}"
+    return f"; there is {listed([repr(other) for other in known])}"
+
+
+def listed(words: Sequence[str]) -> str:
+    """Names with commas, the first few of many: "A, B, C and 40 more"."""
+    more = f" and {len(words) - _LISTED} more" if len(words) > _LISTED else ""
+    return ", ".join(words[:_LISTED]) + more
 
 
 def closest(name: object, known: Iterable[str]) -> str:
