@@ -88,13 +88,11 @@ class LoopFreedoms:
         """An orthonormal basis of the motions in which one part of the loops moves while all others rest.
 
         A part that is held by several others: between two parts any motion is of use. A few parts in a row that stay
-        together, such as the two halves of a leg that spins between its balls, are one part here. Motions of parts that
-        are left out are not looked for.
+        together, such as the two halves of a leg that spins between its balls, are one part here. Parts that are left
+        out hold nothing, and their motions are not looked for.
         """
         found = [np.zeros((0, len(self.columns)))]
-        for parts in self._held_by_several():
-            if parts & set(left_out):
-                continue
+        for parts in sorted(self._held_by_several(set(left_out)), key=sorted):
             within = {joint for joint, ends in self.ends.items() if (ends[0] in parts) != (ends[1] in parts)}
             found.append(
                 without(
@@ -104,10 +102,10 @@ class LoopFreedoms:
         _, values, directions = np.linalg.svd(np.concatenate(found), full_matrices=False)
         return directions[values > self.noise.rate]
 
-    def _held_by_several(self) -> set[frozenset[str]]:
+    def _held_by_several(self, left_out: set[str]) -> set[frozenset[str]]:
         """Parts with two or more neighbours, and rows of up to three that have two neighbours each."""
         near: dict[str, set[str]] = {}
-        for part, other in self.ends.values():
+        for part, other in (ends for ends in self.ends.values() if left_out.isdisjoint(ends)):
             near.setdefault(part, set()).add(other)
             near.setdefault(other, set()).add(part)
         single = {frozenset((part,)) for part in near if part != self.fixed and len(near[part]) > 1}
