@@ -67,6 +67,16 @@ PerContact = Annotated[
     typer.Option("--no-combine", help="Keep one joint per contact, as in the paper, not one per pair of parts."),
 ]
 
+Picture = Annotated[
+    Path | None,
+    typer.Option(
+        "--png",
+        metavar="FILE",
+        dir_okay=False,
+        help="Draw the assembly with the regions of its contacts and the axes of its joints into this file.",
+    ),
+]
+
 
 @app.command(epilog="Example:  jaxkin demo --out motion")
 def demo(out: Out = Path("jaxkin-demo")) -> None:
@@ -79,13 +89,14 @@ def demo(out: Out = Path("jaxkin-demo")) -> None:
         _sweep(path("fourbar"), out, options)
 
 
-@app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground")
+@app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground --png found.png")
 def inspect(
     file: File,
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
     no_combine: PerContact = False,
+    png: Picture = None,
 ) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
     with one_line_errors():
@@ -99,6 +110,10 @@ def inspect(
         if study.assembly:
             report.print_contacts(study.assembly, contacts)
         # only now: what stands above helps to see why the mechanism is refused
+        if png and study.assembly:
+            from jaxkin.view.inspection import draw_inspection
+
+            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
         report.print_mechanism(_checked(study).mechanism, contacts)
 
 

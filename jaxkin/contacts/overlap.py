@@ -96,19 +96,34 @@ def _intersections(a: Flat, b: Flat, tolerance: float) -> tuple[np.ndarray, np.n
         [_inside(a, b, edges_b, tolerance), _inside(b, a, edges_a, tolerance), meet.reshape(-1, 9)], 1
     )
 
-    count = np.maximum(shared.sum(axis=1), 1)
-    middle = np.einsum("nk,nki->ni", shared, corners) / count[:, None]
-    spokes = np.where(shared[..., None], corners - middle[:, None], 0.0)
-    order = np.argsort(np.where(shared, np.arctan2(spokes[..., 1], spokes[..., 0]), np.inf), axis=1)
-    rim = np.take_along_axis(spokes, order[..., None], axis=1)
-    last = np.arange(15) >= count[:, None]
-    rim = np.where(last[..., None], rim[:, :1], rim)  # what is no corner repeats the first and adds no area
+    middle, rim = _rims(corners, shared)
     following = np.roll(rim, -1, axis=1)
     sectors = _cross(rim, following) / 2
     areas = sectors.sum(axis=1)
     moments = np.einsum("nk,nki->ni", sectors, rim + following) / 3
     safe = np.where(areas > 0, areas, 1.0)[:, None]
     return areas, middle + np.where(areas[:, None] > 0, moments / safe, 0.0), corners, shared
+
+
+def _rims(corners: np.ndarray, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The mean of the corners of each polygon, and from there its corners anticlockwise; what is none repeats one."""
+    count = np.maximum(shared.sum(axis=1), 1)
+    middle = np.einsum("nk,nki->ni", shared, corners) / count[:, None]
+    spokes = np.where(shared[..., None], corners - middle[:, None], 0.0)
+    order = np.argsort(np.where(shared, np.arctan2(spokes[..., 1], spokes[..., 0]), np.inf), axis=1)
+    rim = np.take_along_axis(spokes, order[..., None], axis=1)
+    last = np.arange(15) >= count[:, None]
+    return middle, np.where(last[..., None], rim[:, :1], rim)  # what is no corner repeats the first and adds no area
+
+
+def shared_triangles(first: Flat, second: Flat, tolerance: float) -> Flat:
+    """What two sets of triangles in one chart share, as triangles: for drawing."""
+    pairs = crossing(boxes_of(first), boxes_of(second), tolerance)
+    _, _, corners, shared = _intersections(first[pairs[:, 0]], second[pairs[:, 1]], tolerance)
+    middle, rim = _rims(corners, shared)
+    fans = np.stack([np.zeros_like(rim), rim, np.roll(rim, -1, axis=1)], axis=2) + middle[:, None, None]
+    fans = fans.reshape(-1, 3, 2)
+    return fans[np.abs(_cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0])) > tolerance**2]
 
 
 def _inside(points: Flat, triangles: Flat, edges: Flat, tolerance: float) -> np.ndarray:

@@ -125,6 +125,15 @@ def test_inspect_tells_everything_once(tmp_path):
     assert done.output.count("torus") == 1
 
 
+def test_inspect_draws_what_it_found(tmp_path):
+    done = invoke("inspect", FOURBAR, "--fixed", "ground", "--png", tmp_path / "found.png")
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "found.png").read_bytes().startswith(b"\x89PNG")
+    done = invoke("inspect", FOURBAR, "--png", tmp_path / "none" / "found.png")
+    assert done.exit_code == 2
+    assert "none" in done.stderr
+
+
 def moved_rocker(text: str) -> str:
     """The four-bar with its rocker placed a metre away."""
     return text.replace("(106.25950699647,", "(1106.25950699647,")

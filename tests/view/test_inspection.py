@@ -1,0 +1,71 @@
+"""The picture of an assembly: regions of contacts where they are, and nothing half written."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import jaxkin as jk
+from jaxkin.contacts.tolerance import default_length
+from jaxkin.examples import EXAMPLES, path
+from jaxkin.io.step import read_step
+from jaxkin.motion.assembly import Assembly
+from jaxkin.view.inspection import draw_inspection
+from jaxkin.view.regions import region_of
+
+DATA = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def states():
+    parts, unit = read_step(DATA / "contacts" / "data" / "states.step")
+    return Assembly(parts, unit, "states.step")
+
+
+def test_regions_lie_on_both_surfaces(states):
+    """Areas by the corners of their triangles: between these lie chords."""
+    faces = {(part.name, face.name): face for part in states.parts for face in part.faces}
+    tolerance = default_length(states.parts)
+    for contact in states.contacts():
+        face1, face2 = (faces[side] for side in zip(contact.parts, contact.faces, strict=True))
+        region = region_of(contact, face1, face2, tolerance)
+        points = region.triangles.reshape(-1, 3) if contact.region == "surface" else region.line
+        assert len(points) == {"point": 1, "line": 2, "circle": 97}.get(contact.region, len(points)) > 0
+        for surface in contact.surfaces:
+            assert np.abs(surface.distance(points)).max() < 2 * tolerance
+
+
+def area(triangles):
+    edges = triangles[:, 1:] - triangles[:, :1]
+    return np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=-1).sum() / 2
+
+
+def test_areas_are_those_of_the_drawing():
+    """The pin of the crank in the coupler: 2 pi r h, of which the chords of its tessellation leave out a little."""
+    assembly = jk.load(path("fourbar"))
+    faces = {(part.name, face.name): face for part in assembly.parts for face in part.faces}
+    size = EXAMPLES["fourbar"].dimensions
+    contact = next(c for c in assembly.contacts() if set(c.parts) == {"crank", "coupler"} and c.state == "e")
+    face1, face2 = (faces[side] for side in zip(contact.parts, contact.faces, strict=True))
+    found = area(region_of(contact, face1, face2, default_length(assembly.parts)).triangles)
+    assert found == pytest.approx(2 * np.pi * size["pin radius"] * size["thickness"], rel=0.01)
+
+
+def test_the_picture_shows_contacts_in_their_colour(tmp_path):
+    assembly = jk.load(path("cam"))
+    red = []
+    for contacts in (None, ()):
+        draw_inspection(
+            assembly, tmp_path / "found.png", contacts=contacts, mechanism=assembly.mechanism(fixed=["frame"])
+        )
+        image = np.asarray(Image.open(tmp_path / "found.png").convert("RGB"), int)[:-150]  # without the legend
+        red.append(int(((image[..., 0] - image[..., 1:].max(axis=-1)) > 90).sum()))
+    assert red[0] > 5 * red[1] + 1000
+    assert [file.name for file in tmp_path.iterdir()] == ["found.png"]
+
+
+def test_nothing_is_left_where_it_cannot_be_written(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        draw_inspection(jk.load(path("cam")), tmp_path / "none" / "found.png")
+    assert list(tmp_path.iterdir()) == []
