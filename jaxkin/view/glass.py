@@ -1,0 +1,97 @@
+"""Parts as if of glass: pale, with hidden edges, seen from the corner that hides least of any, and areas in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+from jaxtyping import Float, UInt8
+
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import frame
+from jaxkin.view.camera import THUMBNAIL, View, choose_view
+from jaxkin.view.illustration import FINE, Canvas, draw
+from jaxkin.view.raster import rasterise
+from jaxkin.view.sheet import Color
+
+WIDTH = 1300
+"""Pixels of the longer side of the drawing."""
+AIR = 0.06
+"""Around the parts, over the larger side: axes reach beyond them."""
+PALE = 0.62
+"""Share of white in the parts, so that what is in them is seen."""
+THROUGH = 12
+"""Parts at most whose hidden edges are drawn too."""
+
+
+def pale(color: Color) -> Color:
+    """The colour that parts of a colour get."""
+    red, green, blue = (PALE + (1 - PALE) * channel for channel in color)
+    return red, green, blue
+
+
+def canvas_of(parts: Sequence[Part], fixed: Sequence[str]) -> Canvas:
+    """What the drawing shows of the parts, from where, and how large."""
+    view = _view(parts, fixed)
+    points = view.project(np.concatenate([part.triangles.reshape(-1, 3) for part in parts]))
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = AIR * (high - low)[:2].max()
+    extent, centre = (high - low)[:2] + 2 * margin, (low + high) / 2
+    scale = WIDTH / extent.max()
+    width, height = (int(np.ceil(side * scale)) for side in extent)
+    corner = np.append(centre[:2] + np.array([-width, height]) / (2 * scale), centre[2])
+    return Canvas(view, corner, scale, height, width)
+
+
+def see_through(
+    canvas: Canvas,
+    parts: Sequence[Part],
+    colors: Sequence[Color],
+    areas: Sequence[Float[np.ndarray, "_ 3 3"]],
+    color: Color,
+) -> UInt8[np.ndarray, "height width 3"]:
+    """The parts in pale colours, and over them areas in one colour: strong where they are in front, else through."""
+    from PIL import Image
+
+    solid = draw(canvas, [part.triangles for part in parts], colors)
+    image = PALE + (1 - PALE) * solid.color
+    image[~solid.present] = 1.0
+    image[solid.crease] *= 0.8
+    image[solid.outline] *= 0.45
+    if len(parts) <= THROUGH:
+        for part in parts:
+            alone = draw(canvas, [part.triangles], [color])
+            hidden = (alone.outline | alone.crease) & (alone.depth < solid.depth - 1.0)
+            image[hidden] *= 0.8
+    if areas:
+        layer = draw(canvas, areas, [color] * len(areas))
+        front = layer.depth >= solid.depth - 1e-3 * canvas.width * FINE
+        strength = np.where(front, 0.8, 0.42)[..., None]
+        image = np.where(layer.present[..., None], (1 - strength) * image + strength * layer.color, image)
+        rim = layer.outline & ~layer.present
+        image[rim] = 0.4 * image[rim] + 0.6 * np.array(color)
+    return np.asarray(Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8)).reduce(FINE))
+
+
+def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
+    """Obliquely on the plane of most flat faces, from the corner that hides least of any part."""
+    still = {part.name: np.eye(4)[None] for part in parts}
+    right, up, out = choose_view(parts, fixed, still).axes
+    views = []
+    for above, beside, before in product((1, -1), (1, -1), (-1, 1)):
+        towards = 0.62 * above * out + 0.35 * beside * right + 0.7 * before * up
+        views.append(View(frame(np.zeros(3), towards, np.cross(above * out, towards))[:3, :3].T, False))
+    merits = [_seen(parts, view) for view in views]
+    best = int(np.argmax(merits))
+    return views[best] if merits[best] > merits[0] + 0.1 * len(parts) else views[0]
+
+
+def _seen(parts: Sequence[Part], view: View) -> float:
+    """The sum over the parts of the logarithm of what a small picture shows of each."""
+    points = view.project(np.concatenate([part.triangles for part in parts]))
+    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())
+    owners = np.repeat(np.arange(len(parts)), [len(part.triangles) for part in parts])
+    front = rasterise(pixels, THUMBNAIL, THUMBNAIL).triangle
+    return float(np.log1p(np.bincount(owners[front[front >= 0]], minlength=len(parts))).sum())
