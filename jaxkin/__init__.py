@@ -6,7 +6,7 @@ motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
 motion.save("out/")
 """
 
-from jaxkin.io import gltf as _gltf  # the writers of a motion register themselves
+from jaxkin.io import gltf as _gltf  # writers and drawings register themselves
 from jaxkin.io import tables as _tables
 from jaxkin.io.load import load as load
 from jaxkin.io.study import load_study as load_study
@@ -26,7 +26,8 @@ from jaxkin.motion.motion import Motion as Motion
 from jaxkin.solve.status import Status as Status
 from jaxkin.view import page as _page
 from jaxkin.view import storyboard as _storyboard
+from jaxkin.view import structure as _structure
 
-del _gltf, _page, _storyboard, _tables
+del _gltf, _page, _storyboard, _structure, _tables
 
 __version__ = "0.1.0"

@@ -76,6 +76,15 @@ Picture = Annotated[
         help="Draw the assembly with the regions of its contacts and the axes of its joints into this file.",
     ),
 ]
+Drawing = Annotated[
+    Path | None,
+    typer.Option(
+        "--png",
+        metavar="FILE",
+        dir_okay=False,
+        help="Draw the graph of parts and joints with its loops, and their tree, into this file.",
+    ),
+]
 
 
 @app.command(epilog="Example:  jaxkin demo --out motion")
@@ -115,6 +124,31 @@ def inspect(
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
         report.print_mechanism(_checked(study).mechanism, contacts)
+
+
+@app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")
+def loops(
+    file: File,
+    fixed: Fixed = [],
+    rigid: Rigid = [],
+    ignore: Ignore = [],
+    no_combine: PerContact = False,
+    png: Drawing = None,
+) -> None:
+    """Print the structure of an assembly: its closed loops, what hangs on them, the tree of both, and its mobility."""
+    with one_line_errors():
+        from jaxkin.cli import report
+
+        with _progress(2) as step:
+            step(f"reading {file.name}")
+            study = Options(fixed, rigid, ignore, no_combine=no_combine).on(file)
+            step("finding contacts and joints")
+            mechanism = _checked(study).mechanism
+        if png:
+            from jaxkin.view.structure import draw_structure
+
+            draw_structure(mechanism.structure, png)
+        report.print_structure(mechanism)
 
 
 @app.command(

@@ -1,4 +1,4 @@
-"""What the command line prints of a motion."""
+"""What the command line prints: contacts, mechanisms, structures, motions."""
 
 from __future__ import annotations
 
@@ -38,6 +38,25 @@ def print_mechanism(mechanism: Mechanism, contacts: Contacts) -> None:
     """Joints, loops, mobility and notes, but for the notes that were told with the contacts."""
     said = {*map(str, contacts.near_misses), *contacts.notes}
     say(str(replace(mechanism, notes=tuple(note for note in mechanism.notes if note not in said))))
+
+
+def print_structure(mechanism: Mechanism) -> None:
+    """The tree with the path of each loop, and a table: what closes each loop, and which loops share joints with it."""
+    structure, mobility = mechanism.structure, mechanism.mobility()
+    parts, joints, loops = len(structure.parts), len(structure.joints), len(structure.loops)
+    rows = f"{parts} parts (all fixed ones are one)" if len(structure.fixed) > 1 else f"{parts} parts"
+    say(f"{rows}, {joints} joints; independent loops: {joints} - {parts} + 1 = {loops}\n")
+    say(f"{structure}\n")
+    held = [{joint for joint, _ in loop.joints} for loop in structure.loops]
+    rows = []
+    for number, (loop, kind) in enumerate(zip(structure.loops, mobility.subgroups, strict=True)):
+        others = [f"l{k + 1}" for k, joints in enumerate(held) if k != number and joints & held[number]]
+        shares = ", ".join(others) or "none"
+        rows.append((f"l{number + 1}", loop.path[0], str(len(loop.joints)), f"{kind.name} ({kind.dimension})", shares))
+    if rows:
+        print_table(("loop", "starts at", "joints", "moves in (equations)", "shares joints with"), rows, numbers=(2,))
+        say()
+    say(f"Mobility: {mobility}")
 
 
 def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers: Iterable[int] = ()) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -66,13 +67,22 @@ def _choose(only: str | Collection[str] | None) -> tuple[str, ...]:
 
 
 def _write(motion: Motion, directory: Path, filename: str) -> Path:
-    """One file: written in a folder beside its place, on the same disk, so that the move into it is a mere renaming."""
     target = directory / filename
     try:
-        with TemporaryDirectory(prefix=".", dir=directory) as temporary:
-            draft = Path(temporary) / filename
+        with whole(target) as draft:
             (_tables | _others)[filename](motion, draft)
-            os.replace(draft, target)
     except Exception as error:
         raise OSError(f"could not write {str(target)!r}: {error}") from error
     return target
+
+
+@contextmanager
+def whole(target: Path) -> Iterator[Path]:
+    """A draft of a file, which takes its place when it is written, and never does where that fails.
+
+    It lies in a folder beside the file, on the same disk, so that the move is a mere renaming.
+    """
+    with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
+        draft = Path(folder) / target.name
+        yield draft
+        os.replace(draft, target)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Int
@@ -15,6 +16,9 @@ from jaxkin.topology.describe import describe
 from jaxkin.topology.elements import Element, Node, element_tree, named
 from jaxkin.topology.graph import Circuit, Graph
 from jaxkin.topology.loops import Loop, loop_data
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,15 @@ class Structure:
                 placed.add(part)
                 tree.append((part, parent, joint, sign))
         return tuple(tree)
+
+    def plot(self) -> Figure:
+        """A drawing of the parts and joints with the loops on them, and of the tree of Fig. 4 (matplotlib).
+
+        `plot().savefig("loops.png")` writes it. Raises ValueError for more parts than a drawing can show.
+        """
+        from jaxkin.topology.plotting import plot
+
+        return plot(self)
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)

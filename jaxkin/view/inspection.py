@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +14,7 @@ from jaxkin.motion.assembly import Assembly
 from jaxkin.motion.drawing import GREY as STILL
 from jaxkin.motion.drawing import PALETTE
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.writers import whole
 from jaxkin.view.callouts import CHAIN, COLORS, MOST, draw_axes, draw_contacts, draw_states
 from jaxkin.view.glass import canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
@@ -65,11 +64,8 @@ def draw_inspection(
     sheet.write((MARGIN, 87), "  ·  ".join([*facts, f"lengths in {assembly.unit}"]), 9, GREY)
     draw_legend(sheet, entries)
     draw_scale(sheet, assembly.unit)
-    target = Path(path)
-    with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
-        draft = Path(folder) / "picture.png"
+    with whole(Path(path)) as draft:
         sheet.save(draft)
-        os.replace(draft, target)
 
 
 def _size(assembly: Assembly) -> float:

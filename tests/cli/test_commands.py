@@ -134,6 +134,18 @@ def test_inspect_draws_what_it_found(tmp_path):
     assert "none" in done.stderr
 
 
+def test_loops_prints_and_draws_the_structure(tmp_path):
+    done = invoke("loops", FOURBAR, "--fixed", "ground", "--png", tmp_path / "loops.png")
+    assert done.exit_code == 0, done.output
+    assert "4 parts, 4 joints; independent loops: 4 - 4 + 1 = 1\n" in done.output
+    assert "single loop of ground, crank, coupler, rocker (fixed)" in done.output
+    assert "planar (3)" in done.output and "Mobility: 1 freedom" in done.output
+    assert [file.name for file in tmp_path.iterdir()] == ["loops.png"]
+    assert invoke("loops", FOURBAR).exit_code == 2
+    done = invoke("loops", FOURBAR, "--fixed", "ground", "--png", tmp_path / "none" / "loops.png")
+    assert done.exit_code == 2 and "none" in done.stderr
+
+
 def moved_rocker(text: str) -> str:
     """The four-bar with its rocker placed a metre away."""
     return text.replace("(106.25950699647,", "(1106.25950699647,")
