@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from functools import partial
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
@@ -42,51 +44,86 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     driven = resolve(mechanism, drive)
     _refuse_dead_ends(mechanism, driven)
     _warn_of_float32()
-    first = next(iter(driven.values())).values
-    displacements: list[Float[Array, "poses _"]] = [
-        jnp.zeros((first.shape[0], joint.freedoms), first.dtype) for joint in mechanism.all_joints
-    ]
-    for entry in driven.values():
-        displacements[entry.joint] = displacements[entry.joint].at[:, entry.coordinate].set(entry.values)
-    solutions = []
-    for block in mechanism.structure.blocks:
-        inputs = {name: entry for name, entry in driven.items() if entry.joint in block.joints}
-        if len(first) and (inputs or _edited([mechanism.all_joints[joint] for joint in block.joints])):
-            solutions.append(_solve_block(mechanism, block, list(inputs.values()), displacements))
-    status, residual = _worst(solutions, first)
-    inputs = {name: entry.values for name, entry in driven.items()}
-    return Motion(mechanism, inputs, tuple(displacements), status, residual)
+    values = tuple(entry.values for entry in driven.values())
+    poses = values[0].shape[0]
+    solutions, blocks = [], []
+    for block, plane in zip(mechanism.structure.blocks, mechanism.planes, strict=True):
+        inside = [entry for entry in driven.values() if entry.joint in block.joints]
+        if poses and (inside or _edited([mechanism.all_joints[joint] for joint in block.joints])):
+            solutions.append(_solve_block(mechanism, block, plane, inside))
+            blocks.append(block.joints)
+    layout = Layout(
+        tuple(joint.freedoms for joint in mechanism.all_joints),
+        tuple((entry.joint, entry.coordinate) for entry in driven.values()),
+        tuple(blocks),
+    )
+    return Motion(mechanism, dict(zip(driven, values, strict=True)), *_collect(layout, values, solutions))
 
 
-def _solve_block(mechanism: Mechanism, block: Block, driven: list[Driven], displacements: list[Array]) -> Poses:
-    """One structure element solved; its joints' displacements are set in place. Without a drive: one pose for all."""
+def _solve_block(
+    mechanism: Mechanism, block: Block, plane: tuple[int, ...] | None, driven: list[Driven]
+) -> tuple[Float[Array, "columns padded"], Poses]:
+    """Displacements and poses of one structure element. Without a drive: one pose for all."""
     driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
-    system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven))
-    dtype, poses = displacements[0].dtype, displacements[0].shape[0]
-    inputs = jnp.stack([entry.values for entry in driven]) if driven else jnp.zeros((0, 1), dtype)
-    coordinates, found = solve(system, block_joints(mechanism, block, dtype), _padded(inputs))
-    coordinates, found = jax.tree.map(lambda rows: rows[..., : inputs.shape[1]], (coordinates, found))
-    first = 0
-    for joint in block.joints:
-        freedoms = mechanism.all_joints[joint].freedoms
-        rows = coordinates[first : first + freedoms].T
-        displacements[joint] = jnp.broadcast_to(rows, (poses, freedoms))
-        first += freedoms
-    return found
+    system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), plane)
+    dtype = driven[0].values.dtype if driven else jnp.zeros(0).dtype
+    inputs = _padded([entry.values for entry in driven], dtype)
+    return solve(system, block_joints(mechanism, block), inputs)
 
 
-def _padded(inputs: Float[Array, "driven poses"]) -> Float[Array, "driven padded"]:
-    """The last pose repeated up to one of few lengths, so that ranges of similar length share one compiled program.
+class Layout(NamedTuple):
+    """Where the displacements of the joints come from (static)."""
+
+    freedoms: tuple[int, ...]
+    """Of every joint."""
+    driven: tuple[tuple[int, int], ...]
+    """Joint and coordinate of every input."""
+    blocks: tuple[tuple[int, ...], ...]
+    """Joints of every structure element that was solved."""
+
+
+@partial(jax.jit, static_argnums=0)
+def _collect(
+    layout: Layout,
+    values: tuple[Float[Array, " poses"], ...],
+    solutions: list[tuple[Float[Array, "columns padded"], Poses]],
+) -> tuple[tuple[Float[Array, "poses _"], ...], Int[Array, " poses"], Float[Array, " poses"]]:
+    """Displacements of all joints, status and closure residual: the worst of the structure elements decides."""
+    poses, dtype = values[0].shape[0], values[0].dtype
+    displacements = [jnp.zeros((poses, freedoms), dtype) for freedoms in layout.freedoms]
+    for (joint, coordinate), given in zip(layout.driven, values, strict=True):
+        displacements[joint] = displacements[joint].at[:, coordinate].set(given)
+    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
+    worst = jnp.where(jnp.isfinite(values[0]), 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
+    square = jnp.zeros(poses, dtype)
+    for joints, (coordinates, found) in zip(layout.blocks, solutions, strict=True):
+        first = 0
+        for joint in joints:
+            rows = coordinates[first : first + layout.freedoms[joint], :poses].T
+            displacements[joint] = jnp.broadcast_to(rows, (poses, layout.freedoms[joint]))
+            first += layout.freedoms[joint]
+        worst = jnp.maximum(worst, rank[found.status[:poses]])
+        square = square + found.gap[:poses] ** 2
+    status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
+    return tuple(displacements), status, jnp.sqrt(square)
+
+
+def _padded(rows: list[Float[Array, " poses"]], dtype) -> Float[Array, "driven padded"]:
+    """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
 
     A power of two from 32 to 512 poses, above that a multiple of an eighth of one. Traced inputs are left alone: their
     program is compiled for their length anyway.
     """
-    poses = inputs.shape[1]
-    if traced(lax.stop_gradient(inputs)):
-        return inputs
+    if not rows:
+        return jnp.zeros((0, 1), dtype)
+    poses = rows[0].shape[0]
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
-    return jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
+    if not traced(rows):
+        # on the host: there it costs a copy, not a program for every length
+        return jnp.asarray(np.pad(np.stack([np.asarray(row) for row in rows]), ((0, 0), (0, length - poses)), "edge"))
+    inputs = jnp.stack(rows)
+    return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 
 
 def _refuse_dead_ends(mechanism: Mechanism, driven: Mapping[str, Driven]) -> None:
@@ -99,17 +136,6 @@ def _refuse_dead_ends(mechanism: Mechanism, driven: Mapping[str, Driven]) -> Non
 def _edited(joints: list[Joint]) -> bool:
     """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
     return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
-
-
-def _worst(solutions: list[Poses], like: Float[Array, " poses"]) -> tuple[Array, Array]:
-    """Status and residual of the mechanism from those of its loop systems."""
-    rank = jnp.zeros(len(Status), int).at[jnp.array([s.value for s in SEVERITY])].set(jnp.arange(len(Status)))
-    worst, square = jnp.zeros(like.shape, int), jnp.zeros_like(like)
-    for solution in solutions:
-        worst = jnp.maximum(worst, rank[solution.status])
-        square = square + solution.gap**2
-    status = jnp.array([s.value for s in SEVERITY], jnp.int32)[worst]
-    return jnp.where(jnp.isfinite(like), status, Status.NONFINITE.value).astype(jnp.int32), jnp.sqrt(square)
 
 
 _warned = False

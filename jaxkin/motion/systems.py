@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import jax.numpy as jnp
-
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.solve.sweep import Joints
 from jaxkin.solve.system import LoopSystem
 from jaxkin.topology.structure import Block
 
 
-def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...]) -> LoopSystem:
-    """The loops of a structure element; `driven` are (joint, coordinate) in rising order of the block's columns."""
+def block_system(
+    mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], plane: tuple[int, ...] | None = None
+) -> LoopSystem:
+    """The loops of a structure element; `driven` are (joint, coordinate) in rising order of the block's columns.
+
+    With the columns that act in its `plane` the element is solved there, unless something is driven along the normal.
+    """
     joints = [mechanism.all_joints[joint] for joint in block.joints]
     firsts, column = {}, 0
     for index, joint in zip(block.joints, joints, strict=True):
@@ -19,11 +22,11 @@ def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, in
         column += joint.freedoms
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
     columns = tuple(firsts[joint] + coordinate for joint, coordinate in driven)
-    return LoopSystem(tuple(joint.movements for joint in joints), loops, columns)
+    inside = plane if plane is not None and set(columns) <= set(plane) else None
+    return LoopSystem(tuple(joint.movements for joint in joints), loops, columns, inside)
 
 
-def block_joints(mechanism: Mechanism, block: Block, dtype) -> Joints:
-    """Frames and pitches of the block's joints, on the device."""
+def block_joints(mechanism: Mechanism, block: Block) -> Joints:
+    """Frames and pitches of the block's joints."""
     joints = [mechanism.all_joints[joint] for joint in block.joints]
-    columns = [[jnp.asarray(getattr(joint, leaf), dtype) for joint in joints] for leaf in Joints._fields]
-    return Joints(*map(tuple, columns))
+    return Joints(*(tuple(getattr(joint, leaf) for joint in joints) for leaf in Joints._fields))

@@ -6,14 +6,15 @@ poses by the same program as the plain sweep.
 
 from __future__ import annotations
 
-from functools import cache, partial
+from functools import cache
 
 import jax
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
-from jaxkin.solve.sweep import Joints, Poses, displacements, find_poses
+from jaxkin.solve.sweep import MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
 
 OPTIONS = {"xla_cpu_use_fusion_emitters": False}
@@ -24,21 +25,41 @@ def solve(
     system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]
 ) -> tuple[Float[Array, "columns poses"], Poses]:
     """Displacements of all joints, and the poses found: compiled once for a system and a number of poses."""
+    if not traced((joints, inputs)):
+        given, order = _in_order(np.asarray(inputs))
+        found = _program(_solve)(system, joints, given)
+        return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
     numbers = lax.stop_gradient((joints, inputs))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
-    poses = (_find_inside if traced(numbers) else finder())(system, *numbers)
-    return _displacements(system, joints, inputs, poses), poses
+    inside = traced(numbers)
+    poses = (_plain(find_poses) if inside else _program(find_poses))(system, *numbers)
+    return _plain(displacements)(system, joints, inputs, poses), poses
 
 
-_find_inside = partial(jax.jit, static_argnums=0)(find_poses)
-_displacements = partial(jax.jit, static_argnums=0)(displacements)
+def _solve(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]):
+    poses = find_poses(system, joints, inputs)
+    return displacements(system, joints, inputs, poses), poses
+
+
+def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+    """Many poses of a single input in rising order, as interpolation needs them, and where each is to be put back."""
+    steps = np.diff(inputs)
+    if len(inputs) != 1 or inputs.shape[1] < MANY or np.all(steps >= 0) or np.all(steps <= 0):
+        return inputs, None
+    order = np.argsort(inputs[0], kind="stable")
+    return inputs[:, order], np.argsort(order)
 
 
 @cache
-def finder():
-    """The compiled search, with the option where this version of JAX knows it."""
+def _plain(function):
+    return jax.jit(function, static_argnums=0)
+
+
+@cache
+def _program(function):
+    """The function compiled with the options, where this version of JAX knows them."""
     try:
         jax.jit(lambda x: x, compiler_options=OPTIONS)(0.0)
     except (TypeError, jax.errors.JaxRuntimeError):
-        return _find_inside
-    return jax.jit(find_poses, static_argnums=0, compiler_options=OPTIONS)
+        return _plain(function)
+    return jax.jit(function, static_argnums=0, compiler_options=OPTIONS)

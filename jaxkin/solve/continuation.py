@@ -13,13 +13,14 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure import Geometry
-from jaxkin.solve.correct import choose, correct, free_jacobian, spread
+from jaxkin.solve.closure import Closure, Geometry
+from jaxkin.solve.correct import choose, correct, floor, free_jacobian
 from jaxkin.solve.linear import least_norm, scale
-from jaxkin.solve.state import State, assembled, difference, drive, retract
+from jaxkin.solve.state import State, assembled, difference, drive, driven, retract
 from jaxkin.solve.status import Status, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
@@ -81,7 +82,7 @@ def substep(
     stage = jnp.where(active, front.stage, -1)
     starting, following, in_gap = stage == START, stage == FOLLOW, stage == GAP
     moved = jnp.where(following, jnp.minimum(front.step, left), jnp.where(in_gap, jnp.minimum(GAP_STEP, left), 0.0))
-    here = front.state.x[jnp.array(system.driven, int)]
+    here = driven(system, front.state.x)
     inputs = jnp.where(moved >= left, target, here + (target - here) * (moved / jnp.where(left > 0, left, 1.0)))
     inputs = jnp.where(following | in_gap, inputs, here)
 
@@ -108,9 +109,7 @@ def substep(
     final = good | starting | in_gap
     next_stage = jnp.where(entered, FOLLOW, jnp.where(lost | starting, GAP, front.stage))
     secant = jax.tree.map(lambda new, old: (new - old) / jnp.where(moved > 0, moved, 1.0), found.state, front.state)
-    jacobian, first = free_jacobian(system, found.closure), jnp.array(system.driven[:1], int)
-    driven = jnp.sum(found.closure.jacobian[:, first], axis=1)
-    slope = spread(system, -least_norm(jacobian, driven, 1e-10 * scale(jacobian))).at[first].set(1.0)
+    slope = slopes(system, found.closure)
     return (
         Front(
             state=choose(final, found.state, front.state),
@@ -150,5 +149,12 @@ def visit(
     return reached
 
 
+def slopes(system: LoopSystem, closed: Closure) -> Float[Array, "columns poses"]:
+    """Change of all coordinates per unit of the first that is driven."""
+    jacobian, first = free_jacobian(system, closed), system.driven[0]
+    given = np.arange(system.columns)[:, None] == first
+    return given - least_norm(jacobian, closed.jacobian[:, first], floor(jacobian.dtype) * scale(jacobian))
+
+
 def _distance(system: LoopSystem, front: Front, target: Float[Array, "driven lanes"]) -> Float[Array, " lanes"]:
-    return jnp.max(jnp.abs(target - front.state.x[jnp.array(system.driven, int)]), axis=0, initial=0.0)
+    return jnp.max(jnp.abs(target - driven(system, front.state.x)), axis=0, initial=0.0)

@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.linear import least_norm, scale
-from jaxkin.solve.state import State, retract
+from jaxkin.solve.state import State, is_driven, retract
 from jaxkin.solve.system import LoopSystem
 
 LONGEST_STEP = 0.5
@@ -40,29 +40,14 @@ class _Iterate(NamedTuple):
     trial: State
 
 
-def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equations free poses"]:
-    """The columns of the coordinates that are solved for."""
-    return closed.jacobian[:, jnp.array(system.free, int)]
-
-
-def spread(system: LoopSystem, free: Float[Array, "free poses"]) -> Float[Array, "columns poses"]:
-    """A change of the free coordinates as a change of all, the driven ones at rest."""
-    return (
-        jnp.zeros((system.columns, *free.shape[1:]), free.dtype)
-        .at[jnp.array(system.free, int)]
-        .set(free, unique_indices=True)
-    )
+def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equations columns poses"]:
+    """The Jacobian with zeros for what is given: least-norm steps leave that alone."""
+    return jnp.where(is_driven(system), 0.0, closed.jacobian)
 
 
 def floor(dtype) -> float:
     """Least damping relative to the scale of J J^T: above rounding, far below every singular value that matters."""
     return 1e-14 if jnp.finfo(dtype).bits == 64 else 1e-6
-
-
-def newton_step(system: LoopSystem, closed: Closure) -> Float[Array, "columns poses"]:
-    """The least-norm Gauss-Newton step, damped only at the floor."""
-    jacobian = free_jacobian(system, closed)
-    return spread(system, -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian)))
 
 
 def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int) -> Corrected:
@@ -87,14 +72,12 @@ def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Ar
         delta = -least_norm(jacobian, chosen.residual, damping)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))
-        # below 32 eps^2 of the merit, and for steps of a few eps, only rounding is left
-        exhausted = ~taken & (length < 4 * eps)
+        # below 32 eps^2 of the merit only rounding is left, as it is in long loops where a step gains nothing
+        exhausted = ~taken & ((length < 4 * eps) | (chosen.merit < 0.5 * (64 * eps) ** 2))
         # a residual that nothing lessens any more, though no damping is in the way: the loops cannot close
         least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT) * iterate.closure.merit)
         done = iterate.done | (chosen.merit < 32 * eps**2) | exhausted | least | ~jnp.isfinite(chosen.merit)
-        return _Iterate(
-            iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, spread(system, delta))
-        )
+        return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
 
     poses = state.x.shape[-1]
     nothing = Closure(

@@ -21,9 +21,14 @@ from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-FEWEST_KNOTS, MOST_KNOTS = 512, 65536
-"""Room for the knots to either side of the assembled pose: twice the number of poses within these bounds. A full turn
-takes about fifty."""
+
+def _room(poses: int) -> int:
+    """Room for the knots to either side of the assembled pose, of which a full turn takes about fifty."""
+    return min(max(512, 2 * poses), max(8192, poses // 4), 65536)
+
+
+BEYOND = 1e-3
+"""So far the last knots are extrapolated."""
 AT_LIMIT = 2 * SHORTEST_STEP
 """Farther than this from the last knot before a limit nothing closes on the branch that was followed."""
 
@@ -35,6 +40,9 @@ class Knots(NamedTuple):
     state: State
     slope: State
     status: Int[Array, " knots"]
+    least: Int[Array, ""]
+    """Number of the first knot; those before it and behind the last are empty."""
+    most: Int[Array, ""]
 
 
 class Guess(NamedTuple):
@@ -52,12 +60,12 @@ def follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"
     Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
     a full turn may come back, behind a gap, to poses on the other side of the assembled one.
     """
-    room = min(max(FEWEST_KNOTS, 2 * values.shape[0]), MOST_KNOTS)
+    room = _room(values.shape[0])
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
-    lanes, turn = jnp.arange(2), jnp.array([2 * jnp.pi, -2 * jnp.pi], values.dtype)
+    turn = jnp.array([2 * jnp.pi, -2 * jnp.pi], values.dtype)
     front = start(system, 2, values.dtype)
     entry = (front.state, front.slope, front.status)
-    kept = jax.tree.map(lambda array: jnp.zeros((room, *array.shape), array.dtype), entry)
+    kept = jax.tree.map(lambda array: jnp.zeros((*array.shape[:-1], 2 * room), array.dtype), entry)
     nowhere = jnp.array([-jnp.inf, jnp.inf], values.dtype)
 
     def target(limits: Float[Array, "2"]) -> Float[Array, "1 2"]:
@@ -73,30 +81,26 @@ def follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"
     def step(carry):
         front, count, limits, kept = carry
         front, final = substep(system, geometry, front, target(limits))
-        row = jnp.where(final & (count < room), count, room)  # out of bounds is dropped
+        # falling knots to the left of the middle, rising ones to the right; what is out of bounds is dropped
+        place = jnp.where(final & (count < room), jnp.array([room - 1, room]) + jnp.array([-1, 1]) * count, 2 * room)
         entry = (front.state, front.slope, front.status)
-        kept = jax.tree.map(
-            lambda store, new: store.at[row, ..., lanes].set(jnp.moveaxis(new, -1, 0), mode="drop"), kept, entry
-        )
+        kept = jax.tree.map(lambda store, new: store.at[..., place].set(new, mode="drop"), kept, entry)
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
         return front, count + final, jnp.where(ended, front.state.x[system.driven[0]], limits), kept
 
     front, count, _, kept = lax.while_loop(running, step, (front, jnp.zeros(2, int), nowhere, kept))
-    # rows that were not used repeat the last
-    used = jnp.minimum(jnp.arange(room)[:, None], jnp.minimum(count, room) - 1)
-
-    def row(store: Array) -> Array:
-        falling, rising = store[used[::-1, 0], ..., 0], store[used[:, 1], ..., 1]
-        return jnp.moveaxis(jnp.concatenate([falling, rising]), 0, -1)
-
-    state, slope, status = jax.tree.map(row, kept)
-    return Knots(state.x[system.driven[0]], state, rate(system, state, slope), status)
+    state, slope, status = kept
+    at = state.x[system.driven[0]]
+    number, least = jnp.arange(2 * room), room - jnp.minimum(count[0], room)
+    most = room - 1 + jnp.minimum(count[1], room)
+    at = jnp.where(number < least, -jnp.inf, jnp.where(number > most, jnp.inf, at))
+    return Knots(at, state, rate(system, state, slope), status, least, most)
 
 
 def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> Guess:
     """The poses for these inputs as far as the knots tell; the driven coordinates are not set to the inputs."""
     values = _unturned(knots, values) if system.periodic else values
-    left = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, 0, knots.at.shape[0] - 2)
+    left = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.least, knots.most - 1)
     closed = is_closed(knots.status)
     between = closed[left] & (knots.status[left] == knots.status[left + 1])
     # elsewhere there is a limit: up to the inner knot the motion was followed, at the outer one the loops close again
@@ -106,14 +110,17 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
     trusted = between | ((jnp.abs(values - knots.at[inner]) <= AT_LIMIT) | ~at_limit) & closed[nearest]
     state = choose(between, _hermite(system, knots, left, values), jax.tree.map(lambda x: x[..., nearest], knots.state))
     status = jnp.where(trusted, knots.status[nearest], Status.JUMPED.value)
-    return Guess(state, status, (values >= knots.at[0]) & (values <= knots.at[-1]))
+    return Guess(state, status, (values >= knots.at[knots.least] - BEYOND) & (values <= knots.at[knots.most] + BEYOND))
 
 
 def _unturned(knots: Knots, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
     """Values less as many full turns as bring them to where the motion got without a gap; others as they are."""
-    reached = knots.status == Status.CLOSED.value
+    reached = (knots.status == Status.CLOSED.value) & jnp.isfinite(knots.at)
     least = jnp.min(jnp.where(reached, knots.at, jnp.inf)) - AT_LIMIT
     most = jnp.max(jnp.where(reached, knots.at, -jnp.inf)) + AT_LIMIT
+    # an end of the range that was reached is no limit
+    least = jnp.where(reached[knots.least], -jnp.inf, least)
+    most = jnp.where(reached[knots.most], jnp.inf, most)
     turn = 2 * jnp.pi
     down = values - turn * jnp.ceil(jnp.maximum(values - most, 0.0) / turn)
     back = down + turn * jnp.ceil(jnp.maximum(least - down, 0.0) / turn)

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+import numpy as np
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.system import LoopSystem
 
@@ -33,22 +34,20 @@ def assembled(system: LoopSystem, poses: int, dtype) -> State:
 
 def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The state moved by `delta`: added to coordinates, a rotation vector on the left of each ball's turn."""
-    x, turns = state.x + delta, state.turns
-    for ball, first in _free_balls(system):
-        turn = multiply(exponential(delta[first : first + 3]), turns[ball])
-        turns = turns.at[ball].set(turn / jnp.sqrt(jnp.sum(turn * turn, axis=0)))
-        x = x.at[first : first + 3].set(0.0)
-    return State(x, turns)
+    if not system.balls:
+        return State(state.x + delta, state.turns)
+    turns = multiply(exponential(_of_balls(system, delta)), jnp.moveaxis(state.turns, 0, 1))
+    turns = turns / jnp.sqrt(jnp.sum(turns * turns, axis=0))
+    return State(jnp.where(_turning(system), 0.0, state.x + delta), jnp.moveaxis(turns, 0, 1))
 
 
 def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The derivative of `retract(state, t delta)` at t = 0, as a tangent of the state's arrays."""
-    turns = jnp.zeros_like(state.turns)
-    for ball, first in _free_balls(system):
-        spin = jnp.concatenate([jnp.zeros_like(delta[:1]), delta[first : first + 3]])
-        turns = turns.at[ball].set(0.5 * multiply(spin, state.turns[ball]))
-        delta = delta.at[first : first + 3].set(0.0)
-    return State(delta, turns)
+    if not system.balls:
+        return State(delta, jnp.zeros_like(state.turns))
+    spin = _of_balls(system, delta)
+    turns = 0.5 * multiply(jnp.concatenate([jnp.zeros_like(spin[:1]), spin]), jnp.moveaxis(state.turns, 0, 1))
+    return State(jnp.where(_turning(system), 0.0, delta), jnp.moveaxis(turns, 0, 1))
 
 
 def difference(a: State, b: State) -> Float[Array, " poses"]:
@@ -61,7 +60,9 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
     """The state with the driven coordinates set; a ball is driven by its three angles theta, phi, psi."""
     if not system.driven:
         return state
-    state = State(state.x.at[jnp.array(system.driven)].set(inputs, unique_indices=True), state.turns)
+    which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
+    given = inputs if len(system.driven) == 1 else inputs[which]
+    state = State(jnp.where(is_driven(system), given, state.x), state.turns)
     for ball, first in enumerate(system.balls):
         if first in system.driven:
             turn = from_angles(state.x[first : first + 3])
@@ -69,11 +70,30 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
     return state
 
 
-def _free_balls(system: LoopSystem) -> list[tuple[int, int]]:
-    return [(ball, first) for ball, first in enumerate(system.balls) if first not in system.driven]
+def driven(system: LoopSystem, x: Coordinates) -> Float[Array, "driven poses"]:
+    """The driven ones of the coordinates."""
+    return jnp.stack([x[column] for column in system.driven]) if system.driven else x[:0]
 
 
-def multiply(a: Float[Array, "4 poses"], b: Float[Array, "4 poses"]) -> Float[Array, "4 poses"]:
+def is_driven(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
+    """Which coordinates are given. A mask costs the compiled program less than picking rows and putting them back."""
+    return np.isin(np.arange(system.columns), system.driven)[:, None]
+
+
+def _turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
+    """The columns of balls that are solved for: their turns hold what they did."""
+    first = [first for first in system.balls if first not in system.driven]
+    return np.isin(np.arange(system.columns), np.add.outer(first, range(3)))[:, None]
+
+
+def _of_balls(system: LoopSystem, delta: Coordinates) -> Float[Array, "3 balls poses"]:
+    """Rotation vectors of the balls; none for those that are driven."""
+    still = jnp.zeros_like(delta[:3])
+    vectors = [still if first in system.driven else delta[first : first + 3] for first in system.balls]
+    return jnp.stack(vectors, axis=1)
+
+
+def multiply(a: Float[Array, "4 *poses"], b: Float[Array, "4 *poses"]) -> Float[Array, "4 *poses"]:
     """Product of quaternions: the turn b, then the turn a."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
@@ -87,7 +107,7 @@ def multiply(a: Float[Array, "4 poses"], b: Float[Array, "4 poses"]) -> Float[Ar
     )
 
 
-def exponential(vector: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
+def exponential(vector: Float[Array, "3 *poses"]) -> Float[Array, "4 *poses"]:
     """The quaternion of a rotation vector."""
     square = jnp.sum(vector * vector, axis=0)
     small = square < 1e-6

@@ -14,29 +14,23 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
 from jaxkin.solve.continuation import RESCUE_STEPS, visit
 from jaxkin.solve.correct import correct
+from jaxkin.solve.dense import Poses, interpolate
 from jaxkin.solve.implicit import attach
-from jaxkin.solve.knots import follow, guess
-from jaxkin.solve.state import State, angles, assembled, difference, drive
+from jaxkin.solve.knots import Knots, follow, guess
+from jaxkin.solve.state import State, angles, assembled, difference, drive, driven
 from jaxkin.solve.status import Status, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
 FARTHEST_CORRECTION = 0.1
 """Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
 GROUP = 256
-
-
-class Poses(NamedTuple):
-    """Poses as they were found: numbers without derivatives."""
-
-    state: State
-    status: Int[Array, " poses"]
-    gap: Float[Array, " poses"]
-    """Square root of Eq. 12, lengths over the characteristic length."""
+MANY = 2048
+"""From so many poses on most are interpolated."""
 
 
 class Joints(NamedTuple):
@@ -51,7 +45,7 @@ def find_poses(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven 
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism."""
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = _scaled(system, joints)
-    return _search(system, geometry, inputs / lengths[jnp.array(system.driven, int)])
+    return _search(system, geometry, inputs / driven(system, lengths))
 
 
 def displacements(
@@ -63,7 +57,7 @@ def displacements(
     """
     geometry, lengths = _scaled(system, joints)
     poses = lax.stop_gradient(poses)
-    scaled = inputs / lengths[jnp.array(system.driven, int)]
+    scaled = inputs / driven(system, lengths)
     state = attach(system, geometry, scaled, poses.state, is_closed(poses.status))
     return _coordinates(system, state) * lengths
 
@@ -91,21 +85,40 @@ def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven
 
 
 def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 poses"]) -> Poses:
-    """Poses of a single input: those between the knots, a group at a time, by the damped corrector."""
-    count = inputs.shape[1]
-    knots = follow(system, geometry, inputs[0])
-    nothing = Poses(
-        assembled(system, count, inputs.dtype),
-        jnp.full(count, Status.STALLED.value, jnp.int32),
-        jnp.full(count, jnp.inf, inputs.dtype),
+    """Poses of a single input: a few by themselves, the many between them by interpolation."""
+    values, count = inputs[0], inputs.shape[1]
+    knots = follow(system, geometry, values)
+    if count < MANY:
+        return _settle(system, geometry, knots, values, jnp.ones(count, bool), _nothing(system, count, values.dtype))
+    found, trusted = interpolate(system, geometry, knots, values)
+    return _settle(system, geometry, knots, values, ~trusted, found)
+
+
+def _nothing(system: LoopSystem, poses: int, dtype) -> Poses:
+    return Poses(
+        assembled(system, poses, dtype),
+        jnp.full(poses, Status.STALLED.value, jnp.int32),
+        jnp.full(poses, jnp.inf, dtype),
     )
+
+
+def _settle(
+    system: LoopSystem,
+    geometry: Geometry,
+    knots: Knots,
+    inputs: Float[Array, " poses"],
+    open_: Bool[Array, " poses"],
+    poses: Poses,
+) -> Poses:
+    """The open poses, begun between the knots, a group at a time by the damped corrector; the others as they are."""
+    count = inputs.shape[0]
 
     def settle(carry):
         open_, poses = carry
         group = jnp.nonzero(open_, size=min(GROUP, count), fill_value=count)[0]
-        values = inputs[:, jnp.minimum(group, count - 1)]
-        begin = guess(system, knots, values[0])
-        state = drive(system, begin.state, values)
+        values = inputs[jnp.minimum(group, count - 1)]
+        begin = guess(system, knots, values)
+        state = drive(system, begin.state, values[None])
         found = correct(system, geometry, state, RESCUE_STEPS)
         near = difference(found.state, state) <= FARTHEST_CORRECTION
         same = near & (begin.status == Status.CLOSED.value)
@@ -114,8 +127,7 @@ def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 pos
         merged = jax.tree.map(lambda old, new: old.at[..., group].set(new, mode="drop"), poses, settled)
         return open_.at[group].set(False, mode="drop"), merged
 
-    open_ = jnp.ones(count, bool)
-    return lax.while_loop(lambda carry: jnp.any(carry[0]), settle, (open_, nothing))[1]
+    return lax.while_loop(lambda carry: jnp.any(carry[0]), settle, (open_, poses))[1]
 
 
 def _coordinates(system: LoopSystem, state: State) -> Float[Array, "columns poses"]:

@@ -11,8 +11,9 @@ from functools import cached_property
 
 from jaxkin.geometry.motions import MOVEMENTS
 
-EQUATIONS = 6
-"""Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11)."""
+EQUATIONS, IN_PLANE = 6, 3
+"""Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
+one and two."""
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,8 @@ class LoopSystem:
     """For each loop its joints in order of travel with +1, or -1 where travelled from part 2 to part 1."""
     driven: tuple[int, ...]
     """Columns whose values are given."""
+    plane: tuple[int, ...] | None = None
+    """If all joints move in parallel planes, the columns that do; None for loops in space."""
 
     @cached_property
     def chains(self) -> tuple[tuple[tuple[str, int, int, int], ...], ...]:
@@ -57,7 +60,7 @@ class LoopSystem:
     @property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
-        return EQUATIONS * len(self.loops)
+        return (EQUATIONS if self.plane is None else IN_PLANE) * len(self.loops)
 
     @cached_property
     def balls(self) -> tuple[int, ...]:

@@ -11,13 +11,14 @@ from reference.mechanisms import cardan_shafts, planar_fourbar
 
 
 def test_nothing_is_recompiled_for_new_numbers():
-    from jaxkin.solve.compiled import finder
+    from jaxkin.solve.compiled import _program, _solve
 
+    compiled = _program(_solve)
     range_ = np.linspace(0.0, 1.0, 37)
     planar_fourbar(1.0).sweep({"A": range_})
-    traces = finder()._cache_size()
+    traces = compiled._cache_size()
     planar_fourbar(0.7, crank=35.0).sweep({"A": 2 * range_})
-    assert finder()._cache_size() == traces
+    assert compiled._cache_size() == traces
 
 
 def test_float32_warns_once_and_reaches_what_it_says():

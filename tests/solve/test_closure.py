@@ -7,12 +7,13 @@ import pytest
 
 from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.solve import closure as module
+from jaxkin.solve import spatial
 from jaxkin.solve.state import angles, assembled, drive, from_angles, multiply, retract, rotation_matrix
 from jaxkin.solve.system import LoopSystem
 
 closure = jax.jit(module.closure, static_argnums=0)
 loop_geometry = jax.jit(module.loop_geometry, static_argnums=0)
-travel = jax.jit(module._travel, static_argnums=0)
+travel = jax.jit(spatial._travel, static_argnums=0)
 
 CHAINS = (("T_z_phi",), ("T_xy_phi", "T_phi"), ("T_theta_phi_psi",), ("T_screw",), ("T_theta_phi",), ("I",))
 

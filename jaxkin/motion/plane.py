@@ -1,0 +1,61 @@
+"""Which structure elements are planar: all their joints turn about one direction, or slide at right angles to it.
+
+The displacements of such joints form the planar subgroup, in which a loop needs three equations instead of six (host
+code, numbers only).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.traced import traced
+from jaxkin.joints.joint import Joint
+
+PARALLEL = 1e-12
+"""Sine of the angle between directions that count as parallel: rounding, since the noise of files is taken out."""
+
+
+def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
+    """The coordinates of the joints, counted through, that act in the plane; None where there is no such plane.
+
+    Translations along the normal are allowed and left out: they commute with all others. Where lengths were changed
+    along the normal these may be needed, and the element counts as spatial.
+    """
+    if traced(joints):
+        return None
+    normal: np.ndarray | None = None
+    turning, sliding = [], []
+    column = 0
+    for joint in joints:
+        sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
+        for frame, name in enumerate(joint.movements):
+            movement = MOVEMENTS[name]
+            if movement.ball:
+                return None
+            for element in movement.elements:
+                axes = [side[frame][:3, element.axis] for side in sides]
+                entry = (column + element.coordinate, *axes)
+                (sliding if element.kind == "translate" else turning).append(entry)
+                if element.kind == "screw":
+                    return None
+            column += len(movement.coordinates)
+    if not turning:
+        return None
+    normal = turning[0][1]
+    if any(np.linalg.norm(np.cross(normal, axis)) > PARALLEL for _, *axes in turning for axis in axes):
+        return None
+    inside = [column for column, *_ in turning]
+    for column, *axes in sliding:
+        along = np.abs(np.array(axes) @ normal)
+        if np.all(along <= PARALLEL):
+            inside.append(column)
+        elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
+            return None
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
+    shifts = [(np.asarray(joint.before) - np.asarray(joint.after))[:, :3, 3] @ normal for joint in joints]
+    if np.max(np.abs(np.concatenate(shifts))) > PARALLEL * np.ptp(origins, axis=0).max(initial=0.0):
+        return None
+    return tuple(sorted(inside))

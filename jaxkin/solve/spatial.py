@@ -1,0 +1,142 @@
+"""Closure of loops in space (Eq. 10 and 11): residual and Jacobian of all poses at once.
+
+A loop is travelled step by step. `R, t` is the displacement accumulated so far; every step leaves one column of the
+Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
+independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
+sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`).
+
+The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
+compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin.solve.state import State, rotation_matrix
+from jaxkin.solve.steps import AXES, steps
+from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.trig import Trig, cos_sin
+
+Rotation = Float[Array, "3 3 *poses"]
+"""[column, row]: the first index picks one of the three axes."""
+Vector = Float[Array, "3 *poses"]
+
+
+class Spatial(NamedTuple):
+    """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
+
+    between: Float[Array, "steps loops 4 4"]
+    """The constant pose before each step."""
+    end: Float[Array, "loops 4 4"]
+    """The constant pose behind the last step."""
+    pitch: Float[Array, " joints"]
+
+
+def spatial_closure(
+    system: LoopSystem, geometry: Spatial, state: State, trig: Trig
+) -> tuple[Array, Array, Array, Array]:
+    """Residual, Jacobian, and squares of Eq. 12 from rotation and translation: see `closure.Closure`.
+
+    Columns follow `LoopSystem`, those of balls turn about world axes.
+    """
+    rotation, translation, twists = _travel(system, geometry, state, trig)
+    (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
+    half = 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
+    residual = jnp.concatenate([half, translation]).swapaxes(0, 1)
+    loops = np.arange(len(system.loops), dtype=np.int32)
+    jacobian = twists[steps(system).source, :, loops].transpose(1, 2, 0, 3)
+    # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
+    rotated = jnp.sum((rotation - jnp.eye(3, dtype=rotation.dtype)[..., None, None]) ** 2, axis=(0, 1, 2))
+    moved = jnp.sum(translation**2, axis=(0, 1))
+    poses = state.x.shape[-1]
+    return (
+        residual.reshape(system.equations, poses),
+        jacobian.reshape(system.equations, system.columns, poses),
+        rotated,
+        moved,
+    )
+
+
+def _travel(
+    system: LoopSystem, geometry: Spatial, state: State, trig: Trig = cos_sin
+) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
+    """Displacement of the ends of the loops, and the twists that the steps give to them, four a step and a zero."""
+    table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    turn, slide, screw, sign = (
+        jnp.asarray(entry, dtype)[..., None] for entry in (table.turn, table.slide, table.screw, table.sign)
+    )
+    advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
+    q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
+    (cos, sin), travel = trig(turn * q), advance * q
+    balls = _ball_turns(system, state, table) if system.balls else None
+
+    def step(carry: tuple[Rotation, Vector], given):
+        pose, cos, sin, travel, sign, ball = given
+        rotation, point = _compose(*carry, pose)
+        turned = jnp.stack([cos * rotation[0] + sin * rotation[1], cos * rotation[1] - sin * rotation[0], rotation[2]])
+        if ball is not None:
+            turned = _product(turned, ball)
+        # a ball's turn is perturbed on its left, on the side of part 1
+        axes = rotation[2][None] if ball is None else jnp.where(sign > 0, rotation, turned)
+        return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
+
+    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((len(system.loops), poses), dtype)
+    start = first, jnp.zeros((3, len(system.loops), poses), dtype)
+    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, sign, balls))
+    rotation, translation = _compose(*last, geometry.end)
+
+    lever = translation - points
+    turned = (sign * turn)[:, None] * along
+    moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
+    twists = jnp.concatenate([turned, moved], axis=1)[:, None]
+    shape = (len(table.sign), 3, 6, len(system.loops), poses)
+    if system.balls:
+        spins = sign[:, None, None] * axes
+        spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
+    else:
+        spins = jnp.zeros(shape, dtype)
+    twists = jnp.concatenate([twists, spins], axis=1).reshape(-1, *shape[2:])
+    return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
+
+
+def _ball_turns(system: LoopSystem, state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
+    """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
+    poses = state.x.shape[-1]
+    still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
+    turns = jnp.concatenate([state.turns, still])[table.ball]
+    back = np.where(table.sign[..., None] < 0, np.array([1.0, -1.0, -1.0, -1.0]), 1.0)[..., None]
+    w_x_y_z = jnp.moveaxis(turns * jnp.asarray(back, turns.dtype), 2, 0)
+    return jnp.moveaxis(jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)]), 2, 0)
+
+
+def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "loops 4 4"]) -> tuple[Rotation, Vector]:
+    """Rotation and translation followed by a constant pose, loop by loop."""
+    columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
+    return jnp.stack(columns[:3]), translation + columns[3]
+
+
+def _product(a: Rotation, b: Rotation) -> Rotation:
+    return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
+
+
+def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
+    """The constants of the loops from the frames of the joints: those before, those after, and none."""
+    table = steps(system)
+    turned = np.zeros((3, 4, 4))
+    turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
+    along = jnp.asarray(turned[table.axis], frames.dtype)
+    enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
+    return Spatial(jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]]), leave[-1], pitch)
+
+
+def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
+    """Inverses of rigid poses."""
+    turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
+    moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
+    return poses.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)
