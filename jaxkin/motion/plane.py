@@ -26,8 +26,8 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     """
     if traced(joints):
         return None
-    normal: np.ndarray | None = None
-    turning, sliding = [], []
+    turning: list[tuple[int, np.ndarray, np.ndarray]] = []
+    sliding: list[tuple[int, np.ndarray, np.ndarray]] = []
     column = 0
     for joint in joints:
         sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
@@ -36,11 +36,11 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
             if movement.ball:
                 return None
             for element in movement.elements:
-                axes = [side[frame][:3, element.axis] for side in sides]
-                entry = (column + element.coordinate, *axes)
-                (sliding if element.kind == "translate" else turning).append(entry)
                 if element.kind == "screw":
                     return None
+                first, second = (side[frame][:3, element.axis] for side in sides)
+                entry = (column + element.coordinate, first, second)
+                (sliding if element.kind == "translate" else turning).append(entry)
             column += len(movement.coordinates)
     if not turning:
         return None

@@ -86,7 +86,7 @@ class Layout(NamedTuple):
 def _collect(
     layout: Layout,
     values: tuple[Float[Array, " poses"], ...],
-    solutions: list[tuple[Float[Array, "columns padded"], Poses]],
+    solutions: list[tuple[Float[Array, "_ _"], Poses]],
 ) -> tuple[tuple[Float[Array, "poses _"], ...], Int[Array, " poses"], Float[Array, " poses"]]:
     """Displacements of all joints, status and closure residual: the worst of the structure elements decides."""
     poses, dtype = values[0].shape[0], values[0].dtype

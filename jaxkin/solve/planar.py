@@ -138,7 +138,7 @@ class _Kept(NamedTuple):
 @lru_cache(maxsize=256)
 def _kept(system: LoopSystem) -> _Kept:
     table = steps(system)
-    inside = np.isin(table.column, system.plane)
+    inside = np.isin(table.column, system.plane or ())
     chosen = [np.flatnonzero(column) for column in inside.T]
     length = max(map(len, chosen))
     filled = [np.append(numbers, [len(inside)] * (length - len(numbers))) for numbers in chosen]

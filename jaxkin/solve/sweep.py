@@ -29,7 +29,7 @@ from jaxkin.solve.system import LoopSystem
 FARTHEST_CORRECTION = 0.1
 """Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
 GROUP = 256
-MANY = 2048
+MANY = 8192
 """From so many poses on most are interpolated."""
 
 
