@@ -15,9 +15,9 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Geometry
-from jaxkin.solve.continuation import SHORTEST_STEP, arrived, start, substep
+from jaxkin.solve.continuation import SHORTEST_STEP, Front, arrived, start, substep
 from jaxkin.solve.correct import choose
-from jaxkin.solve.state import State, difference, rate, retract
+from jaxkin.solve.state import State, difference, driven, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
@@ -33,16 +33,25 @@ AT_LIMIT = 2 * SHORTEST_STEP
 """Farther than this from the last knot before a limit nothing closes on the branch that was followed."""
 
 
-class Knots(NamedTuple):
-    """Poses along the range in rising order of the input; both halves start with the assembled pose."""
+class Knot(NamedTuple):
+    """Poses along the range, with their change per unit of the input."""
 
     at: Float[Array, " knots"]
     state: State
     slope: State
+    closed: Bool[Array, " knots"]
     status: Int[Array, " knots"]
-    least: Int[Array, ""]
-    """Number of the first knot; those before it and behind the last are empty."""
-    most: Int[Array, ""]
+
+
+class Knots(NamedTuple):
+    """Knots in rising order of the input, in the middle the assembled pose."""
+
+    at: Float[Array, " knots"]
+    """Values of the input; those before the first knot and behind the last are infinite."""
+    table: Float[Array, "entries knots"]
+    """All of a knot in one column, so that it is written, and read, at one stroke."""
+    first: Int[Array, ""]
+    last: Int[Array, ""]
 
 
 class Guess(NamedTuple):
@@ -64,8 +73,7 @@ def follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([2 * jnp.pi, -2 * jnp.pi], values.dtype)
     front = start(system, 2, values.dtype)
-    entry = (front.state, front.slope, front.status)
-    kept = jax.tree.map(lambda array: jnp.zeros((*array.shape[:-1], 2 * room), array.dtype), entry)
+    table = jnp.zeros((_column(system, front).shape[0], 2 * room + 2), values.dtype)
     nowhere = jnp.array([-jnp.inf, jnp.inf], values.dtype)
 
     def target(limits: Float[Array, "2"]) -> Float[Array, "1 2"]:
@@ -79,69 +87,88 @@ def follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"
         return jnp.any(~arrived(system, front, target(limits)) & (count < room))
 
     def step(carry):
-        front, count, limits, kept = carry
+        front, count, limits, table = carry
         front, final = substep(system, geometry, front, target(limits))
-        # falling knots to the left of the middle, rising ones to the right; what is out of bounds is dropped
-        place = jnp.where(final & (count < room), jnp.array([room - 1, room]) + jnp.array([-1, 1]) * count, 2 * room)
-        entry = (front.state, front.slope, front.status)
-        kept = jax.tree.map(lambda store, new: store.at[..., place].set(new, mode="drop"), kept, entry)
+        # falling knots to the left of the middle, rising ones to the right; what is not final is written over
+        column = _column(system, front)
+        table = lax.dynamic_update_slice(table, column[:, :1], (0, room - count[0]))
+        table = lax.dynamic_update_slice(table, column[:, 1:], (0, room + 1 + count[1]))
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
-        return front, count + final, jnp.where(ended, front.state.x[system.driven[0]], limits), kept
+        limits = jnp.where(ended, driven(system, front.state.x)[0], limits)
+        return front, jnp.minimum(count + final, room), limits, table
 
-    front, count, _, kept = lax.while_loop(running, step, (front, jnp.zeros(2, int), nowhere, kept))
-    state, slope, status = kept
-    at = state.x[system.driven[0]]
-    number, least = jnp.arange(2 * room), room - jnp.minimum(count[0], room)
-    most = room - 1 + jnp.minimum(count[1], room)
-    at = jnp.where(number < least, -jnp.inf, jnp.where(number > most, jnp.inf, at))
-    return Knots(at, state, rate(system, state, slope), status, least, most)
+    _, count, _, table = lax.while_loop(running, step, (front, jnp.zeros(2, int), nowhere, table))
+    number, first, last = jnp.arange(2 * room + 2), room + 1 - count[0], room + count[1]
+    at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[system.driven[0]]))
+    return Knots(at, table, first, last)
+
+
+def _column(system: LoopSystem, front: Front) -> Float[Array, "entries lanes"]:
+    """All numbers of a knot: coordinates, turns of the balls, the slopes of both, and the status."""
+    slope = rate(system, front.state, front.slope)
+    entries = [part.reshape(-1, part.shape[-1]) for part in (*front.state, *slope)]
+    return jnp.concatenate([*entries, front.status[None].astype(front.gap.dtype)])
+
+
+def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Knot:
+    """The knots of these numbers, which are within bounds."""
+    column = knots.table.at[:, number].get(mode="promise_in_bounds")
+    coordinates, balls = system.columns, len(system.balls)
+    half = coordinates + 4 * balls
+    state, slope = (
+        State(part[:coordinates], part[coordinates:half].reshape(balls, 4, number.shape[0]))
+        for part in (column, column[half:])
+    )
+    status = column[-1].astype(jnp.int32)
+    return Knot(column[system.driven[0]], state, slope, is_closed(status), status)
 
 
 def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> Guess:
     """The poses for these inputs as far as the knots tell; the driven coordinates are not set to the inputs."""
     values = _unturned(knots, values) if system.periodic else values
-    left = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.least, knots.most - 1)
-    closed = is_closed(knots.status)
-    between = closed[left] & (knots.status[left] == knots.status[left + 1])
+    number = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.first, knots.last - 1)
+    left, right = _knot(system, knots, number), _knot(system, knots, number + 1)
+    between = left.closed & (left.status == right.status)
     # elsewhere there is a limit: up to the inner knot the motion was followed, at the outer one the loops close again
-    inner, outer = jnp.where(values >= 0, left, left + 1), jnp.where(values >= 0, left + 1, left)
-    at_limit = (jnp.abs(values - knots.at[inner]) <= AT_LIMIT) | ~closed[outer]
-    nearest = jnp.where(at_limit, inner, outer)
-    trusted = between | ((jnp.abs(values - knots.at[inner]) <= AT_LIMIT) | ~at_limit) & closed[nearest]
-    state = choose(between, _hermite(system, knots, left, values), jax.tree.map(lambda x: x[..., nearest], knots.state))
-    status = jnp.where(trusted, knots.status[nearest], Status.JUMPED.value)
-    return Guess(state, status, (values >= knots.at[knots.least] - BEYOND) & (values <= knots.at[knots.most] + BEYOND))
+    rising = values >= 0
+    outer_closed = jnp.where(rising, right.closed, left.closed)
+    near_inner = jnp.abs(values - jnp.where(rising, left.at, right.at)) <= AT_LIMIT
+    at_limit = near_inner | ~outer_closed
+    from_left = at_limit == rising
+    nearest_closed = jnp.where(from_left, left.closed, right.closed)
+    trusted = between | (near_inner | ~at_limit) & nearest_closed
+    state = choose(between, _hermite(system, left, right, values), choose(from_left, left.state, right.state))
+    status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
+    least, most = (knots.at.at[end].get(mode="promise_in_bounds") for end in (knots.first, knots.last))
+    return Guess(state, status, (values >= least - BEYOND) & (values <= most + BEYOND))
 
 
 def _unturned(knots: Knots, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
     """Values less as many full turns as bring them to where the motion got without a gap; others as they are."""
-    reached = (knots.status == Status.CLOSED.value) & jnp.isfinite(knots.at)
-    least = jnp.min(jnp.where(reached, knots.at, jnp.inf)) - AT_LIMIT
-    most = jnp.max(jnp.where(reached, knots.at, -jnp.inf)) + AT_LIMIT
+    reached = (knots.table[-1] == Status.CLOSED.value) & jnp.isfinite(knots.at)
+    least = jnp.min(jnp.where(reached, knots.at, jnp.inf))
+    most = jnp.max(jnp.where(reached, knots.at, -jnp.inf))
     # an end of the range that was reached is no limit
-    least = jnp.where(reached[knots.least], -jnp.inf, least)
-    most = jnp.where(reached[knots.most], jnp.inf, most)
+    least = jnp.where(least <= knots.at[knots.first], -jnp.inf, least - AT_LIMIT)
+    most = jnp.where(most >= knots.at[knots.last], jnp.inf, most + AT_LIMIT)
     turn = 2 * jnp.pi
     down = values - turn * jnp.ceil(jnp.maximum(values - most, 0.0) / turn)
     back = down + turn * jnp.ceil(jnp.maximum(least - down, 0.0) / turn)
     return jnp.where((back >= least) & (back <= most), back, values)
 
 
-def _hermite(system: LoopSystem, knots: Knots, left: Int[Array, " poses"], values: Float[Array, " poses"]) -> State:
+def _hermite(system: LoopSystem, left: Knot, right: Knot, values: Float[Array, " poses"]) -> State:
     """Cubic Hermite interpolation of the knots' states, turns of balls brought back to unit quaternions."""
-    width = knots.at[left + 1] - knots.at[left]
-    t = (values - knots.at[left]) / jnp.where(width > 0, width, 1.0)
+    width = right.at - left.at
+    t = (values - left.at) / jnp.where(width > 0, width, 1.0)
     weights = ((1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * width, t * t * (3 - 2 * t), t * t * (t - 1) * width)
 
-    def blend(x: Array, d: Array) -> Array:
-        start, end = weights[0] * x[..., left] + weights[1] * d[..., left], weights[2] * x[..., left + 1]
-        return start + end + weights[3] * d[..., left + 1]
+    def blend(a: Array, slope_a: Array, b: Array, slope_b: Array) -> Array:
+        return weights[0] * a + weights[1] * slope_a + weights[2] * b + weights[3] * slope_b
 
-    curve = jax.tree.map(blend, knots.state, knots.slope)
-    first = jax.tree.map(lambda x: x[..., left], knots.state)
-    last = jax.tree.map(lambda x: x[..., left + 1], knots.state)
-    chord = jax.tree.map(lambda a, b: a + t * (b - a), first, last)
+    curve = jax.tree.map(blend, left.state, left.slope, right.state, right.slope)
+    chord = jax.tree.map(lambda a, b: a + t * (b - a), left.state, right.state)
     # at a change point the tangent is not unique and the slope of its knot says nothing: keep to the chord there
-    smooth = difference(curve, chord) <= 0.25 * difference(first, last)
+    smooth = difference(curve, chord) <= 0.25 * difference(left.state, right.state)
     state = choose(smooth, curve, chord)
     return retract(system, state, jnp.zeros_like(state.x))

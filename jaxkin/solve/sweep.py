@@ -9,6 +9,7 @@ polyline of the poses in the order in which they are given.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import jax
@@ -86,48 +87,44 @@ def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven
 
 def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 poses"]) -> Poses:
     """Poses of a single input: a few by themselves, the many between them by interpolation."""
-    values, count = inputs[0], inputs.shape[1]
-    knots = follow(system, geometry, values)
-    if count < MANY:
-        return _settle(system, geometry, knots, values, jnp.ones(count, bool), _nothing(system, count, values.dtype))
-    found, trusted = interpolate(system, geometry, knots, values)
-    return _settle(system, geometry, knots, values, ~trusted, found)
+    knots = follow(system, geometry, inputs[0])
+    if inputs.shape[1] < MANY:
+        return _in_groups(lambda values: _settle(system, geometry, knots, values), inputs[0])
+    found, trusted = interpolate(system, geometry, knots, inputs[0])
+
+    def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
+        values, trusted, found = group
+        return lax.cond(jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values))
+
+    return _in_groups(settle, (inputs[0], trusted, found))
 
 
-def _nothing(system: LoopSystem, poses: int, dtype) -> Poses:
-    return Poses(
-        assembled(system, poses, dtype),
-        jnp.full(poses, Status.STALLED.value, jnp.int32),
-        jnp.full(poses, jnp.inf, dtype),
-    )
+def _in_groups(function: Callable, poses):
+    """The function of some poses applied to all, in groups of equal size, so that hard ones cost only few others."""
+    count = jax.tree.leaves(poses)[0].shape[-1]
+    groups = -(-count // GROUP)
+    if groups <= 1:
+        return function(poses)
+    length = -(-count // groups)
+
+    def cut(array: Array) -> Array:
+        padded = jnp.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, groups * length - count)], mode="edge")
+        return jnp.moveaxis(padded.reshape(*array.shape[:-1], groups, length), -2, 0)
+
+    def join(array: Array) -> Array:
+        return jnp.moveaxis(array, 0, -2).reshape(*array.shape[1:-1], groups * length)[..., :count]
+
+    return jax.tree.map(join, lax.map(function, jax.tree.map(cut, poses)))
 
 
-def _settle(
-    system: LoopSystem,
-    geometry: Geometry,
-    knots: Knots,
-    inputs: Float[Array, " poses"],
-    open_: Bool[Array, " poses"],
-    poses: Poses,
-) -> Poses:
-    """The open poses, begun between the knots, a group at a time by the damped corrector; the others as they are."""
-    count = inputs.shape[0]
-
-    def settle(carry):
-        open_, poses = carry
-        group = jnp.nonzero(open_, size=min(GROUP, count), fill_value=count)[0]
-        values = inputs[jnp.minimum(group, count - 1)]
-        begin = guess(system, knots, values)
-        state = drive(system, begin.state, values[None])
-        found = correct(system, geometry, state, RESCUE_STEPS)
-        near = difference(found.state, state) <= FARTHEST_CORRECTION
-        same = near & (begin.status == Status.CLOSED.value)
-        status = classify(found.closure.gap, found.stationary, same)
-        settled = Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
-        merged = jax.tree.map(lambda old, new: old.at[..., group].set(new, mode="drop"), poses, settled)
-        return open_.at[group].set(False, mode="drop"), merged
-
-    return lax.while_loop(lambda carry: jnp.any(carry[0]), settle, (open_, poses))[1]
+def _settle(system: LoopSystem, geometry: Geometry, knots: Knots, values: Float[Array, " poses"]) -> Poses:
+    """Poses begun between the knots and brought to closure by the damped corrector."""
+    begin = guess(system, knots, values)
+    state = drive(system, begin.state, values[None])
+    found = correct(system, geometry, state, RESCUE_STEPS)
+    near = difference(found.state, state) <= FARTHEST_CORRECTION
+    status = classify(found.closure.gap, found.stationary, near & (begin.status == Status.CLOSED.value))
+    return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
 
 
 def _coordinates(system: LoopSystem, state: State) -> Float[Array, "columns poses"]:
