@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.geometry.pose import rotation
+from jaxkin.geometry.pose import rotation, unit
 from jaxkin.joints.pairs import prismatic, revolute
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.plane import plane_columns
@@ -94,7 +94,7 @@ def test_a_hinge_tilted_inside_jit_is_not_taken_for_planar():
 def test_placed_anywhere_the_plane_is_found_and_the_motion_is_the_same():
     turn = np.linspace(0.0, 2 * np.pi, 50)
     pose = np.eye(4)
-    pose[:3, :3], pose[:3, 3] = rotation(np.array([1.0, 2.0, -0.5]), 1.1), (300.0, -20.0, 70.0)
+    pose[:3, :3], pose[:3, 3] = rotation(unit(np.array([1.0, 2.0, -0.5])), 1.1), (300.0, -20.0, 70.0)
     mechanism = planar_fourbar(1.0)
     joints = [replace(joint, before=pose @ joint.before, after=pose @ joint.after) for joint in mechanism.all_joints]
     placed = Mechanism.build(joints=joints, fixed=["ground"])
