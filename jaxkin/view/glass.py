@@ -31,14 +31,14 @@ def pale(color: Color) -> Color:
     return red, green, blue
 
 
-def canvas_of(parts: Sequence[Part], fixed: Sequence[str]) -> Canvas:
-    """What the drawing shows of the parts, from where, and how large."""
+def canvas_of(parts: Sequence[Part], fixed: Sequence[str], longer: int = WIDTH) -> Canvas:
+    """What the drawing shows of the parts, from where, and how large: the pixels of its longer side."""
     view = _view(parts, fixed)
     points = view.project(np.concatenate([part.triangles.reshape(-1, 3) for part in parts]))
     low, high = points.min(axis=0), points.max(axis=0)
     margin = AIR * (high - low)[:2].max()
     extent, centre = (high - low)[:2] + 2 * margin, (low + high) / 2
-    scale = WIDTH / extent.max()
+    scale = longer / extent.max()
     width, height = (int(np.ceil(side * scale)) for side in extent)
     corner = np.append(centre[:2] + np.array([-width, height]) / (2 * scale), centre[2])
     return Canvas(view, corner, scale, height, width)

@@ -16,7 +16,7 @@ from jaxkin.motion.drawing import PALETTE
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.writers import whole
 from jaxkin.view.callouts import CHAIN, COLORS, MOST, draw_axes, draw_contacts, draw_states
-from jaxkin.view.glass import canvas_of, pale, see_through
+from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of
 from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Color, clip, draw_legend, draw_scale, make_sheet
@@ -31,11 +31,12 @@ def draw_inspection(
     *,
     contacts: Sequence[Contact] | None = None,
     mechanism: Mechanism | None = None,
+    width: int = WIDTH,
 ) -> None:
     """Write a picture (PNG) of an assembly with the regions of its contacts, seen through the parts.
 
     With a mechanism, fixed parts are grey and the axes of its joints are drawn. `contacts` are `assembly.contacts()` by
-    default. The file appears whole or not at all.
+    default, `width` the pixels of the longer side of the drawing. The file appears whole or not at all.
     """
     contacts = assembly.contacts() if contacts is None else contacts
     fixed = mechanism.fixed if mechanism else ()
@@ -44,7 +45,7 @@ def draw_inspection(
         part.name: part.color or (STILL if part.name in fixed else PALETTE[moving.index(part.name) % len(PALETTE)])
         for part in assembly.parts
     }
-    canvas = canvas_of(assembly.parts, fixed)
+    canvas = canvas_of(assembly.parts, fixed, width)
     regions = _regions(assembly, contacts)
     entries = _legend(contacts, colors, mechanism)
     sheet = make_sheet(canvas, 1, 1, entries)
