@@ -59,8 +59,9 @@ def spinning(mechanism: Mechanism) -> dict[str, Spin]:
             around[part].append(each)
     alone: dict[str, Spin] = {}
     held: dict[str, Spin] = {}
+    size = middle(mechanism.all_joints)[1]  # the joints of one part may all be in one place
     for part, joints in around.items():
-        if part in mechanism.fixed or (spin := _spin(joints)) is None:
+        if part in mechanism.fixed or (spin := _spin(joints, size)) is None:
             continue
         neighbours = dict.fromkeys(p for joint in joints for p in joint.parts if p != part)
         if part not in solids or not _is_round(solids[part], spin):
@@ -101,9 +102,9 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
     return replace(mechanism, all_joints=tuple(joints), structure=structured, notes=tuple(notes), contacts=contacts)
 
 
-def _spin(joints: Sequence[Joint]) -> Spin | None:
+def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     """What a part can do while its neighbours rest, if that is a turn, perhaps with slides along or across its axis."""
-    centre, size = middle(joints)
+    centre, _ = middle(joints)
     forbidden = np.concatenate([constraints(joint, centre, size) for joint in joints])
     _, strengths, directions = np.linalg.svd(forbidden, full_matrices=True)
     free = directions[int((strengths > _SAME).sum()) :]
@@ -162,7 +163,7 @@ def _needless(
             for part in [] if idle else group:
                 if _is_needless([*idle, part], system, joints, spins):
                     idle.append(part)
-            carried = {part: _carried(part, spins[part], system, joints, row_of) for part in idle}
+            carried = {part: _carried(part, spins[part], idle, system, joints, row_of) for part in idle}
             found |= {part: spin for part, spin in carried.items() if spin}
     return found
 
@@ -173,16 +174,28 @@ def _is_needless(group: Sequence[str], system: Twists, joints: Sequence[Joint], 
     return len(system.freed(rows)) == sum(6 - spins[part].freedoms for part in group)
 
 
-def _carried(part: str, spin: Spin, system: Twists, joints: Sequence[Joint], row_of: Mapping[str, str]) -> Spin | None:
-    """The spin with the first neighbour that the part stays on, whatever moves; None if there is none."""
+def _carried(
+    part: str, spin: Spin, idle: Sequence[str], system: Twists, joints: Sequence[Joint], row_of: Mapping[str, str]
+) -> Spin | None:
+    """The spin with the first neighbour that the part stays on, whatever moves; None if there is none.
+
+    Its neighbours, without those that are idle too, stay together but for turns about the axis: on which of them a
+    sleeve stays between a rod and a cylinder that slide along each other shows, and would be a guess.
+    """
     centre, size = middle(joints)
     frames = spin.frame.copy()
     frames[:3, 3] = (frames[:3, 3] - centre) / size
-    forbidden = complement(chain([spin.movement], frames[None], np.zeros(spin.freedoms))[1])
-    for neighbour in dict.fromkeys(p for each in joints if part in each.parts for p in each.parts if p != part):
-        if np.abs(forbidden @ system.relative(row_of[neighbour], row_of[part])).max(initial=0.0) < _SAME:
-            return replace(spin, carrier=neighbour)
-    return None
+
+    def only(movement: str, one: str, other: str) -> bool:
+        forbidden = complement(chain([movement], frames[None], np.zeros(freedoms([movement])))[1])
+        return bool(np.abs(forbidden @ system.relative(row_of[one], row_of[other])).max(initial=0.0) < _SAME)
+
+    near = list(dict.fromkeys(p for each in joints if part in each.parts for p in each.parts if p != part))
+    used = [neighbour for neighbour in near if neighbour not in idle]
+    if not all(only("T_phi", used[0], other) for other in used[1:]):
+        return None
+    carrier = next((neighbour for neighbour in near if only(spin.movement, neighbour, part)), None)
+    return replace(spin, carrier=carrier) if carrier else None
 
 
 def _touching(parts: Sequence[str], mechanism: Mechanism) -> list[list[str]]:
