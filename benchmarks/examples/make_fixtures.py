@@ -10,6 +10,7 @@ from pathlib import Path
 import cadquery as cq
 from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 from shapes import write
+from single import SOLIDS
 
 FOLDER = Path(__file__).parents[2] / "tests" / "io" / "data"
 
@@ -101,10 +102,18 @@ def _single(name: str, shape: cq.Workplane) -> cq.Assembly:
     return cq.Assembly(name=f"{name} alone").add(shape, name=name)
 
 
+def solids() -> cq.Assembly:
+    """Single solids at the origin, all turned, for `tests/io/test_mesh_faces.py` to tessellate."""
+    assembly = cq.Assembly(name="solids")
+    for name, make in SOLIDS.items():
+        assembly.add(make().rotate(cq.Vector(), cq.Vector(1, 2, 3), 40), name=name)
+    return assembly
+
+
 def main() -> None:
-    for make in (nested, halves, fillet, ball, splines, painted, sheet, fasteners):
+    for make in (nested, halves, fillet, ball, splines, painted, sheet, fasteners, solids):
         path = FOLDER / f"{make.__name__}.step"
-        write(make(), path)
+        write(make(), path, parameter_curves=make is not solids)
         print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
 
 

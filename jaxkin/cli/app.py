@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -23,13 +23,18 @@ app = typer.Typer(
     help="Kinematics of mechanisms: from solid models to joints, loops and motion.",
 )
 
-File = Annotated[
-    Path,
+Files = Annotated[
+    list[Path],
     typer.Argument(
-        metavar="FILE",
-        help="A STEP file of the assembled mechanism, or a study: a TOML file that names the geometry and says what is "
+        metavar="FILE...",
+        help="The assembled mechanism: a STEP file or a mesh (.stl, .obj, .ply, .3mf, .glb) of all parts, or several "
+        "files of one part each, called as the files. Or a study: a TOML file that names the geometry and says what is "
         "fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
     ),
+]
+Unit = Annotated[
+    str | None,
+    typer.Option("--unit", metavar="UNIT", help="Of lengths, for STL, OBJ and PLY, which have none: mm, m, in, ..."),
 ]
 Fixed = Annotated[
     list[str], typer.Option("--fixed", metavar="PART", help="A part that does not move; may be given several times.")
@@ -95,16 +100,20 @@ def demo(out: Out = Path("jaxkin-demo")) -> None:
     example = EXAMPLES["fourbar"]
     with one_line_errors():
         options = Options(fixed=list(example.fixed), drive=[f"{'-'.join(example.drive)}=0:360:361"])
-        _sweep(path("fourbar"), out, options)
+        _sweep([path("fourbar")], out, options)
 
 
-@app.command(epilog="Example:  jaxkin inspect fourbar.step --fixed ground --png found.png")
+@app.command(
+    epilog="Examples:  jaxkin inspect fourbar.step --fixed ground --png found.png, "
+    "jaxkin inspect crank.stl rod.stl frame.stl --unit mm"
+)
 def inspect(
-    file: File,
+    files: Files,
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
     no_combine: PerContact = False,
+    unit: Unit = None,
     png: Picture = None,
 ) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
@@ -112,8 +121,8 @@ def inspect(
         from jaxkin.cli import report
 
         with _progress(2) as step:
-            step(f"reading {file.name}")
-            study = Options(fixed, rigid, ignore, no_combine=no_combine).on(file)
+            step(f"reading {_named(files)}")
+            study = Options(fixed, rigid, ignore, no_combine=no_combine, unit=unit).on(files)
             step("finding contacts")
             contacts = study.contacts
         if study.assembly:
@@ -128,11 +137,12 @@ def inspect(
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")
 def loops(
-    file: File,
+    files: Files,
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
     no_combine: PerContact = False,
+    unit: Unit = None,
     png: Drawing = None,
 ) -> None:
     """Print the structure of an assembly: its closed loops, what hangs on them, the tree of both, and its mobility."""
@@ -140,8 +150,8 @@ def loops(
         from jaxkin.cli import report
 
         with _progress(2) as step:
-            step(f"reading {file.name}")
-            study = Options(fixed, rigid, ignore, no_combine=no_combine).on(file)
+            step(f"reading {_named(files)}")
+            study = Options(fixed, rigid, ignore, no_combine=no_combine, unit=unit).on(files)
             step("finding contacts and joints")
             mechanism = _checked(study).mechanism
         if png:
@@ -156,13 +166,14 @@ def loops(
     "jaxkin sweep study.toml --out motion"
 )
 def sweep(
-    file: File,
+    files: Files,
     out: Out,
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
     drive: Drive = [],
     no_combine: PerContact = False,
+    unit: Unit = None,
 ) -> None:
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
@@ -170,10 +181,10 @@ def sweep(
     (motion.html) and a picture (motion.png).
     """
     with one_line_errors():
-        _sweep(file, out, Options(fixed, rigid, ignore, drive, no_combine))
+        _sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit))
 
 
-def _sweep(file: Path, out: Path, options: Options) -> None:
+def _sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     start = time.perf_counter()
     import jax
 
@@ -181,8 +192,8 @@ def _sweep(file: Path, out: Path, options: Options) -> None:
     from jaxkin.motion.writers import filenames
 
     with _progress(3 + len(filenames())) as step:
-        step(f"reading {file.name}")
-        study = options.on(file)
+        step(f"reading {_named(files)}")
+        study = options.on(files)
         step("finding contacts and joints")
         mechanism = _checked(study).mechanism
         if not study.ranges:
@@ -196,11 +207,15 @@ def _sweep(file: Path, out: Path, options: Options) -> None:
         for filename in filenames():
             step(f"writing {filename}")
             paths += motion.save(out, only=filename)
-    report.say(f"{file.name}: {mechanism.mobility()}")
+    report.say(f"{_named(files)}: {mechanism.mobility()}")
     report.print_motion(motion)
     report.say()
     report.print_files(paths)
     report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. Open {out / 'motion.html'} in a browser.")
+
+
+def _named(files: Sequence[Path]) -> str:
+    return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
 
 
 def _checked(study: Study) -> Study:

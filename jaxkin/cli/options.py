@@ -27,15 +27,14 @@ class Options:
     ignore: Sequence[str] = ()
     drive: Sequence[str] = ()
     no_combine: bool = False
+    unit: str | None = None
 
-    def on(self, file: Path) -> Study:
-        """The study of a file, with the options."""
-        from jaxkin.io.load import load
-        from jaxkin.io.study import Study, load_study
+    def on(self, files: Sequence[Path]) -> Study:
+        """The study of a file, or of files of one part each, with the options."""
 
         drives = parse_drives(self.drive)
         rigid, ignore = parse_parts("--rigid", self.rigid), parse_parts("--ignore", self.ignore)
-        study = load_study(file) if file.suffix.lower() == ".toml" else Study(file.name, load(file))
+        study = self._study(files)
         return replace(
             study,
             fixed=list(dict.fromkeys((*study.fixed, *self.fixed))),
@@ -44,6 +43,33 @@ class Options:
             ranges=drives or study.ranges,
             combine=study.combine and not self.no_combine,
         )
+
+    def _study(self, files: Sequence[Path]) -> Study:
+        """What the files say."""
+        from jaxkin.io.load import load
+        from jaxkin.io.study import Study, load_study
+
+        studies = [file for file in files if file.suffix.lower() == ".toml"]
+        if len(files) == 1 and studies:
+            if self.unit:
+                raise ValueError(f'--unit {self.unit}: write unit = "{self.unit}" in {files[0].name}')
+            return load_study(files[0])
+        if studies:
+            raise ValueError(
+                f"{studies[0].name} is a study, which names its geometry itself: give it alone, and write geometry = "
+                '{ crank = "crank.stl", ... } in it'
+            )
+        if len(files) == 1:
+            return Study(files[0].name, load(files[0], unit=self.unit))
+        parts = {file.stem: file for file in files}
+        if len(parts) < len(files):
+            twice = next(file for file in files if parts[file.stem] != file)
+            raise ValueError(
+                f"{twice} and {parts[twice.stem]}: two parts would be called {twice.stem!r}; rename a file, or name "
+                "the parts in a study"
+            )
+        assembly = load(parts, unit=self.unit)
+        return Study(assembly.source, assembly)
 
 
 def parse_drives(options: Iterable[str]) -> dict[str, Range]:

@@ -6,17 +6,16 @@ true surface, so they are fitted, to rounding; normals choose the kind and the f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.pose import Points, Vector, perpendicular, unit
+from jaxkin.geometry.pose import Points, Vector, perpendicular
+from jaxkin.geometry.refine import refined
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
-
-Round = TypeVar("Round", Cylinder, Cone)
+from jaxkin.geometry.torus import Torus
 
 _STRAY = 0.1
 """Radians by which a few normals that are not those of the surface may turn the axis that is guessed from all."""
@@ -81,10 +80,7 @@ def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
     flat = points @ np.stack([x, y], axis=-1)
     middle, radius = _ball(flat)
 
-    def cylinder(p: np.ndarray) -> Cylinder:
-        return Cylinder(p[2] * x + p[3] * y, unit(axis + p[0] * x + p[1] * y), float(p[4]), 1)
-
-    return _refined(cylinder, np.array([0.0, 0.0, *middle, radius]), points)
+    return refined(Cylinder(middle[0] * x + middle[1] * y, axis, radius, 1), points)
 
 
 def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
@@ -98,13 +94,7 @@ def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
         return None
     axis = axis if float((points.mean(axis=0) - apex) @ axis) > 0 else -axis
     half_angle = np.arcsin(np.clip(abs(float(normals.mean(axis=0) @ axis)), 0.0, 1.0))
-    x = perpendicular(axis)
-    y = np.cross(axis, x)
-
-    def cone(p: np.ndarray) -> Cone:
-        return Cone(p[3:], unit(axis + p[0] * x + p[1] * y), float(p[2]), 1)
-
-    found = _refined(cone, np.array([0.0, 0.0, half_angle, *apex]), points)
+    found = refined(Cone(apex, axis, float(half_angle), 1), points)
     return found if 0 < found.half_angle < np.pi / 2 else None
 
 
@@ -120,22 +110,6 @@ def _ball(points: Float[np.ndarray, "n d"]) -> tuple[Float[np.ndarray, "d"], flo
     return np.array(centre), float(np.sqrt(max(rest + np.dot(centre, centre), 0.0)))
 
 
-def _refined(surface: Callable[[np.ndarray], Round], start: np.ndarray, points: Points) -> Round:
-    """Least squares of the distances of the points."""
-    from scipy.optimize import least_squares
-
-    result = least_squares(
-        lambda p: np.asarray(surface(p).distance(points)),
-        start,
-        "3-point",
-        xtol=1e-15,
-        ftol=1e-15,
-        gtol=1e-15,
-        max_nfev=50,
-    )
-    return surface(result.x)
-
-
 def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
     match surface:
         case Plane():
@@ -146,3 +120,34 @@ def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
             return Cone(centre + scale * surface.apex, surface.axis, surface.half_angle, 1)
         case Sphere():
             return Sphere(centre + scale * surface.centre, scale * surface.radius, 1)
+
+
+def fit_torus(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float) -> Torus | None:
+    """The torus that all points lie on within `tolerance` (a length), None if there is none.
+
+    All normals of a surface of revolution meet its axis: a linear condition on the coordinates of that line.
+    """
+    if len(points) < 10:
+        return None
+    middle = points.mean(axis=0)
+    scale = float(np.abs(points - middle).max()) or 1.0
+    local = (points - middle) / scale
+    line = np.linalg.svd(np.concatenate([np.cross(local, normals), normals], axis=-1), full_matrices=False)[2][5]
+    if np.linalg.norm(line[:3]) < 1e-3 * np.linalg.norm(line[3:]):
+        return None  # an axis at infinity: a cylinder
+    line = line / np.linalg.norm(line[:3])
+    axis, moment = line[:3], line[3:]
+    foot = np.cross(axis, moment)
+    offset = local - foot
+    height = offset @ axis
+    distance = np.linalg.norm(offset - height[:, None] * axis, axis=-1)
+    # the section is a circle: 2 u a + 2 v b + c = u^2 + v^2
+    columns = np.stack([2 * distance, 2 * height, np.ones(len(points))], axis=-1)
+    (ring, along, rest), _, rank, _ = np.linalg.lstsq(columns, distance**2 + height**2, rcond=None)
+    square = rest + ring**2 + along**2
+    if rank < 3 or square <= 0 or ring <= 0:
+        return None
+    found = refined(Torus(foot + along * axis, axis, float(ring), float(np.sqrt(square))), local)
+    if np.abs(found.distance(local)).max() > tolerance / scale or found.ring <= 0 or found.radius > 50:
+        return None
+    return Torus(middle + scale * found.centre, found.axis, scale * found.ring, scale * found.radius)

@@ -9,12 +9,16 @@ import numpy as np
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 
+_PARALLEL = 0.99
+"""Cosine between the normals of faces in one plane; triangles of a few roundings have no better normal."""
+
 
 def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
     """The faces with those on the same surface, material on the same side, united; in the order of their first members.
 
     Two faces are on the same surface when the corners of each lie within `tolerance` (a length) of the surface of the
-    other, and their radii agree within it. A united face has the surface of its largest member, and is called by all
+    other, and their radii agree within it. Of a small plane the corners are enough: those of a large one are far off
+    where it was fitted to a few triangles. A united face has the surface of its largest member, and is called by all
     of them, "face 3, 8".
     """
     # a corner of every face: most faces are told apart by one point of each, without a look at all their triangles
@@ -36,9 +40,9 @@ def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
 def _same(a: Face, b: Face, tolerance: float) -> bool:
     if a is b:
         return True
+    on = ((a.surface, b),) if isinstance(a.surface, Plane) else ((a.surface, b), (b.surface, a))
     return _alike(a.surface, b.surface, tolerance) and all(
-        bool(np.all(np.abs(surface.distance(face.triangles)) <= tolerance))
-        for surface, face in ((a.surface, b), (b.surface, a))
+        bool(np.all(np.abs(surface.distance(face.triangles)) <= tolerance)) for surface, face in on
     )
 
 
@@ -46,7 +50,7 @@ def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
     """What the distances of the corners do not tell: the side of the material, and the radii of small patches."""
     match a, b:
         case Plane(), Plane():
-            return float(a.normal @ b.normal) > 0
+            return float(a.normal @ b.normal) > _PARALLEL
         case (Cylinder(), Cylinder()) | (Sphere(), Sphere()):
             return a.side == b.side and abs(a.radius - b.radius) <= tolerance
         case Cone(), Cone():

@@ -3,30 +3,80 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from jaxkin.geometry.part import Part
+from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.step import read_step
+from jaxkin.io.units import METRES
 from jaxkin.motion.assembly import Assembly
 
 STEP = (".step", ".stp")
 
 
-def load(source: str | Path | Mapping[str, str | Path]) -> Assembly:
-    """The assembly in a STEP file (.step, .stp), in world coordinates and in the length unit of the file.
+def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = None) -> Assembly:
+    """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
 
-    Raises FileNotFoundError where there is no such file, and ValueError where it is no STEP file with solids in it,
-    or where meshes are given, part by part: they cannot be read yet.
+    STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
+    one mesh file a part is a node, or a connected body where there is but one node.
+
+    Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
+    have none, `unit` says it ("mm"), and without it the unit is "". Raises FileNotFoundError where there is no such
+    file, and ValueError where one holds no solids, where files differ in their unit, or are in another one than `unit`.
     """
-    if not isinstance(source, str | Path):
+    if unit is not None and unit not in METRES:
+        raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
+    if isinstance(source, str | Path):
+        parts, said = _read(Path(source))
+        return Assembly(parts, _agreed({Path(source).name: said}, unit), Path(source).name)
+    if not isinstance(source, Mapping) or not source:
         raise ValueError(
-            f"load reads a STEP file, {' or '.join(STEP)}, by its path; got a {type(source).__name__}: "
-            "assemblies of meshes cannot be read yet"
+            f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
         )
-    path = Path(source)
-    if path.suffix.lower() not in STEP:
+    parts, units = [], {}
+    for name, file in source.items():
+        found, units[f"{name} ({Path(file).name})"] = _read(Path(file), name)
+        parts += found
+    return Assembly(tuple(parts), _agreed(units, unit), ", ".join(Path(file).name for file in source.values()))
+
+
+def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
+    """The parts in a file, or the one part that it is with a name."""
+    suffix = path.suffix.lower()
+    if suffix in MESHES:
+        return read_mesh(path, name)
+    if suffix not in STEP:
         raise ValueError(
-            f"{source}: load reads STEP files, {' or '.join(STEP)}; got {path.suffix or 'no suffix'}. "
-            "Export the assembly as STEP from the CAD program"
+            f"{path}: load reads STEP files ({', '.join(STEP)}) and meshes ({', '.join(MESHES)}); got "
+            f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
         )
     parts, unit = read_step(path)
-    return Assembly(parts, unit, path.name)
+    if name is None:
+        return parts, unit
+    if len(parts) > 1:
+        raise ValueError(
+            f"{path.name} holds {len(parts)} solids, but is given as the one part {name!r}: export that part alone, or "
+            f"load the file as an assembly, load({str(path)!r})"
+        )
+    return tuple(replace(part, name=name) for part in parts), unit
+
+
+def _agreed(said: Mapping[str, str], unit: str | None) -> str:
+    """The one unit of all files; those that have none are in that of `unit`, or of the others."""
+    known = {file: given for file, given in said.items() if given}
+    for file, given in known.items():
+        if unit is not None and given != unit:
+            raise ValueError(
+                f"{file} is in {given}, not in {unit}: nothing is rescaled; leave unit out, or export it in {unit}"
+            )
+    if len(set(known.values())) > 1:
+        listed = ", ".join(f"{file} in {given}" for file, given in known.items())
+        raise ValueError(f"the files differ in their unit: {listed}; nothing is rescaled: export them in one unit")
+    if known and unit is None and len(known) < len(said):
+        silent = ", ".join(file for file in said if file not in known)
+        raise ValueError(
+            f"{silent}: the format has no unit, but {next(iter(known))} is in {next(iter(known.values()))}; say that "
+            f"all are, unit={next(iter(known.values()))!r}, or export them in one unit"
+        )
+    return unit or next(iter(known.values()), "")

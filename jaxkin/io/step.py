@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import replace
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +15,7 @@ from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.io.names import unique
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
@@ -46,7 +45,7 @@ def read_step(path: str | Path) -> tuple[tuple[Part, ...], str]:
     if not all(instance.complete for instance in found):
         plain = instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), path.name))
         found = [replace(bare, color=it.color) for bare, it in zip(plain, found, strict=True)]
-    names = _unique(_name(instance, number) for number, instance in enumerate(found, start=1))
+    names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     return tuple(_part(name, instance, metres) for name, instance in zip(names, found, strict=True)), unit_name
 
 
@@ -137,11 +136,3 @@ def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surfa
 
 def _name(instance: Instance, number: int) -> str:
     return next((name for name in instance.names if not _PLACEHOLDER.fullmatch(name)), f"part {number}")
-
-
-def _unique(names: Iterable[str]) -> list[str]:
-    result: list[str] = []
-    for name in names:
-        numbered = (name if number == 1 else f"{name}#{number}" for number in count(1))
-        result.append(next(candidate for candidate in numbered if candidate not in result))
-    return result

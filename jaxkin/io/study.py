@@ -93,6 +93,8 @@ def load_study(path: str | Path) -> Study:
     assembly = load(
         place / source if isinstance(source, str) else {part: place / file for part, file in source.items()}
     )
+    if not assembly.unit:  # formats of meshes that have none
+        assembly = replace(assembly, unit=said.unit)
     if said.unit and said.unit != assembly.unit:
         raise ValueError(
             f"{path.name}: unit is {said.unit!r}, but {assembly.source} is in {assembly.unit!r}; write all lengths of "

@@ -21,7 +21,7 @@ class Assembly:
 
     parts: tuple[Part, ...]
     unit: str
-    """Unit of all lengths, such as "mm"."""
+    """Unit of all lengths, such as "mm"; "" where the files have none and none was said."""
     source: str
     """The file that it was read from."""
 
@@ -75,7 +75,8 @@ class Assembly:
         return {}
 
     def __str__(self) -> str:
-        lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {self.unit}"]
+        unit = self.unit or "a unit that the file does not say"
+        lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {unit}"]
         width = max(len(name) for name in self.names)
         for part in self.parts:
             kinds = Counter(face.surface.kind for face in part.faces)

@@ -13,6 +13,7 @@ from jaxkin.cli.app import app
 from jaxkin.examples import path
 from jaxkin.motion.writers import filenames
 from reference.planar import fourbar
+from tessellation import tessellated, write_stl
 
 FOURBAR = str(path("fourbar"))
 CRANK = ["--fixed", "ground", "--drive", "ground-crank=0:360:5"]
@@ -73,6 +74,25 @@ def test_inspect_says_what_was_found():
     assert "revolute" in done.output
     assert "Loops: 1" in done.output
     assert "Mobility: 1 freedom" in done.output
+
+
+def test_several_files_are_one_part_each(tmp_path):
+    files = []
+    for part in tessellated(path("cam"), 0.35):
+        files.append(write_stl(tmp_path / f"{part.name}.stl", part.triangles))
+    done = invoke("inspect", *files, "--fixed", "frame", "--unit", "mm")
+    assert done.exit_code == 0, done.output
+    assert "Assembly of 3 parts from cam.stl, follower.stl, frame.stl, lengths in mm" in done.output
+    assert "cam-follower" in done.output and "Mobility: 1 freedom" in done.output
+    (tmp_path / "other").mkdir()
+    (tmp_path / "study.toml").touch()
+    for wrong, said in (
+        ([files[0], files[0].rename(tmp_path / "other" / "cam.stl")], "two parts would be called 'cam'; rename a file"),
+        ([files[1], tmp_path / "study.toml"], "study.toml is a study, which names its geometry itself: give it alone"),
+        ([tmp_path / "study.toml", "--unit", "mm"], 'write unit = "mm" in study.toml'),
+    ):
+        done = invoke("inspect", *wrong)
+        assert (done.exit_code, said in done.output) == (2, True), done.output
 
 
 def test_inspect_without_combining_keeps_every_contact():

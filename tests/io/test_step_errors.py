@@ -64,15 +64,15 @@ def test_missing_files_and_folders(tmp_path):
         load(folder)
 
 
-@pytest.mark.parametrize("name", ["part.stl", "part.STEPX", "part"])
+@pytest.mark.parametrize("name", ["part.iges", "part.STEPX", "part"])
 def test_other_formats_are_refused_by_what_can_be_read(tmp_path, name):
-    with pytest.raises(ValueError, match=r"\.step or \.stp"):
+    with pytest.raises(ValueError, match=r"STEP files \(\.step, \.stp\) and meshes \(\.stl"):
         load(tmp_path / name)
 
 
-def test_meshes_are_refused():
-    with pytest.raises(ValueError, match="got a dict"):
-        load({"crank": "crank.stl"})
+def test_no_files_are_refused():
+    with pytest.raises(ValueError, match="a dict of files by part"):
+        load({})
 
 
 def test_load_gives_an_assembly(tmp_path):

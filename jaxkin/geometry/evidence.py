@@ -1,0 +1,106 @@
+"""Whether some triangles look like a tessellation of a surface, and not only have their corners on it.
+
+Few corners lie on many surfaces: those of two facets on some cylinder, those of two bands about an axis on some torus.
+What tells is that facets are nearly tangent, about equally wide, and more than it takes to fit the surface.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin.geometry.facets import Facets, Rows
+from jaxkin.geometry.fit import fit_surface, fit_torus
+from jaxkin.geometry.surfaces import Cone, Plane, Sphere, Surface
+from jaxkin.geometry.torus import Torus
+
+CHORD = 0.36
+"""Radians between a facet and its surface at the corners of the facet: a polygon of nine sides and more is round."""
+
+UNEVEN = 3.0
+"""How many times the arc of one facet may be that of its neighbours on the same face."""
+
+_SHALLOW = 20.0
+"""Times the rounding: how deep under a surface triangles may lie that count as one facet since they bend by less."""
+
+_CORNERS = 8
+"""Of a flat facet on a ball or a torus at most: what has more is a flat face with a round rim."""
+
+_FITTED = 600
+"""Points that a surface is fitted to; all others are compared with it."""
+
+
+def surface_of(
+    mesh: Facets, rows: Rows, tolerance: float, *, one_facet: bool = False, torus: bool = False
+) -> Surface | Torus | None:
+    """The surface, or with `torus` also the torus, that some triangles are a tessellation of; None if there is none.
+
+    `tolerance` is the length by which corners may miss it. `one_facet` says that the triangles are of one facet.
+    """
+    corners = mesh.points[mesh.triangles[rows]].reshape(-1, 3)
+    normals = mesh.normals[rows][:, None].repeat(3, 1) if one_facet else mesh.corner_normals(rows)
+    _, first = np.unique(mesh.triangles[rows], return_index=True)
+    some = first if len(first) <= _FITTED else np.random.default_rng(0).choice(first, _FITTED, replace=False)
+    points, directions = corners[some], normals.reshape(-1, 3)[some]
+    surface = fit_surface(points, directions, tolerance, CHORD)
+    if surface is None and torus:
+        surface = fit_torus(points, directions, tolerance)
+    if surface is None or np.abs(surface.distance(corners)).max() > tolerance:
+        return None
+    if isinstance(surface, Plane):
+        return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD)) else None
+    sizes = _corner_counts(mesh, rows)
+    # four rulings, or five points: any three rulings lie on some cylinder, any four points on some sphere
+    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD)) <= 0.9:
+        return None
+    if isinstance(surface, Sphere | Torus) and sizes.max() > _CORNERS and _cut(mesh, surface, rows, sizes):
+        return None
+    return None if isinstance(surface, Torus) and _rings(surface, corners[first], 4 * tolerance) < 4 else surface
+
+
+def on(mesh: Facets, surface: Surface | Torus, rows: Rows, tolerance: float, angle: float) -> Bool[np.ndarray, "_"]:
+    """Which triangles have their corners on the surface and are within `angle` of tangent to it there."""
+    near = np.all(np.abs(surface.distance(mesh.points[mesh.triangles[rows]])) <= tolerance, axis=1)
+    return near & tangent(mesh, surface, rows, angle)
+
+
+def tangent(mesh: Facets, surface: Surface | Torus, rows: Rows, angle: float) -> Bool[np.ndarray, "_"]:
+    """Which triangles are within `angle`, radians, of tangent to the surface at all their corners."""
+    return arcs(mesh, surface, rows) < angle
+
+
+def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray, "_"]:
+    """Radians between each triangle and the surface at the corner where they are greatest: half the arc it spans."""
+    corners = mesh.points[mesh.triangles[rows]]
+    along = np.sum(surface.normals(corners) * mesh.normals[rows][:, None], axis=-1)
+    if isinstance(surface, Torus):  # its side is not known
+        along = np.abs(along)
+    if isinstance(surface, Cone):  # its apex has no normal
+        along[np.linalg.norm(corners - surface.apex, axis=-1) <= 20 * mesh.tolerance] = 1.0
+    return np.arccos(np.clip(along.min(axis=1), -1.0, 1.0))
+
+
+def _corner_counts(mesh: Facets, rows: Rows) -> np.ndarray:
+    """How many corners each facet has, in the order of the facets."""
+    facet = np.repeat(mesh.facet_of[rows], 3)
+    _, count = np.unique(np.unique(np.stack([facet, mesh.triangles[rows].ravel()]), axis=1)[0], return_counts=True)
+    return count
+
+
+def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray) -> bool:
+    """Whether one of the facets with many corners is as deep as a flat cut; shallower ones are facets lost in noise."""
+    facet = np.unique(mesh.facet_of[rows], return_inverse=True)[1]
+    middles = mesh.points[mesh.triangles[rows]].mean(axis=1)
+    return bool(np.any(np.abs(surface.distance(middles[corners[facet] > _CORNERS])) > _SHALLOW * mesh.tolerance))
+
+
+def _rings(surface: Torus, points: np.ndarray, tolerance: float) -> int:
+    """How many circles about the axis the points lie on, up to four: any three are on some torus."""
+    offset = points - surface.centre
+    height = offset @ surface.axis
+    section = np.stack([np.linalg.norm(offset - height[:, None] * surface.axis, axis=-1), height], axis=-1)
+    count = 0
+    while len(section) and count < 4:
+        section = section[np.linalg.norm(section - section[0], axis=-1) > tolerance]
+        count += 1
+    return count

@@ -1,0 +1,120 @@
+"""A triangulated solid in flat facets: triangles that lie in one plane, and which facets may be of one curved face.
+
+A tessellation replaces a curved face by facets that meet at small angles, and other faces meet it at its rim. The
+corners of the facets are all that it keeps of the true surface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from jaxkin.geometry.components import components
+from jaxkin.geometry.pose import Points
+
+COPLANAR = 1e-3
+"""Radians at which two triangles are still one flat facet; facets of curved faces meet at 1e-2 and more."""
+
+SMOOTH = 0.65
+"""Radians at which two facets may still be of one curved face: ten facets a turn."""
+
+SLIVER = 20.0
+"""A triangle lower than this many times the rounding has no normal worth the name."""
+
+Rows = Int[np.ndarray, "_"]
+
+
+@dataclass(frozen=True, eq=False)
+class Facets:
+    """The triangles of a solid and the facets that they make up."""
+
+    points: Float[np.ndarray, "points 3"]
+    triangles: Int[np.ndarray, "triangles 3"]
+    """Indices into `points`, wound outwards."""
+    tolerance: float
+    """The length by which points may miss the surface that they were made on."""
+    normals: Float[np.ndarray, "triangles 3"]
+    """Outward unit normals; a sliver has that of its facet."""
+    areas: Float[np.ndarray, "triangles"]
+    facet_of: Int[np.ndarray, "triangles"]
+    pairs: Int[np.ndarray, "pairs 2"]
+    """Pairs of triangles that share an edge."""
+    smooth: Int[np.ndarray, "_ 2"]
+    """Pairs of triangles of two facets that meet smoothly at an edge."""
+
+    @property
+    def count(self) -> int:
+        return int(self.facet_of.max(initial=-1)) + 1
+
+    def corner_normals(self, rows: Rows) -> Float[np.ndarray, "_ 3 3"]:
+        """At the corners of some triangles the mean normal of those of them that meet there, weighted by angle."""
+        corners = self.triangles[rows]
+        edges = self.points[np.roll(corners, -1, axis=1)] - self.points[corners]
+        before = -np.roll(edges, 1, axis=1)
+        lengths = np.linalg.norm(edges, axis=-1) * np.linalg.norm(before, axis=-1)
+        angles = np.arccos(np.clip(np.sum(edges * before, axis=-1) / np.where(lengths > 0, lengths, 1.0), -1, 1))
+        _, at = np.unique(corners, return_inverse=True)
+        at = at.reshape(-1)
+        parts = angles.reshape(-1, 1) * np.repeat(self.normals[rows], 3, axis=0)
+        total = np.stack([np.bincount(at, part) for part in parts.T], axis=-1)
+        length = np.linalg.norm(total, axis=-1, keepdims=True)
+        return (total / np.where(length > 0, length, 1.0))[at].reshape(-1, 3, 3)
+
+
+def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"], tolerance: float) -> Facets:
+    """The facets of welded triangles; `pairs` are those that share an edge, `tolerance` the rounding of the points."""
+    corners = points[triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    double = np.linalg.norm(cross, axis=-1)
+    normals = cross / np.where(double > 0, double, 1.0)[:, None]
+    edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=-1)
+    heights = double / edges.max(axis=1)
+    leader = _leaders(triangles, pairs, edges, heights < SLIVER * tolerance)
+    normals = normals[leader]
+
+    i, j = pairs.T
+    angle = _angles(normals[i], normals[j])
+    noise = tolerance * (1 / heights[leader[i]] + 1 / heights[leader[j]])
+    flat = (angle < np.maximum(COPLANAR, noise)) | (leader[i] == leader[j])
+    label = components(len(triangles), np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], -1)]))
+    # what bends by less than the angle from triangle to triangle is no plane all the same
+    bent = np.flatnonzero(_bent(label, normals, corners, double, 5 * tolerance))
+    label[bent] = label.max(initial=0) + 1 + np.arange(len(bent))
+    label = np.unique(label, return_inverse=True)[1]
+    smooth = (angle < SMOOTH) & (label[i] != label[j])
+    return Facets(points, triangles, tolerance, normals, double / 2, label, pairs, pairs[smooth])
+
+
+def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> Rows:
+    """For each sliver the triangle beyond its longest edge, or beyond that one's if it is a sliver too, and so on."""
+    leader = np.arange(len(triangles))
+    if not sliver.any():
+        return leader
+    longest = np.argmax(edges, axis=1)
+    rows = np.arange(len(triangles))
+    edge = np.sort(np.stack([triangles[rows, longest], triangles[rows, (longest + 1) % 3]], axis=-1), axis=1)
+    for one, other in (pairs.T, pairs.T[::-1]):
+        shares = sliver[one] & np.all((triangles[other][:, :, None] == edge[one][:, None]).any(axis=1), axis=-1)
+        leader[one[shares]] = other[shares]
+    for _ in range(32):  # by doubling: more than any chain
+        leader = leader[leader]
+    return leader
+
+
+def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
+    """Which triangles are of a group whose corners are not all in its mean plane."""
+    count = np.maximum(np.bincount(label), 1)
+    normal = np.stack([np.bincount(label, weights * n) for n in normals.T], axis=-1)
+    length = np.linalg.norm(normal, axis=-1, keepdims=True)
+    normal = normal / np.where(length > 0, length, 1.0)
+    middle = np.stack([np.bincount(label, c) for c in corners.mean(axis=1).T], axis=-1) / count[:, None]
+    height = np.abs(np.einsum("nki,ni->nk", corners - middle[label][:, None], normal[label])).max(axis=1)
+    worst = np.zeros(len(count))
+    np.maximum.at(worst, label, height)
+    return worst[label] > tolerance
+
+
+def _angles(a: Points, b: Points) -> np.ndarray:
+    return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.sum(a * b, axis=-1))

@@ -1,0 +1,119 @@
+"""Loose triangles welded into a surface: which corners are the same point, and which triangles share an edge.
+
+Files hold every triangle by itself, or split where colours or shading change. Corners that are equal are one point;
+corners at edges that find no partner are one where they are equal within the rounding of the file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from jaxkin.geometry.components import components
+
+Corners = Float[np.ndarray, "_ 3 3"]
+Rows = Int[np.ndarray, "_ 3"]
+
+_LEAST = 1e-2
+"""Radians of a wedge of material; below it two triangles lie on each other but for rounding, with material apart."""
+
+
+@dataclass(frozen=True, eq=False)
+class Welded:
+    """Triangles by the indices of their corners, and their pairs."""
+
+    points: Float[np.ndarray, "points 3"]
+    triangles: Rows
+    pairs: Int[np.ndarray, "pairs 2"]
+    """Triangles on either side of an edge, each edge once."""
+    open_edges: Int[np.ndarray, "edges 2"]
+    """Points from and to which an edge without a partner runs."""
+
+
+def weld(corners: Corners, tolerance: float) -> Welded:
+    """The triangles without those that are a line or a point, welded; `tolerance` is the rounding of the file."""
+    points, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
+    triangles = _proper(index.reshape(-1, 3))
+    pairs, lone = pair_edges(points, triangles)
+    if len(lone):
+        at = np.unique(lone)
+        triangles = _proper(_merged(points, at, tolerance)[triangles])
+        pairs, lone = pair_edges(points, triangles)
+    return Welded(points, triangles, pairs, lone)
+
+
+def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of triangles that share an edge in opposite directions, and the edges left over.
+
+    Where more than two triangles meet at an edge, as where two solids touch, those are a pair that bound one wedge of
+    material.
+    """
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    owner = np.repeat(np.arange(len(triangles)), 3)
+    low, high, forward = np.minimum(start, end), np.maximum(start, end), start < end
+    order = np.lexsort((~forward, high, low))
+    new = np.ones(len(order), bool)
+    new[1:] = (low[order][1:] != low[order][:-1]) | (high[order][1:] != high[order][:-1])
+    first = np.flatnonzero(new)
+    count = np.diff(np.append(first, len(order)))
+    ahead = np.add.reduceat(forward[order].astype(int), first) if len(first) else first
+    simple = (count == 2) & (ahead == 1)
+    pairs = [np.stack([owner[order[first[simple]]], owner[order[first[simple] + 1]]], axis=-1)]
+    lone = [order[np.repeat(count == 1, count)]]
+    body = components(len(triangles), pairs[0])
+    for begin, number in zip(first[~simple & (count > 1)], count[~simple & (count > 1)], strict=True):
+        here = order[begin : begin + number]
+        matched = _wedges(points, triangles, owner[here], here % 3, forward[here], body[owner[here]])
+        pairs.append(owner[here][matched])
+        lone.append(np.delete(here, matched.ravel()))
+    rest = np.concatenate(lone)
+    return np.concatenate(pairs), np.stack([start[rest], end[rest]], axis=-1)
+
+
+def _wedges(
+    points: np.ndarray, triangles: Rows, owner: np.ndarray, side: np.ndarray, forward: np.ndarray, body: np.ndarray
+):
+    """Of triangles around one edge those that bound one wedge of material, as pairs of their places in the list."""
+    rows = triangles[owner]
+    place = np.arange(len(owner))
+    low = np.where(forward, rows[place, side], rows[place, (side + 1) % 3])[0]
+    high = np.where(forward, rows[place, (side + 1) % 3], rows[place, side])[0]
+    axis = points[high] - points[low]
+    axis = axis / np.linalg.norm(axis)
+    away = points[rows[place, (side + 2) % 3]] - points[low]
+    away = away - (away @ axis)[:, None] * axis
+    x = away[0] / (np.linalg.norm(away[0]) or 1.0)
+    angle = np.arctan2(away @ np.cross(axis, x), away @ x)
+    # the material of a triangle that runs along the edge lies clockwise of it, seen against the edge
+    found, taken = [], np.zeros(len(owner), bool)
+    for one in np.flatnonzero(forward):
+        wedge = np.mod(angle[one] - angle, 2 * np.pi)
+        wedge = np.where(wedge < _LEAST, 2 * np.pi, wedge)
+        wedge[forward | taken] = np.inf
+        # chords of a ball and of its socket pierce each other: what else joins two triangles says more than the angle
+        akin = (body == body[one]) & np.isfinite(wedge)
+        wedge[akin.any() & ~akin] = np.inf
+        other = int(np.argmin(wedge))
+        if np.isfinite(wedge[other]):
+            taken[other] = True
+            found.append((one, other))
+    return np.array(found, int).reshape(-1, 2)
+
+
+def _proper(triangles: Rows) -> Rows:
+    """Without triangles two of whose corners are the same point."""
+    return triangles[np.all(triangles != np.roll(triangles, 1, axis=1), axis=1)]
+
+
+def _merged(points: np.ndarray, at: np.ndarray, tolerance: float) -> np.ndarray:
+    """For each point its own index, or for the points `at` the first of those within the tolerance."""
+    from scipy.spatial import KDTree
+
+    index = np.arange(len(points))
+    near = KDTree(points[at]).query_pairs(tolerance, output_type="ndarray")
+    if len(near):
+        label = components(len(at), near)
+        index[at] = at[np.unique(label, return_index=True)[1]][label]
+    return index

@@ -1,0 +1,101 @@
+"""Solid models from meshes: parts whose faces are recovered from their triangles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from jaxkin.geometry.facets import facets
+from jaxkin.geometry.merge import merge_faces
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.regions import regions
+from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
+from jaxkin.geometry.torus import Torus
+from jaxkin.geometry.weld import weld
+from jaxkin.io.mesh_nodes import Node, read_nodes
+from jaxkin.io.names import unique
+
+MESHES = (".stl", ".obj", ".ply", ".3mf", ".glb")
+
+
+def read_mesh(path: str | Path, whole: str | None = None) -> tuple[tuple[Part, ...], str]:
+    """The parts of a mesh file, in its coordinates, and the unit of its lengths, "" where it has none.
+
+    A part is a node of the file; in a file of one node it is a connected body, called as the file, or "part 1",
+    "part 2", where there are several. With `whole`, all of the file is one part of that name. Faces that lie on none of
+    the four surfaces, and what was repaired, are in the notes of the part.
+
+    Raises FileNotFoundError where there is no such file, and ValueError where it holds no closed solids.
+    """
+    path = Path(path)
+    nodes, unit = read_nodes(path)
+    if whole is not None:
+        corners = np.concatenate([node.corners for node in nodes])
+        solids = [Node(whole, nodes[0].color, corners, max(node.grain for node in nodes))]
+    elif len(nodes) > 1:
+        solids = nodes
+    else:
+        solids = _bodies(nodes[0], path)
+    names = unique(solid.name for solid in solids)
+    parts = tuple(_part(name, solid, path.name) for name, solid in zip(names, solids, strict=True))
+    _refuse_twins(parts, path.name)
+    return parts, unit
+
+
+def _bodies(node: Node, path: Path) -> list[Node]:
+    """The connected bodies of a node."""
+    welded = weld(node.corners, 2 * node.tolerance)
+    corners = welded.points[welded.triangles]
+    found = bodies(corners, shells(welded)) if len(corners) else []
+    if len(found) < 2 or len(welded.open_edges):
+        return [Node(path.stem, node.color, node.corners, node.grain)]
+    return [Node(f"part {number}", node.color, corners[rows], node.grain) for number, rows in enumerate(found, start=1)]
+
+
+def _part(name: str, solid: Node, source: str) -> Part:
+    welded = weld(solid.corners, 2 * solid.tolerance)
+    corners = welded.points[welded.triangles]
+    notes = []
+    where = f"{source}: the part {name!r}"
+    if not len(corners):
+        raise ValueError(f"{where} has no triangles but points and lines: export it as a solid")
+    if loops := open_loops(welded, solid.tolerance):
+        place = ", ".join(f"{x:.4g}" for x in loops[0].mean(axis=0))
+        holes = "a hole" if len(loops) == 1 else f"{len(loops)} holes"
+        raise ValueError(
+            f"{where} is not closed, or its triangles are not all wound the same way: there is {holes}, the first near "
+            f"({place}); repair the mesh, or export the part as a solid"
+        )
+    triangles = welded.triangles
+    if volume(corners) < 0:
+        triangles, corners = triangles[:, ::-1], corners[:, ::-1]
+        notes.append("its triangles faced inwards: turned round")
+    if (place := wrong_side(corners, solid.tolerance)) is not None:
+        near = ", ".join(f"{x:.4g}" for x in place)
+        raise ValueError(
+            f"{where} cuts itself, or solids touch or overlap in it, near ({near}): unite them, or give each as a part"
+        )
+    mesh = facets(welded.points, triangles, welded.pairs, solid.tolerance)
+    faces = []
+    for number, region in enumerate(regions(mesh), start=1):
+        label = f"face {number}"
+        if isinstance(region.surface, Torus) or region.surface is None:
+            kind = "torus" if region.surface else f"freeform surface of {len(region.rows)} triangles"
+            notes.append(f"{label}: {kind}, not one of the four surfaces")
+        else:
+            faces.append(Face(label, region.surface, corners[region.rows]))
+    return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.grain)
+
+
+def _refuse_twins(parts: tuple[Part, ...], source: str) -> None:
+    """Refuse a body that is there twice in the same place."""
+    seen: dict[bytes, str] = {}
+    for part in parts:
+        flat = part.triangles.reshape(-1, 3)
+        key = flat[np.lexsort(flat.T)].tobytes()
+        if key in seen:
+            raise ValueError(
+                f"{source}: the parts {seen[key]!r} and {part.name!r} are the same solid in the same place"
+            )
+        seen[key] = part.name

@@ -1,0 +1,131 @@
+"""What a mesh file claims, held against what it is, before anything is read from it.
+
+trimesh takes many broken files for empty scenes, and some claims for what to allocate.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from pathlib import Path
+
+MOST = 2_000_000
+"""Triangles of a file; a large assembly has some hundred thousand."""
+
+LARGEST = 500_000_000
+"""Bytes of a file, or of what is packed in it: what `MOST` triangles take as text."""
+
+UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "inch": "in", "foot": "ft"}
+"""Of 3MF, and what they are called here."""
+
+
+def check(path: Path) -> str | None:
+    """Refuse a file that cannot be a mesh of its kind, with a message; the unit of its lengths, if it says one.
+
+    Raises FileNotFoundError where there is no such file, ValueError for all else.
+    """
+    kind = path.suffix.lower().removeprefix(".")
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder: give the mesh file itself")
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist: give the path of a mesh file")
+    size = path.stat().st_size
+    if size == 0:
+        raise ValueError(f"{path.name} is empty: expected a mesh in {kind.upper()} format")
+    with path.open("rb") as file:
+        head = file.read(20_000)
+    if size > LARGEST and kind != "stl":
+        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser")
+    return {"stl": _stl, "obj": _obj, "ply": _ply, "3mf": _3mf, "glb": _glb}[kind](path, head, size)
+
+
+def is_binary_stl(path: Path) -> bool:
+    """Whether the size of a checked file is that of the records of binary STL that its header announces."""
+    with path.open("rb") as file:
+        head = file.read(84)
+    return path.suffix.lower() == ".stl" and path.stat().st_size == 84 + 50 * int.from_bytes(head[80:84], "little")
+
+
+def too_many(name: str, count: int) -> ValueError:
+    return ValueError(f"{name} holds {count} triangles, more than {MOST}: export it coarser, or part by part")
+
+
+def _stl(path: Path, head: bytes, size: int) -> None:
+    count = int.from_bytes(head[80:84], "little")
+    if size != 84 + 50 * count and re.match(rb"\s*solid\b", head) and (b"facet" in head or b"endsolid" in head):
+        if size > LARGEST:
+            raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser")
+        with path.open("rb") as file:
+            file.seek(max(0, size - 1000))
+            tail = file.read()
+        if b"endsolid" not in tail:
+            raise ValueError(f"{path.name} is cut off: it does not end with endsolid; copy or export it again")
+        return
+    if size < 84:
+        raise ValueError(f"{path.name} is no STL file: it is shorter than the header of one")
+    if size != 84 + 50 * count:
+        raise ValueError(
+            f"{path.name} is damaged or cut off, or no STL file: its header announces {count} triangles, which take "
+            f"{84 + 50 * count} bytes, but it has {size}; copy or export it again"
+        )
+    if count == 0:
+        raise ValueError(f"{path.name} holds no triangles: export the part as a solid")
+    if count > MOST:
+        raise too_many(path.name, count)
+
+
+def _obj(path: Path, head: bytes, size: int) -> None:
+    if b"\0" in head:
+        raise ValueError(f"{path.name} is no OBJ file: it is not text")
+
+
+def _ply(path: Path, head: bytes, size: int) -> None:
+    if not re.match(rb"ply\s*[\r\n]", head):
+        raise ValueError(f"{path.name} is no PLY file: it does not begin with ply")
+    end = re.search(rb"end_header[^\n]*\n", head)
+    if not end:
+        raise ValueError(f"{path.name} is no PLY file, or cut off: its header has no end")
+    for element, count in re.findall(rb"^element\s+(\w+)\s+(\d+)", head[: end.start()], re.M):
+        if int(count) > size - end.end():
+            raise ValueError(
+                f"{path.name} is damaged or cut off: its header announces {int(count)} of {element.decode()}, but "
+                f"{size - end.end()} bytes follow; copy or export it again"
+            )
+        if element == b"face" and int(count) > MOST:
+            raise too_many(path.name, int(count))
+
+
+def _3mf(path: Path, head: bytes, size: int) -> str:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            # what is read of a member ends at the size that is stated here
+            unpacked = sum(member.file_size for member in archive.infolist())
+            if unpacked > LARGEST:
+                raise ValueError(
+                    f"{path.name} unpacks to {unpacked / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser"
+                )
+            models = [name for name in archive.namelist() if "3d/3dmodel.model" in name.lower()]
+            if not models:
+                raise ValueError(f"{path.name} is no 3MF file: there is no 3D/3dmodel.model in it")
+            with archive.open(models[0]) as model:
+                start = model.read(20_000)
+    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError) as error:
+        raise ValueError(f"{path.name} is damaged or no 3MF file: {error}; copy or export it again") from None
+    root = re.search(rb"<(?:\w+:)?model\b[^>]*>", start)
+    said = re.search(rb"\bunit\s*=\s*[\"'](\w+)[\"']", root[0]) if root else None
+    unit = said[1].decode() if said else "millimeter"  # the default of the format
+    if unit not in UNITS:
+        raise ValueError(f"{path.name} is in the length unit {unit!r}: export it in {', '.join(UNITS)}")
+    return UNITS[unit]
+
+
+def _glb(path: Path, head: bytes, size: int) -> str:
+    if head[:4] != b"glTF":
+        raise ValueError(f"{path.name} is no GLB file: it does not begin with glTF")
+    stated = int.from_bytes(head[8:12], "little")
+    if stated != size:
+        raise ValueError(
+            f"{path.name} is damaged or cut off: its header announces {stated} bytes, but it has {size}; "
+            "copy or export it again"
+        )
+    return "m"  # of the format

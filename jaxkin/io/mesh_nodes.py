@@ -1,0 +1,107 @@
+"""Mesh files as nodes, each a set of triangles with a name: read by trimesh in a process of its own.
+
+With bounds on its time and memory, and nothing printed, whatever the file makes of the reader.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.pose import apply
+from jaxkin.io.mesh_check import MOST, check, is_binary_stl, too_many
+
+SECONDS = 120
+"""For one file; a binary one of `MOST` triangles takes five, as text half a minute."""
+
+MEMORY = 8 << 30
+"""Bytes of address space for the reader, most of it never used: `MOST` triangles as text take two."""
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """Triangles that a file keeps together."""
+
+    name: str
+    color: tuple[float, float, float] | None
+    corners: Float[np.ndarray, "triangles 3 3"]
+    """In world coordinates, in the unit of the file."""
+    grain: float
+    """The length by which numbers as large as those of the file are rounded."""
+
+    @property
+    def tolerance(self) -> float:
+        """The length by which corners may miss the surface that they were made on: see `rounding`."""
+        return max(1e-6 * float(np.linalg.norm(np.ptp(self.corners.reshape(-1, 3), axis=0))), self.grain)
+
+
+def read_nodes(path: Path) -> tuple[list[Node], str]:
+    """The nodes of a mesh file that have triangles, and its unit, "" where the format has none.
+
+    Raises FileNotFoundError where there is no such file, and ValueError where it is no mesh that can be read.
+    """
+    unit = check(path)
+    nodes = _binary_stl(path) if is_binary_stl(path) else _by_trimesh(path)
+    if not nodes:
+        raise ValueError(f"{path.name} holds no triangles: export the parts as solids")
+    if (count := sum(len(node.corners) for node in nodes)) > MOST:
+        raise too_many(path.name, count)
+    return nodes, unit or ""
+
+
+def _binary_stl(path: Path) -> list[Node]:
+    """Records of 50 bytes after the header, each a normal, three corners and two bytes of no meaning here.
+
+    The commonest of all mesh files, one for every part; to start trimesh takes longer than to read a hundred of them.
+    """
+    record = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("about", "<u2")])
+    return [_node(path.stem, None, np.fromfile(path, record, offset=84)["corners"], np.eye(4), path.name)]
+
+
+def _by_trimesh(path: Path) -> list[Node]:
+    kind = path.suffix.lower().removeprefix(".")
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "nodes.npz"
+        worker = Path(__file__).with_name("mesh_worker.py")
+        command = [sys.executable, "-P", str(worker), kind, str(MOST), str(MEMORY), str(target), str(path)]
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", check=False, timeout=SECONDS
+            )
+        except subprocess.TimeoutExpired:
+            raise ValueError(
+                f"{path.name} was not read within {SECONDS} seconds: it is damaged, or larger than can be used"
+            ) from None
+        if done.returncode:
+            said = (done.stderr.strip().splitlines() or ["the reader crashed on it"])[-1]
+            raise ValueError(f"{path.name} cannot be read as {kind.upper()}: {said}; export it again")
+        with np.load(target) as data:
+            return [
+                _node(entry["name"], entry["color"], data[f"corners{k}"], data[f"pose{k}"], path.name)
+                for k, entry in enumerate(json.loads(str(data["about"])))
+            ]
+
+
+def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> Node:
+    corners, pose = np.asarray(corners, float), np.asarray(pose, float)
+    bad = int(np.sum(~np.isfinite(corners).all(axis=(1, 2))))
+    if bad or not np.all(np.isfinite(pose)):
+        raise ValueError(f"{source}: {bad or 'all'} of its triangles have coordinates that are no numbers; repair it")
+    scale = np.linalg.svd(pose[:3, :3], compute_uv=False)
+    if np.linalg.det(pose[:3, :3]) < 0:
+        corners = corners[:, ::-1]
+    grain = 3e-7 * float(np.abs(corners).max() * scale.max())
+    node = Node(name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), grain)
+    if not np.all(np.isfinite(node.corners)) or not 0 < 200 * grain < 1e6 * node.tolerance:
+        raise ValueError(
+            f"{source}: coordinates up to {np.abs(corners).max():.2g} leave too few digits for the size of the part; "
+            "export it nearer to the origin, in a usual unit"
+        )
+    return node

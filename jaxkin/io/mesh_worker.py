@@ -1,0 +1,71 @@
+"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST BYTES TARGET FILE`.
+
+What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
+so that it starts at once. TARGET becomes a .npz of the triangles of every node, and their names.
+"""
+
+import contextlib
+import json
+import sys
+from typing import Any
+
+import numpy as np
+
+
+def main(kind: str, most: int, memory: int, target: str, source: str) -> None:
+    """Write the nodes of a file, or the reason why there are none, as one line on standard error."""
+    with contextlib.suppress(ImportError, ValueError):  # not on every system
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    try:
+        with open(source, "rb") as file:
+            nodes = read(file, kind, most)
+    except MemoryError:
+        sys.exit("it asks for more memory than a mesh of that size needs")
+    except RecursionError:
+        sys.exit("its nodes are nested without end")
+    except Exception as error:
+        sys.exit(f"{type(error).__name__}: {error}".splitlines()[0][:200])
+    arrays = {f"{key}{k}": node[key] for k, node in enumerate(nodes) for key in ("corners", "pose")}
+    about = [{"name": node["name"], "color": node["color"]} for node in nodes]
+    np.savez(target, **arrays, about=np.array(json.dumps(about)))
+
+
+def read(file, kind: str, most: int) -> list[dict]:
+    """Nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the world."""
+    # what trimesh could use and reading does without takes twice as long to import as all the rest
+    for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if kind != "3mf" else ())):
+        sys.modules[module] = None  # pyright: ignore[reportArgumentType]
+    from trimesh import Trimesh, load_scene
+
+    options: dict[str, dict[str, Any]] = {
+        "obj": {"split_objects": True, "group_material": False, "skip_materials": True},
+        "ply": {"skip_materials": True},
+        "glb": {"merge_primitives": True},
+    }
+    scene = load_scene(file, file_type=kind, process=False, **options.get(kind, {}))
+    nodes, total = [], 0
+    order = list(scene.geometry)
+    placed = [(name, *scene.graph[name]) for name in scene.graph.nodes_geometry]
+    for name, pose, geometry in sorted(placed, key=lambda node: (order.index(node[2]), str(node[0]))):
+        mesh = scene.geometry[geometry]
+        if isinstance(mesh, Trimesh) and len(mesh.faces):
+            total += len(mesh.faces)
+            if total > most:
+                raise ValueError(f"it holds more than {most} triangles")
+            if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices):
+                raise ValueError("its triangles name corners that are not there")
+            nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": pose})
+    return nodes
+
+
+def color(mesh) -> list[float] | None:
+    """The one colour of a mesh, red, green, blue in 0..1, if it has one."""
+    material = getattr(mesh.visual, "material", None)
+    value = getattr(material, "baseColorFactor", None)
+    return None if value is None else [float(c) / 255 for c in value[:3]]
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4], sys.argv[5])
