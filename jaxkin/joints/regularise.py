@@ -31,6 +31,9 @@ CENTRE = ("T_theta_phi", "T_theta_phi_psi")
 # The movement that leaves a surface where it is: a surface is settled like a frame with this movement.
 SYMMETRY = {"plane": "T_xy_phi", "cylinder": "T_z_phi", "cone": "T_phi", "sphere": "T_theta_phi_psi"}
 
+_MOST = 1e-4
+"""Radians, as of `Assembly.contacts`."""
+
 
 @dataclass(frozen=True)
 class Noise:
@@ -45,6 +48,11 @@ class Noise:
     def size(self) -> float:
         """The length over which the two are equivalent: the size of the assembly."""
         return self.length / self.angle
+
+    def with_doubt(self, angle: float, length: float) -> Noise:
+        """The same, enlarged where directions and places are known less well, up to what is no contact any more."""
+        factor = max(1.0, min(max(angle / self.angle, length / self.length), _MOST / self.angle))
+        return Noise(float(factor * self.angle), float(factor * self.length))
 
     @staticmethod
     def of(contacts: Sequence[Contact]) -> Noise:
