@@ -94,15 +94,23 @@ def _legend(
     for name, color in list(colors.items())[:MOST]:
         fixed = " (fixed)" if mechanism is not None and name in mechanism.fixed else ""
         entries.append((Patch(facecolor=pale(color), edgecolor=INK, linewidth=0.8), clip(name, 40) + fixed))
-    present = {contact.region for contact in contacts}
-    if "surface" in present:
-        entries.append((Patch(facecolor=COLORS["surface"]), "contact over an area"))
-    for region in ("line", "circle"):
-        if region in present:
-            entries.append((Line2D([], [], color=COLORS[region], linewidth=3.0), f"contact on a {region}"))
-    if "point" in present:
-        dot = Line2D([], [], color=COLORS["point"], marker="o", linestyle="", markersize=8)
-        entries.append((dot, "contact at a point"))
+    entries += legend_of_regions(contacts)
     if mechanism:
         entries.append((Line2D([], [], **CHAIN), "axis of a joint"))
     return entries
+
+
+def legend_of_regions(contacts: Sequence[Contact]) -> list[tuple[Artist, str]]:
+    """What the regions of contacts look like: of those kinds that are there."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    dot = Line2D([], [], color=COLORS["point"], marker="o", linestyle="", markersize=8)
+    entries: dict[str, tuple[Artist, str]] = {
+        "surface": (Patch(facecolor=COLORS["surface"]), "contact over an area"),
+        "line": (Line2D([], [], color=COLORS["line"], linewidth=3.0), "contact on a line"),
+        "circle": (Line2D([], [], color=COLORS["circle"], linewidth=3.0), "contact on a circle"),
+        "point": (dot, "contact at a point"),
+    }
+    present = {contact.region for contact in contacts}
+    return [entry for region, entry in entries.items() if region in present]

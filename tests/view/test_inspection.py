@@ -11,8 +11,11 @@ from jaxkin.contacts.tolerance import default_length
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.io.step import read_step
 from jaxkin.motion.assembly import Assembly
+from jaxkin.view.callouts import COLORS
+from jaxkin.view.gallery import PANEL, draw_gallery
 from jaxkin.view.inspection import draw_inspection
 from jaxkin.view.regions import region_of
+from jaxkin.view.sheet import FOOT, GAP, HEAD, MARGIN
 
 DATA = Path(__file__).parents[1]
 
@@ -63,6 +66,20 @@ def test_the_picture_shows_contacts_in_their_colour(tmp_path):
         red.append(int(((image[..., 0] - image[..., 1:].max(axis=-1)) > 90).sum()))
     assert red[0] > 5 * red[1] + 1000
     assert [file.name for file in tmp_path.iterdir()] == ["found.png"]
+
+
+def test_a_gallery_shows_each_contact_in_a_panel(states, tmp_path):
+    """In the colour of its region; the panels stand side by side from the left."""
+    contacts = {contact.region: contact for contact in states.contacts()}
+    chosen = [contacts[region] for region in ("surface", "line", "circle", "point")]
+    draw_gallery(states, tmp_path / "gallery.png", contacts=chosen)
+    image = np.asarray(Image.open(tmp_path / "gallery.png").convert("RGB"), int)[MARGIN + HEAD : -FOOT]
+    for panel, contact in enumerate(chosen):
+        left = MARGIN + panel * (PANEL + GAP)
+        near = np.abs(image[:, left : left + PANEL] - 255 * np.array(COLORS[contact.region])).max(axis=-1) < 60
+        assert near.sum() > 50
+    with pytest.raises(ValueError, match=r"states\.step has no contacts to draw"):
+        draw_gallery(states, tmp_path / "none.png", contacts=())
 
 
 def test_nothing_is_left_where_it_cannot_be_written(tmp_path):
