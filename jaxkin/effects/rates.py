@@ -1,0 +1,126 @@
+"""Velocities and accelerations: derivatives of the sweep along its drive, nested forward."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from jaxkin.motion.drive import resolve
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
+from jaxkin.motion.sweep import sweep
+from jaxkin.topology.names import nearest
+
+Inputs = dict[str, Float[Array, " poses"]]
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """First or second derivatives of a motion with respect to time. A pytree; poses come first.
+
+    Poses that did not close have rates zero: `motion.closed` tells them.
+    """
+
+    motion: Motion
+    inputs: Inputs
+    """The given rates of the driven displacements."""
+    displacements: tuple[Float[Array, "poses _"], ...]
+    """Of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
+    matrices: tuple[Float[Array, "poses 4 4"], ...]
+    """Of the transforms of all parts, in the order of `mechanism.parts`."""
+
+    @property
+    def closed(self) -> Bool[Array, " poses"]:
+        """Which poses have rates."""
+        return self.motion.closed
+
+    @cached_property
+    def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
+        """Of each joint, in the order of its `coordinates`."""
+        return dict(zip(self.motion.mechanism.joints, self.displacements, strict=True))
+
+    @cached_property
+    def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
+        """Of each part, the derivative of its displacement matrix."""
+        return dict(zip(self.motion.mechanism.parts, self.matrices, strict=True))
+
+    def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
+        """Velocity (or acceleration) of a point of a part, given where it is in the assembled pose; world axes."""
+        matrices = self.transforms[_known(self.motion, part)]
+        return jnp.einsum("pij,j->pi", matrices[:, :3, :3], jnp.asarray(point, float)) + matrices[:, :3, 3]
+
+    def angular(self, part: str) -> Float[Array, "poses 3"]:
+        """Angular velocity (or acceleration) of a part, world axes, radians per time (or its square)."""
+        rotation = self.motion.transforms[_known(self.motion, part)][:, :3, :3]
+        # of an acceleration R'' R^T = [alpha] + [omega]^2, of which the skew part is [alpha]
+        spin = jnp.einsum("pij,pkj->pik", self.transforms[part][:, :3, :3], rotation)
+        return 0.5 * jnp.stack(
+            [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=-1
+        )
+
+
+jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "displacements", "matrices"], meta_fields=[])
+
+
+def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
+    """Velocities of all joints and parts in every pose of a motion, for given rates of its driven displacements.
+
+    `rates` maps a driven "joint" or "joint.coordinate" to one number or one a pose, in radians or lengths per time;
+    driven coordinates that it does not name are at rest. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a
+    name that is not driven and for arrays of another length.
+    """
+    tangents = _tangents(motion, rates)
+    found = jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (motion.inputs,), (tangents,))[1]
+    return Rates(motion, tangents, *found)
+
+
+def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
+    """Accelerations, for given rates and accelerations (none: constant rates) of the driven displacements.
+
+    As `velocities`; second derivatives with respect to time.
+    """
+    first = _tangents(motion, rates)
+    second = _tangents(motion, accelerations or {})
+
+    def velocity(inputs: Inputs, tangents: Inputs):
+        return jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (inputs,), (tangents,))[1]
+
+    found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
+    return Rates(motion, second, *found)
+
+
+def _place(mechanism: Mechanism, inputs: Inputs):
+    motion = sweep(mechanism, inputs)
+    return motion.displacements, tuple(motion.transforms.values())
+
+
+def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
+    given = {}
+    for key, rate in rates.items():
+        value = rate if isinstance(rate, jax.Array) else np.asarray(rate, float)
+        if value.ndim > 1 or (value.ndim == 1 and len(value) != len(motion)):
+            raise ValueError(
+                f"the rate of {key!r} must be one number or one for each of the {len(motion)} poses, got shape "
+                f"{tuple(value.shape)}"
+            )
+        given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
+    named = {name: entry.values for name, entry in resolve(motion.mechanism, given).items()} if given else {}
+    for name in named:
+        if name not in motion.inputs:
+            raise ValueError(f"{name!r} is not driven in this motion{nearest(name, motion.inputs)}")
+    return {
+        name: named.get(name, jnp.zeros_like(values)).astype(values.dtype) for name, values in motion.inputs.items()
+    }
+
+
+def _known(motion: Motion, part: str) -> str:
+    if part not in motion.mechanism.parts:
+        raise ValueError(f"there is no part {part!r}{nearest(part, motion.mechanism.parts)}")
+    return part
