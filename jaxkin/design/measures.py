@@ -1,0 +1,72 @@
+"""Numbers that judge a motion: transmission angle, stroke."""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.motion.motion import Motion
+from jaxkin.topology.names import nearest
+
+
+def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:
+    """The angle at a joint between its two links, 0 to pi, in every pose.
+
+    `ends` names the joint at the other end of either link: in a four-bar with coupler B C and rocker C D it is
+    `transmission_angle(motion, "C", ("B", "D"))`. A right angle transmits best; at 0 and pi the linkage jams.
+    """
+    corner, links = joint_path(motion, joint), []
+    for end in ends:
+        common = set(motion.mechanism.joints[known_joint(motion, end)].parts)
+        if not common & set(motion.mechanism.joints[joint].parts):
+            parts = " and ".join(map(repr, motion.mechanism.joints[joint].parts))
+            raise ValueError(f"joint {end!r} is on neither of the links {parts} that meet at {joint!r}")
+        links.append(joint_path(motion, end) - corner)
+    cross = jnp.linalg.norm(jnp.cross(*links) + 1e-300, axis=-1)
+    return jnp.arctan2(cross, jnp.sum(links[0] * links[1], axis=-1))
+
+
+def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
+    """Largest minus smallest displacement of a joint of one coordinate over the closed poses: radians or a length."""
+    values = joint_coordinate(motion, joint)
+    inside = motion.closed
+    return jnp.max(jnp.where(inside, values, -jnp.inf)) - jnp.min(jnp.where(inside, values, jnp.inf))
+
+
+def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:
+    """Where the origin of a joint is in every pose."""
+    joint = motion.mechanism.joints[known_joint(motion, name)]
+    return motion.points(joint.parts[0], jnp.asarray(joint.before)[0, :3, 3])
+
+
+def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:
+    """Displacement of a joint by "joint", where it has one coordinate, or "joint.coordinate"."""
+    joints = motion.mechanism.joints
+    if name in joints:
+        if joints[name].freedoms != 1:
+            choices = " or ".join(repr(f"{name}.{coordinate}") for coordinate in joints[name].coordinates)
+            raise ValueError(
+                f"joint {name!r} has {joints[name].freedoms} coordinates; write {choices or 'another one'}"
+            )
+        return motion.coordinates[name][:, 0]
+    owner, _, coordinate = name.rpartition(".")
+    names = joints[known_joint(motion, owner if owner in joints else name)].coordinates
+    if coordinate not in names:
+        raise ValueError(f"joint {owner!r} has no coordinate {coordinate!r}; it has: {', '.join(names)}")
+    return motion.coordinates[owner][:, names.index(coordinate)]
+
+
+def known_joint(motion: Motion, name: str) -> str:
+    """The name, if there is such a joint; else ValueError with the nearest."""
+    if name not in motion.mechanism.joints:
+        raise ValueError(f"there is no joint {name!r}{nearest(name, motion.mechanism.joints)}")
+    return name
+
+
+def as_rows(values, what: str, width: int) -> np.ndarray:
+    """Numbers as an array (rows, width); ValueError naming what they are for."""
+    array = np.asarray(values, float)
+    if array.ndim != 2 or array.shape[1] != width or not np.all(np.isfinite(array)):
+        raise ValueError(f"{what} must be finite numbers of shape (poses, {width}), got shape {array.shape}")
+    return array

@@ -1,0 +1,207 @@
+"""The way from a loss and a mechanism to the best design: many starts in one batch, penalties, history, a verdict."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import jax.numpy as jnp
+import numpy as np
+
+from jaxkin.design.constraints import Constraint
+from jaxkin.design.objectives import Objective
+from jaxkin.design.problem import Problem, checked_shape
+from jaxkin.design.result import Optimum, judged_range
+from jaxkin.design.solvers import CHUNK, Solver, bounded, least_squares
+from jaxkin.design.variables import inside, spread, variables
+from jaxkin.motion.mechanism import Mechanism
+
+POOL = 8
+"""So many designs are drawn for each start, and the best of them begin."""
+MET = 1e-6
+"""Root of the sum of squares of all violations (they are without unit) below which a design counts as feasible."""
+ROUNDS, STIFFER = 3, 100.0
+"""If the best design violates something, the penalty is made so many times stiffer and the search goes on."""
+
+
+def optimize(
+    loss: Objective | Callable[..., Any],
+    mechanism: Mechanism,
+    *,
+    drive: Mapping[str, Any],
+    lengths: Mapping[Any, Any] | None = None,
+    points: Mapping[Any, Any] | None = None,
+    extras: Mapping[str, Any] | None = None,
+    ties: Mapping[Any, Any] | None = None,
+    constraints: Sequence[Constraint] = (),
+    method: Literal["least-squares", "l-bfgs"] | None = None,
+    starts: int = 1,
+    seed: int = 0,
+    iterations: int = 300,
+    tolerance: float = 1e-9,
+    target: float | None = None,
+    penalty: float | None = None,
+    progress: bool | None = None,
+) -> Optimum:
+    """The design of least loss.
+
+    `loss` is an objective of `jaxkin.design`, or a function `loss(motion)` or `loss(motion, extras)` that returns one
+    number. With `method="least-squares"` it returns residuals, the squares of which are added up: curve fitting then
+    takes a dozen Levenberg-Marquardt steps where L-BFGS takes hundreds, so objectives are solved so by default, and all
+    else by bounded L-BFGS.
+
+    What may change: `lengths`, a mapping of keys of `mechanism.lengths` to bounds (lower, upper); `points`, one of
+    joints or (part, joint) to bounds of (x, y, z), as in `with_points`; driven displacements and `extras` given as
+    `Free(start, lower, upper)`. `ties` gives a key the value of a variable, or a function of it:
+    `{("rocker", "C", "D"): ("crank", "A", "B")}`, `{"Q": ("P", mirrored)}`. Constraints are functions like the loss
+    whose values must not be negative; `jaxkin.design` has some.
+
+    `starts` designs are improved side by side in one compiled program: the given one, and the best of many drawn at
+    random between the bounds. What is minimised is
+
+        loss + penalty * (sum over poses of gap^2 + sum over parts of misfit^2 + sum over constraints of lack^2)
+
+    where `gap` is the closure residual (Eq. 12, lengths over the size of the loop) of a pose that cannot close,
+    `misfit` that of lengths that cannot hold together, and `lack` by how much a constraint is negative. Designs that
+    cannot move everywhere cost something and can be left again by their derivatives. `penalty` is a hundred times the
+    median loss of the starts by default, and made stiffer while the best design violates anything by more than 1e-6.
+
+    The search ends when no start improves by more than `tolerance` relative over ten iterations, when the best feasible
+    loss is at or below `target`, or after `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep.
+
+    Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
+    """
+    if method not in (None, "least-squares", "l-bfgs"):
+        raise ValueError(f'method must be "least-squares" or "l-bfgs", got {method!r}')
+    if starts < 1 or iterations < 1:
+        raise ValueError(f"starts and iterations must be at least 1, got {starts} and {iterations}")
+    chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})
+    squares = method == "least-squares" or (method is None and isinstance(loss, Objective))
+    problem = Problem(loss, squares, mechanism, chosen, tuple(constraints))
+    checked_shape(problem, jnp.asarray(chosen.start))
+    began = time.perf_counter()
+    solver = (least_squares if squares else bounded)(problem)
+    pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
+    vectors, weight = _best_of(solver, pool, starts)
+    weight = penalty if penalty is not None else weight
+    _warn_of_idle(solver, inside(chosen, vectors), weight, chosen.names)
+
+    history: list[np.ndarray] = []
+    bar = _Bar(iterations, progress)
+    reason = ""
+    for _ in range(ROUNDS):
+        vectors, reason = _search(solver, inside(chosen, vectors), weight, iterations, tolerance, target, history, bar)
+        losses, violations = solver.judge(vectors)
+        best = _rank(losses, violations)
+        if violations[best] <= MET:
+            break
+        weight *= STIFFER
+    bar.close()
+    vector = np.asarray(vectors)[best]
+    if violations[best] > MET:
+        reason += (
+            f"; the best design still violates by {violations[best]:.1g} (closure, fit of lengths, or constraints)"
+        )
+    motion, found, _ = problem.motion(vector)
+    first = problem.motion(chosen.start)
+    values = chosen.values(vector)
+    return Optimum(
+        mechanism=motion.mechanism,
+        value=float(losses[best]),
+        violation=float(violations[best]),
+        history=np.concatenate(history),
+        reason=reason,
+        seconds=time.perf_counter() - began,
+        values=dict(zip(chosen.names, vector.tolist(), strict=True)),
+        extras={name: np.asarray(value) for name, value in found.items()},
+        drive={name: np.asarray(value) for name, value in values.inputs.items()},
+        losses=np.asarray(losses),
+        violations=np.asarray(violations),
+        moves=judged_range(motion),
+        motion=motion,
+        initial=(first[0], first[1]),
+        loss=loss,
+    )
+
+
+def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
+    """The given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
+    parts = [solver.judge(pool[first : first + starts]) for first in range(0, len(pool), starts)]
+    losses, violations = (np.concatenate(column) for column in zip(*parts, strict=True))
+    if not np.isfinite(losses[0]):
+        raise ValueError(
+            f"the loss of the design given is {losses[0]}: it must be a finite number there; mask poses that do not "
+            "close (motion.closed) and divisions by zero in the loss, or start from another design"
+        )
+    usual = float(np.median(losses[np.isfinite(losses)]))
+    weight = 100.0 * usual if usual > 0 else 1.0
+    total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2
+    order = [0, *(index for index in np.argsort(total, kind="stable") if index != 0)][:starts]
+    return pool[np.array(order)], weight
+
+
+def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, target, history, bar):
+    state = solver.begin(vectors, weight)
+    last = np.full(len(vectors), np.finfo(float).max)
+    for done in range(CHUNK, iterations + CHUNK, CHUNK):
+        state, losses = solver.advance(state, weight)
+        losses = np.asarray(losses)
+        history.append(losses)
+        now = losses[-1]
+        bar.show(done, float(now.min()))
+        if target is not None and now.min() <= target:
+            found, violations = solver.judge(solver.vectors(state))
+            if np.any((found <= target) & (violations <= MET)):
+                return solver.vectors(state), f"the target {target:g} was reached after {done} iterations"
+        settled = now >= last - tolerance * np.abs(last)
+        if np.all(settled | (now <= 1e-30)):
+            return (
+                solver.vectors(state),
+                f"converged: no start improved by more than {tolerance:g} relative in {CHUNK} iterations, after {done}",
+            )
+        last = now
+    return solver.vectors(state), f"all {iterations} iterations were used; some starts were still improving"
+
+
+def _rank(losses, violations) -> int:
+    """The best feasible design; the least violation where none is feasible."""
+    losses = np.where(np.isfinite(losses), losses, np.inf)
+    feasible = violations <= MET
+    return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))
+
+
+def _warn_of_idle(solver: Solver, vectors, weight: float, names: list[str]) -> None:
+    slopes = np.asarray(solver.slopes(solver.begin(vectors, weight)))
+    idle = [name for name, slope in zip(names, slopes.T, strict=True) if not np.any(slope)]
+    if idle:
+        warnings.warn(
+            f"the loss does not depend on {', '.join(idle)}: the derivative is exactly zero for every start, and "
+            "nothing will change there; leave it out, or let the loss depend on it",
+            stacklevel=3,
+        )
+
+
+class _Bar:
+    """A bar of progress on a terminal."""
+
+    def __init__(self, iterations: int, wanted: bool | None):
+        self.bar: Any = None
+        if sys.stderr.isatty() if wanted is None else wanted:
+            from rich.console import Console
+            from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+            columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+            self.bar = Progress(*columns, console=Console(stderr=True))
+            self.bar.start()
+            self.task = self.bar.add_task("compiling", total=iterations)
+
+    def show(self, done: int, least: float) -> None:
+        if self.bar:
+            self.bar.update(self.task, completed=done, description=f"loss {least:.3e}")
+
+    def close(self) -> None:
+        if self.bar:
+            self.bar.stop()

@@ -1,0 +1,113 @@
+"""A design problem as functions of one vector: residuals, or a loss and its gradient, penalties included."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.design.constraints import Constraint
+from jaxkin.design.objectives import Objective
+from jaxkin.design.penalty import closure_gaps
+from jaxkin.design.variables import Variables
+from jaxkin.motion.lengths import rearranged
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
+from jaxkin.motion.placing import with_points
+from jaxkin.motion.sweep import sweep
+
+HOPELESS = 1e6
+"""Stands for residuals and losses that are not finite, so that the other designs of a batch are not spoilt."""
+
+
+class Judged(NamedTuple):
+    """A design, judged."""
+
+    rows: Float[Array, " rows"]
+    """Residuals of a sum of squares; a single loss otherwise."""
+    violations: Float[Array, " violations"]
+    """Closure residuals of poses that do not close, misfits of parts, what constraints lack; zero where all is well."""
+
+    @property
+    def finite(self) -> Array:
+        """Whether every number is finite."""
+        return jnp.all(jnp.isfinite(self.rows)) & jnp.all(jnp.isfinite(self.violations))
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is minimised: `sum(rows^2)` or the loss, and `weight sum(violations^2)`."""
+
+    loss: Callable[..., Any]
+    squares: bool
+    mechanism: Mechanism
+    variables: Variables
+    constraints: Sequence[Constraint]
+
+    def motion(self, vector) -> tuple[Motion, dict[str, Any], dict[str, Any]]:
+        """The motion of a design, its extra variables, and the misfits of its parts."""
+        values = self.variables.values(vector)
+        mechanism, misfits = rearranged(self.mechanism, values.lengths)
+        mechanism = with_points(mechanism, values.points)
+        return sweep(mechanism, values.inputs), values.extras, misfits
+
+    def judge(self, vector) -> Judged:
+        """Residuals and violations of a design, differentiable."""
+        motion, extras, misfits = self.motion(vector)
+        if self.squares:
+            found = (
+                self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
+            )
+            rows = jnp.ravel(found)
+        else:
+            rows = jnp.reshape(self._call(motion, extras), (1,))
+        lacking = [jnp.ravel(jnp.maximum(-constraint(motion, extras), 0.0)) for constraint in self.constraints]
+        fits = [jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,)) for misfit in misfits.values()]
+        return Judged(rows, jnp.concatenate([closure_gaps(motion), *fits, *lacking]))
+
+    def residuals(self, vector, weight) -> Float[Array, " rows"]:
+        """All that a sum of squares adds up."""
+        judged = self.judge(vector)
+        return jnp.concatenate([judged.rows, jnp.sqrt(weight) * judged.violations])
+
+    def total(self, vector, weight) -> Float[Array, ""]:
+        """The loss with its penalty."""
+        judged = self.judge(vector)
+        value = jnp.sum(judged.rows**2) if self.squares else judged.rows[0]
+        return value + weight * jnp.sum(judged.violations**2)
+
+    def _call(self, motion: Motion, extras: dict[str, Any]):
+        return self.loss(motion, extras) if takes_extras(self.loss) else self.loss(motion)
+
+
+def takes_extras(loss: Callable[..., Any]) -> bool:
+    """Whether a loss wants the extra variables as a second argument."""
+    try:
+        inspect.signature(loss).bind(None, None)
+    except TypeError:
+        return False
+    except ValueError:  # no signature to be had: a callable of C
+        return False
+    return True
+
+
+def checked_shape(problem: Problem, vector) -> None:
+    """Refuse a loss that is no single number, where it has to be one; by shapes only, nothing is computed."""
+    if problem.squares and isinstance(problem.loss, Objective):
+        return
+    found = jax.eval_shape(lambda v: problem._call(*problem.motion(v)[:2]), vector)
+    shape = getattr(found, "shape", None)
+    if shape is None:
+        raise ValueError(
+            f"the loss must return one number, got {type(found).__name__}; return jnp.sum(...) of what it measures"
+        )
+    if not problem.squares and shape != ():
+        raise ValueError(
+            f"the loss must return one number, got an array of shape {shape}; return jnp.sum(...) of it, or say "
+            'method="least-squares" if these are residuals whose squares are to be added up'
+        )

@@ -1,0 +1,207 @@
+"""What an optimisation found: the design, how it got there, and whether it moves through the whole range."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from jaxkin.design.objectives import Objective
+from jaxkin.joints.joint import Joint
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
+from jaxkin.solve.status import Status
+from jaxkin.topology.structure import Structure
+
+POSES = 361
+STEEP = 100.0
+"""Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
+_FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Moves:
+    """The verdict of a fine sweep over the range of the drive."""
+
+    poses: int
+    counts: dict[str, int]
+    """Number of poses of each status that occurs."""
+    steepest: float
+    """Largest change of any joint from pose to pose over that of the drive: it grows as 1/sqrt(distance) to a limit."""
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether all poses close on one branch, and none is near-singular."""
+        return self.counts.get("CLOSED", 0) == self.poses and self.steepest < STEEP
+
+    def __str__(self) -> str:
+        said = ", ".join(f"{count} {name}" for name, count in self.counts.items())
+        verdict = "moves through the whole range" if self.everywhere else "does not move through the whole range"
+        near = (
+            f"; near-singular, joints up to {self.steepest:.3g} times as fast as the drive"
+            if self.steepest >= STEEP
+            else ""
+        )
+        return f"{verdict} ({said} of {self.poses} poses{near})"
+
+
+@dataclass(frozen=True, eq=False)
+class Optimum:
+    """The best design of `optimize`."""
+
+    mechanism: Mechanism
+    value: float
+    """Its loss, without penalty."""
+    violation: float
+    """Root of the sum of squares of closure residuals, misfits and lacks of constraints; at most 1e-6 if feasible."""
+    history: np.ndarray
+    """Loss with penalty after every iteration (iterations, starts)."""
+    reason: str
+    """Why the search ended."""
+    seconds: float
+    values: dict[str, float]
+    """All variables by name."""
+    extras: dict[str, np.ndarray]
+    drive: dict[str, np.ndarray]
+    """The drive, with the inputs that were chosen."""
+    losses: np.ndarray
+    """Where every start ended."""
+    violations: np.ndarray
+    moves: Moves
+    motion: Motion | None = None
+    initial: tuple[Motion, dict[str, Any]] | None = None
+    """Motion and extras of the design given; not saved."""
+    loss: Any = None
+    """Not saved."""
+
+    @property
+    def feasible(self) -> bool:
+        """Whether the design closes in all poses asked for and meets all constraints."""
+        return self.violation <= 1e-6
+
+    def __str__(self) -> str:
+        lines = [
+            f"Optimum {self.value:.6g}{'' if self.feasible else f', infeasible by {self.violation:.1g}'}, from "
+            f"{len(self.losses)} start{'s' if len(self.losses) > 1 else ''} in {self.seconds:.1f} s",
+            f"  {self.reason}",
+            f"  {self.moves}",
+        ]
+        width = max(len(name) for name in self.values)
+        lines += [f"  {name.ljust(width)}  {value:.6g}" for name, value in self.values.items()]
+        return "\n".join(lines)
+
+    def plot(self) -> Any:
+        """A matplotlib figure: the losses over the iterations, and the objective before and after."""
+        from matplotlib.figure import Figure
+
+        drawn = isinstance(self.loss, Objective) and self.motion is not None
+        figure = Figure(figsize=(10 if drawn else 5, 3.8), layout="constrained")
+        axes = figure.subplots(1, 2 if drawn else 1, squeeze=False)[0]
+        axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history, color="0.75", linewidth=0.8)
+        axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history.min(axis=1), color="C0", label="best start")
+        axes[0].set_xlabel("iteration")
+        axes[0].set_ylabel("loss with penalty")
+        axes[0].legend(frameon=False)
+        if drawn:
+            if self.initial is not None:
+                self.loss.plot(axes[1], *self.initial, color="0.6", label="before", linewidth=1.0)
+            self.loss.plot(axes[1], self.motion, self.extras, color="C1", label="after")
+            axes[1].legend(frameon=False)
+        for each in axes:
+            each.spines[["top", "right"]].set_visible(False)
+        return figure
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the result into one file (.npz): design, values, history, verdict. Read it back with `read_optimum`."""
+        target = Path(path)
+        if target.suffix != ".npz":
+            raise ValueError(f"the result is saved as a .npz file, got {str(target)!r}")
+        joints = self.mechanism.all_joints
+        structure = self.mechanism.structure
+        text = {
+            "format": _FORMAT,
+            "value": self.value,
+            "violation": self.violation,
+            "reason": self.reason,
+            "seconds": self.seconds,
+            "values": self.values,
+            "moves": {"poses": self.moves.poses, "counts": self.moves.counts, "steepest": self.moves.steepest},
+            "unit": self.mechanism.unit,
+            "joints": [[j.name, list(j.parts), j.kind, list(j.movements)] for j in joints],
+            "structure": {name: getattr(structure, name) for name in structure.__dataclass_fields__},
+        }
+        arrays = {"history": self.history, "losses": self.losses, "violations": self.violations}
+        for number, joint in enumerate(joints):
+            arrays |= {f"{number} {leaf}": np.asarray(getattr(joint, leaf)) for leaf in ("before", "after", "pitch")}
+        arrays |= {f"drive {name}": value for name, value in self.drive.items()}
+        arrays |= {f"extra {name}": value for name, value in self.extras.items()}
+        draft = target.with_name(f".{target.name}")
+        with open(draft, "wb") as file:
+            np.savez_compressed(file, text=np.array(json.dumps(text)), **arrays)
+        os.replace(draft, target)
+        return target
+
+
+def read_optimum(path: str | os.PathLike[str]) -> Optimum:
+    """A result that `Optimum.save` wrote. Raises ValueError where the file is none."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+        text = json.loads(str(arrays.pop("text")))
+        if text["format"] != _FORMAT:
+            raise ValueError(f"format {text['format']}, and this version reads {_FORMAT}")
+        joints = tuple(
+            Joint(
+                name,
+                tuple(parts),
+                kind,
+                tuple(movements),
+                *(arrays[f"{i} {leaf}"] for leaf in ("before", "after", "pitch")),
+            )
+            for i, (name, parts, kind, movements) in enumerate(text["joints"])
+        )
+        structure = Structure(**{name: _tuples(value) for name, value in text["structure"].items()})
+    except (KeyError, TypeError, ValueError, OSError) as error:
+        if isinstance(error, FileNotFoundError):
+            raise
+        raise ValueError(f"{str(path)!r} is no saved result of optimize: {error}") from error
+    named = {
+        kind: {name.removeprefix(f"{kind} "): value for name, value in arrays.items() if name.startswith(f"{kind} ")}
+        for kind in ("drive", "extra")
+    }
+    return Optimum(
+        mechanism=Mechanism(joints, structure, text["unit"]),
+        **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
+        **{name: arrays[name] for name in ("history", "losses", "violations")},
+        extras=named["extra"],
+        drive=named["drive"],
+        moves=Moves(**text["moves"]),
+    )
+
+
+def _tuples(value: Any) -> Any:
+    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
+
+
+def judged_range(motion: Motion) -> Moves:
+    """The verdict of a fine sweep over the range of the drive; of several inputs, along the poses given."""
+    inputs = {name: np.asarray(values) for name, values in motion.inputs.items()}
+    if len(inputs) == 1:
+        ((name, values),) = inputs.items()
+        inputs = {name: np.linspace(values.min(), values.max(), max(POSES, len(values)))}
+    fine = motion.mechanism.sweep(inputs)
+    status = np.asarray(fine.status)
+    counts = {each.name: int(np.sum(status == each)) for each in Status if np.any(status == each)}
+    pace = np.sqrt(sum(np.diff(values) ** 2 for values in inputs.values()))
+    origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in motion.mechanism.all_joints])
+    size = float(np.sqrt(np.mean(np.sum((origins - origins.mean(axis=0)) ** 2, axis=1)))) or 1.0
+    steepest, both = 0.0, (status[1:] == 0) & (status[:-1] == 0) & (pace > 0)
+    for joint, moved in zip(motion.mechanism.all_joints, fine.displacements, strict=True):
+        for name, column in zip(joint.coordinates, np.asarray(moved).T, strict=True):
+            steps = np.abs(np.diff(column)) / (size if name.rstrip("0123456789") in ("x", "y", "z") else 1.0)
+            steepest = max(steepest, float(np.max(steps[both] / pace[both], initial=0.0)))
+    return Moves(len(fine), counts, steepest)

@@ -1,0 +1,223 @@
+"""What an optimiser may change: lengths, points, inputs and further numbers, between bounds, as one vector."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.motion.lengths import find_length
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.placing import locate
+
+Vector = Float[np.ndarray, " variables"]
+
+
+@dataclass(frozen=True)
+class Free:
+    """Numbers to be chosen: where they start and between which bounds. Arrays of one shape, or numbers for all."""
+
+    start: Any
+    lower: Any
+    upper: Any
+
+
+class Values(NamedTuple):
+    """A design: the values of all variables by name."""
+
+    lengths: dict[Any, Any]
+    points: dict[Any, Any]
+    inputs: dict[str, Any]
+    extras: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class _Entry:
+    group: str
+    key: Any
+    shape: tuple[int, ...]
+    start: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+    ties: tuple[tuple[Any, Callable | None], ...] = field(default=())
+    """Further keys of the group that take this value, or a function of it."""
+
+
+@dataclass(frozen=True)
+class Variables:
+    """All variables, one after another."""
+
+    entries: tuple[_Entry, ...]
+    fixed_inputs: Mapping[str, Any]
+
+    @property
+    def start(self) -> Vector:
+        """The vector of the design that was given."""
+        return self._joined("start")
+
+    @property
+    def lower(self) -> Vector:
+        """Lower bounds."""
+        return self._joined("lower")
+
+    @property
+    def upper(self) -> Vector:
+        """Upper bounds."""
+        return self._joined("upper")
+
+    @property
+    def names(self) -> list[str]:
+        """A name for each number of the vector."""
+        names = []
+        for entry in self.entries:
+            label = entry.key if isinstance(entry.key, str) else "(" + ", ".join(map(str, entry.key)) + ")"
+            label = label if entry.group != "extras" else f"{label}"
+            names += [label + "".join(f"[{i}]" for i in index) for index in np.ndindex(entry.shape)]
+        return names
+
+    def values(self, vector) -> Values:
+        """The design that a vector stands for."""
+        found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": dict(self.fixed_inputs), "extras": {}}
+        first = 0
+        for entry in self.entries:
+            count = int(np.prod(entry.shape, dtype=int))
+            value = vector[first : first + count].reshape(entry.shape)
+            first += count
+            found[entry.group][entry.key] = value
+            for key, change in entry.ties:
+                found[entry.group][key] = value if change is None else change(value)
+        return Values(**found)
+
+    def _joined(self, name: str) -> Vector:
+        return np.concatenate([np.asarray(getattr(entry, name), float).ravel() for entry in self.entries])
+
+
+def variables(
+    mechanism: Mechanism,
+    drive: Mapping[str, Any],
+    lengths: Mapping[Any, Any],
+    points: Mapping[Any, Any],
+    extras: Mapping[str, Any],
+    ties: Mapping[Any, Any],
+) -> Variables:
+    """The variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no sense."""
+    entries, fixed = [], {}
+    for key, bounds in lengths.items():
+        length = find_length(mechanism, key)
+        now = mechanism.lengths[_listed(mechanism, key)]
+        least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
+        entry = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
+        if np.any(entry.lower < least) and not any(f.kind == "plane" for f in length.body):
+            raise ValueError(f"length {key!r}: the lower bound {float(entry.lower)} is negative, and a length is not")
+        entries.append(entry)
+    for key, bounds in points.items():
+        column, side = locate(mechanism, key)
+        joint = mechanism.all_joints[column]
+        now = np.asarray((joint.after[-1] if side == "after" else joint.before[0])[:3, 3], float)
+        entries.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
+    for key, given in drive.items():
+        if isinstance(given, Free):
+            entries.append(_entry("inputs", key, given, f"drive {key!r}"))
+        else:
+            fixed[key] = given
+    for key, given in extras.items():
+        if not isinstance(given, Free):
+            raise ValueError(f"extra {key!r}: write jk.design.Free(start, lower, upper), got {given!r}")
+        entries.append(_entry("extras", key, given, f"extra {key!r}"))
+    if not entries:
+        raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
+    return Variables(_tied(mechanism, entries, ties), fixed)
+
+
+def _listed(mechanism: Mechanism, key: tuple[str, ...]) -> tuple[str, ...]:
+    """The key under which `mechanism.lengths` has a length that `find_length` knows."""
+    row = mechanism.structure.row_of.get(key[0], key[0])
+    same = (row, *key[1:])
+    return same if same in mechanism.lengths else (row, *key[1:3][::-1], *key[3:])
+
+
+def _free(what: str, bounds: Any, now: Any) -> Free:
+    if isinstance(bounds, Free):
+        return bounds
+    try:
+        lower, upper = bounds
+    except (TypeError, ValueError):
+        raise ValueError(f"{what}: give its bounds as (lower, upper), got {bounds!r}") from None
+    return Free(now, lower, upper)
+
+
+def _entry(group: str, key: Any, free: Free, what: str = "") -> _Entry:
+    what = what or f"{group[:-1]} {key!r}"
+    try:
+        start, lower, upper = (np.asarray(value, float) for value in (free.start, free.lower, free.upper))
+        start, lower, upper = (np.array(array) for array in np.broadcast_arrays(start, lower, upper))
+    except (TypeError, ValueError):
+        raise ValueError(f"{what}: start and bounds must be numbers of one shape, got {free!r}") from None
+    if not all(np.all(np.isfinite(array)) for array in (start, lower, upper)):
+        raise ValueError(f"{what}: start and bounds must be finite numbers, got {_said(start, lower, upper)}")
+    if np.any(lower > upper):
+        raise ValueError(f"{what}: the lower bound is above the upper one, {_said(start, lower, upper)}")
+    slack = 1e-9 * (1 + np.abs(upper) + np.abs(lower))
+    if np.any(start < lower - slack) or np.any(start > upper + slack):
+        raise ValueError(
+            f"{what}: the bounds exclude the start, {_said(start, lower, upper)}; widen them, or give another start as "
+            "jk.design.Free(start, lower, upper)"
+        )
+    return _Entry(group, key, start.shape, np.clip(start, lower, upper), lower, upper)
+
+
+def _said(start, lower, upper) -> str:
+    return f"start {np.round(start, 6).tolist()}, bounds {np.round(lower, 6).tolist()} to {np.round(upper, 6).tolist()}"
+
+
+def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) -> tuple[_Entry, ...]:
+    followers: dict[Any, list[tuple[Any, Callable | None]]] = {}
+    known = [entry.key for entry in entries]
+    for key, source in ties.items():
+        change = None
+        if isinstance(source, tuple) and len(source) == 2 and callable(source[1]):
+            source, change = source
+        if source not in known:
+            raise ValueError(f"tie of {key!r}: {source!r} is no variable; there are {', '.join(map(repr, known))}")
+        if key in known:
+            raise ValueError(f"tie of {key!r}: it is a variable of its own; give it in lengths or points, or in ties")
+        group = entries[known.index(source)].group
+        if group == "lengths":
+            find_length(mechanism, key)
+        elif group == "points":
+            locate(mechanism, key)
+        followers.setdefault(source, []).append((key, change))
+    return tuple(
+        _Entry(**{**entry.__dict__, "ties": tuple(followers.get(entry.key, ()))}) if entry.key in followers else entry
+        for entry in entries
+    )
+
+
+def spread(variables: Variables, count: int, seed: int) -> Float[np.ndarray, "starts variables"]:
+    """The given design and further ones at random between the bounds."""
+    random = np.random.default_rng(seed).uniform(size=(max(count - 1, 0), len(variables.start)))
+    return np.concatenate([variables.start[None], variables.lower + random * (variables.upper - variables.lower)])
+
+
+def inside(variables: Variables, vectors, share: float = 1e-3):
+    """The vectors, moved off their bounds by a share of the range: there the sine of `from_angles` has no slope."""
+    width = variables.upper - variables.lower
+    return np.clip(np.asarray(vectors), variables.lower + share * width, variables.upper - share * width)
+
+
+def to_angles(variables: Variables, vectors) -> jax.Array:
+    """Vectors between their bounds as angles without bounds: x = middle + half sin(angle)."""
+    half = 0.5 * (variables.upper - variables.lower)
+    middle = 0.5 * (variables.upper + variables.lower)
+    return jnp.arcsin(jnp.clip((vectors - middle) / np.where(half > 0, half, 1.0), -1.0, 1.0))
+
+
+def from_angles(variables: Variables, angles) -> jax.Array:
+    """The vectors between the bounds; the inverse of `to_angles`."""
+    half = jnp.asarray(0.5 * (variables.upper - variables.lower))
+    return jnp.asarray(0.5 * (variables.upper + variables.lower)) + half * jnp.sin(angles)
