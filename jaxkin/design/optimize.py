@@ -21,6 +21,8 @@ from jaxkin.motion.mechanism import Mechanism
 
 POOL = 8
 """So many designs are drawn for each start, and the best of them begin."""
+PATIENCE = 30
+"""Iterations before a start may be given up for its pace."""
 MET = 1e-6
 """Root of the sum of squares of all violations (they are without unit) below which a design counts as feasible."""
 ROUNDS, STIFFER = 3, 100.0
@@ -55,8 +57,9 @@ def optimize(
 
     What may change: `lengths`, a mapping of keys of `mechanism.lengths` to bounds (lower, upper); `points`, one of
     joints or (part, joint) to bounds of (x, y, z), as in `with_points`; driven displacements and `extras` given as
-    `Free(start, lower, upper)`. `ties` gives a key the value of a variable, or a function of it:
-    `{("rocker", "C", "D"): ("crank", "A", "B")}`, `{"Q": ("P", mirrored)}`. Constraints are functions like the loss
+    `Free(start, lower, upper)`. A drive may also be a function of the extras: `lambda extras: extras["first"] + steps`.
+    `ties` gives a key the value of a variable, or a function of it: `{("rocker", "C", "D"): ("crank", "A", "B")}`,
+    `{"Q": ("P", mirrored)}`. Constraints are functions like the loss
     whose values must not be negative; `jaxkin.design` has some.
 
     `starts` designs are improved side by side in one compiled program: the given one, and the best of many drawn at
@@ -69,8 +72,9 @@ def optimize(
     cannot move everywhere cost something and can be left again by their derivatives. `penalty` is a hundred times the
     median loss of the starts by default, and made stiffer while the best design violates anything by more than 1e-6.
 
-    The search ends when no start improves by more than `tolerance` relative over ten iterations, when the best feasible
-    loss is at or below `target`, or after `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep.
+    A start retires when it improves by less than `tolerance` relative over ten iterations, or at its pace will not
+    reach the best one. The search ends when all have, when the best feasible loss is at or below `target`, or after
+    `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep.
 
     Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
     """
@@ -144,26 +148,37 @@ def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray,
 
 
 def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, target, history, bar):
+    """Designs and why the search ended. A start that is done, or that at its pace will not reach the best one in the
+    iterations left, retires: a batch takes as long as its slowest member, so its place repeats an active one."""
+    kept = np.array(vectors)
     state = solver.begin(vectors, weight)
-    last = np.full(len(vectors), np.finfo(float).max)
+    active = np.ones(len(kept), bool)
+    last = np.full(len(kept), np.finfo(float).max)
     for done in range(CHUNK, iterations + CHUNK, CHUNK):
         state, losses = solver.advance(state, weight)
-        losses = np.asarray(losses)
+        losses = np.where(active, np.asarray(losses), np.nan)
         history.append(losses)
-        now = losses[-1]
-        bar.show(done, float(now.min()))
-        if target is not None and now.min() <= target:
-            found, violations = solver.judge(solver.vectors(state))
+        kept = np.where(active[:, None], np.asarray(solver.vectors(state)), kept)
+        now = np.where(active, losses[-1], last)
+        least = float(np.nanmin(now))
+        bar.show(done, least)
+        if target is not None and least <= target:
+            found, violations = solver.judge(kept)
             if np.any((found <= target) & (violations <= MET)):
-                return solver.vectors(state), f"the target {target:g} was reached after {done} iterations"
-        settled = now >= last - tolerance * np.abs(last)
-        if np.all(settled | (now <= 1e-30)):
-            return (
-                solver.vectors(state),
-                f"converged: no start improved by more than {tolerance:g} relative in {CHUNK} iterations, after {done}",
-            )
+                return kept, f"the target {target:g} was reached after {done} iterations"
+        settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
+        hopeless = (expected > least) & (done >= PATIENCE) & (now > least * (1 + 1e-6))
+        active &= ~(settled | hopeless)
         last = now
-    return solver.vectors(state), f"all {iterations} iterations were used; some starts were still improving"
+        if not active.any():
+            return kept, (
+                f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
+                f"{CHUNK} of them, or too slowly to reach the best one"
+            )
+        state = solver.replaced(state, ~active, int(np.argmin(np.where(active, now, np.inf))))
+    return kept, f"all {iterations} iterations were used; {int(active.sum())} starts were still improving"
 
 
 def _rank(losses, violations) -> int:

@@ -59,7 +59,7 @@ class Optimum:
     violation: float
     """Root of the sum of squares of closure residuals, misfits and lacks of constraints; at most 1e-6 if feasible."""
     history: np.ndarray
-    """Loss with penalty after every iteration (iterations, starts)."""
+    """Loss with penalty after every iteration (iterations, starts); nan for starts that have retired."""
     reason: str
     """Why the search ended."""
     seconds: float
@@ -102,7 +102,12 @@ class Optimum:
         figure = Figure(figsize=(10 if drawn else 5, 3.8), layout="constrained")
         axes = figure.subplots(1, 2 if drawn else 1, squeeze=False)[0]
         axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history, color="0.75", linewidth=0.8)
-        axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history.min(axis=1), color="C0", label="best start")
+        axes[0].semilogy(
+            np.arange(1, len(self.history) + 1),
+            np.fmin.accumulate(np.nanmin(np.where(np.isnan(self.history), np.inf, self.history), axis=1)),
+            color="C0",
+            label="best start",
+        )
         axes[0].set_xlabel("iteration")
         axes[0].set_ylabel("loss with penalty")
         axes[0].legend(frameon=False)

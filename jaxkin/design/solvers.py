@@ -35,6 +35,8 @@ class Solver(NamedTuple):
     vectors: Callable[[Any], Float[Array, "starts variables"]]
     slopes: Callable[[Any], Float[Array, "starts variables"]]
     """Zero where a variable has no influence."""
+    replaced: Callable[[Any, Any, Any], Any]
+    """The state with the lanes of a mask (second) overwritten by one lane (third)."""
     judge: Callable[[Any], tuple[np.ndarray, np.ndarray]]
     """Losses, nan where not finite, and roots of the sums of squares of violations, of some vectors."""
 
@@ -146,6 +148,7 @@ def least_squares(problem: Problem) -> Solver:
         advance,
         lambda state: from_angles(problem.variables, state[0]),
         lambda state: jnp.max(jnp.abs(state[1].jac), axis=1),
+        _replaced,
         judge,
     )
 
@@ -194,5 +197,19 @@ def bounded(problem: Problem) -> Solver:
         return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(np.asarray(found.violations) ** 2, axis=1))
 
     return Solver(
-        jax.jit(begin), jax.jit(advance), lambda state: lower + width * state[0], lambda state: state[1].grad, judge
+        jax.jit(begin),
+        jax.jit(advance),
+        lambda state: lower + width * state[0],
+        lambda state: state[1].grad,
+        _replaced,
+        judge,
     )
+
+
+@jax.jit
+def _replaced(state, mask, source):
+    def each(leaf):
+        leaf = jnp.asarray(leaf)
+        return jnp.where(mask.reshape(mask.shape + (1,) * (leaf.ndim - 1)), leaf[source][None], leaf)
+
+    return jax.tree.map(each, state)

@@ -91,6 +91,9 @@ class Variables:
             found[entry.group][entry.key] = value
             for key, change in entry.ties:
                 found[entry.group][key] = value if change is None else change(value)
+        for key, given in found["inputs"].items():
+            if callable(given):
+                found["inputs"][key] = given(found["extras"])
         return Values(**found)
 
     def _joined(self, name: str) -> Vector:

@@ -68,9 +68,10 @@ def rssr(
     The crank turns about z at the origin from x, the rocker about `axis` at `pivot` from the direction axis x z. The
     rod may spin about its own axis: the mobility is 2.
     """
-    normal = np.asarray(axis) / np.linalg.norm(axis)
-    zero = np.cross(normal, [0.0, 0.0, 1.0])
-    zero /= np.linalg.norm(zero)
+    axis = np.asarray(axis)
+    normal = axis / np.linalg.norm(axis)
+    zero = np.cross(normal, np.array([0.0, 0.0, 1.0]))
+    zero = zero / np.linalg.norm(zero)
     quarter = np.cross(normal, zero)
     ball = crank * np.stack([np.cos(theta), np.sin(theta), np.zeros(theta.shape)], axis=-1)
     w = ball - np.asarray(pivot)
