@@ -18,6 +18,7 @@ from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, Solver, bounded, least_squares
 from jaxkin.design.variables import inside, spread, variables
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
 
 POOL = 8
 """So many designs are drawn for each start, and the best of them begin."""
@@ -87,6 +88,7 @@ def optimize(
     problem = Problem(loss, squares, mechanism, chosen, tuple(constraints))
     checked_shape(problem, jnp.asarray(chosen.start))
     began = time.perf_counter()
+    first = _first(problem)
     solver = (least_squares if squares else bounded)(problem)
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
     vectors, weight = _best_of(solver, pool, starts)
@@ -110,7 +112,6 @@ def optimize(
             f"; the best design still violates by {violations[best]:.1g} (closure, fit of lengths, or constraints)"
         )
     motion, found, _ = problem.motion(vector)
-    first = problem.motion(chosen.start)
     values = chosen.values(vector)
     return Optimum(
         mechanism=motion.mechanism,
@@ -126,20 +127,27 @@ def optimize(
         violations=np.asarray(violations),
         moves=judged_range(motion),
         motion=motion,
-        initial=(first[0], first[1]),
+        initial=first,
         loss=loss,
     )
+
+
+def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
+    """Motion and extras of the design given; refused where the loss is no finite number there."""
+    motion, extras, _ = problem.motion(jnp.asarray(problem.variables.start))
+    judged = problem.of_motion(motion, extras)
+    if not bool(jnp.all(jnp.isfinite(judged))):
+        raise ValueError(
+            f"the loss of the design given is {float(jnp.sum(judged))}: it must be a finite number there; mask poses that do "
+            "not close (motion.closed) and divisions by zero in the loss, or start from another design"
+        )
+    return motion, extras
 
 
 def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
     """The given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
     parts = [solver.judge(pool[first : first + starts]) for first in range(0, len(pool), starts)]
     losses, violations = (np.concatenate(column) for column in zip(*parts, strict=True))
-    if not np.isfinite(losses[0]):
-        raise ValueError(
-            f"the loss of the design given is {losses[0]}: it must be a finite number there; mask poses that do not "
-            "close (motion.closed) and divisions by zero in the loss, or start from another design"
-        )
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2

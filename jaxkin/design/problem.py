@@ -59,16 +59,18 @@ class Problem:
     def judge(self, vector) -> Judged:
         """Residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
-        if self.squares:
-            found = (
-                self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
-            )
-            rows = jnp.ravel(found)
-        else:
-            rows = jnp.reshape(self._call(motion, extras), (1,))
+        rows = self.of_motion(motion, extras)
         lacking = [jnp.ravel(jnp.maximum(-constraint(motion, extras), 0.0)) for constraint in self.constraints]
         fits = [jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,)) for misfit in misfits.values()]
         return Judged(rows, jnp.concatenate([closure_gaps(motion), *fits, *lacking]))
+
+    def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
+        """Residuals of a sum of squares, or the loss alone."""
+        if not self.squares:
+            return jnp.reshape(self._call(motion, extras), (1,))
+        return jnp.ravel(
+            self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
+        )
 
     def residuals(self, vector, weight) -> Float[Array, " rows"]:
         """All that a sum of squares adds up."""

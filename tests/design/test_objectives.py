@@ -1,0 +1,158 @@
+"""Objectives and constraints on a motion that is known: zero where it does what is wanted, right elsewhere."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxkin import design
+from jaxkin.design.penalty import closure_gaps
+from reference import planar
+from reference.mechanisms import planar_fourbar, slider_crank
+
+TURN = np.linspace(0.0, 2 * np.pi, 30)
+START = 1.0
+POINT = (30.0, 60.0, 0.0)
+KEYS = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")]
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return planar_fourbar(START).sweep({"A": TURN})
+
+
+def test_path(motion):
+    own = np.asarray(motion.points("coupler", POINT))[:, :2]
+    assert design.path("coupler", POINT, own)(motion) < 1e-20
+    assert design.path("coupler", POINT, own + [3.0, 4.0])(motion) == pytest.approx(30 * 25.0)
+    named = design.path("coupler", "P", own[::-1], timing=False)
+    assert named(motion, {"P": jnp.array(POINT)}) < 1e-20  # any order
+    between = 0.5 * (own[4] + own[5])
+    normal = np.array([-(own[5] - own[4])[1], (own[5] - own[4])[0]]) / np.linalg.norm(own[5] - own[4])
+    beside = design.path("coupler", POINT, [between + 0.01 * normal], timing=False)
+    assert beside(motion) == pytest.approx(1e-4)
+    cos, sin = np.cos(0.3), np.sin(0.3)
+    moved = own @ np.array([[cos, sin], [-sin, cos]]) + [7.0, -2.0]
+    placed = design.path("coupler", POINT, moved, placement="place")
+    assert placed(motion, {"place": jnp.array([7.0, -2.0, 0.3])}) < 1e-20
+
+
+def test_function_and_dwell(motion):
+    rocker = planar.fourbar(START + TURN).rocker
+    wanted = rocker - rocker[0]
+    assert design.function("D", wanted + 0.7)(motion) < 1e-20
+    assert design.function("D", wanted + 0.7, relative=False)(motion) == pytest.approx(30 * 0.49)
+    chosen = [3, 4, 5]
+    assert design.dwell("D", chosen)(motion) == pytest.approx(3 * np.var(rocker[chosen]))
+
+
+def test_guidance(motion):
+    at = planar.fourbar(START + TURN)
+    turn = at.coupler - at.coupler[0]
+    own = np.column_stack([np.asarray(motion.points("coupler", POINT))[:, :2], turn + 2 * np.pi])
+    assert design.guidance("coupler", POINT, own, size=50.0)(motion) < 1e-18  # full turns do not matter
+    off = own + [0.0, 0.0, 1e-3]
+    assert design.guidance("coupler", POINT, off, size=50.0)(motion) == pytest.approx(30 * (50 * 1e-3) ** 2, rel=1e-6)
+
+
+def test_transmission_angle_by_the_law_of_cosines(motion):
+    diagonal = 100.0**2 + 40.0**2 - 2 * 100.0 * 40.0 * np.cos(START + TURN)
+    expected = np.arccos((120.0**2 + 80.0**2 - diagonal) / (2 * 120.0 * 80.0))
+    found = design.transmission_angle(motion, "C", ("B", "D"))
+    np.testing.assert_allclose(found, expected, atol=1e-12)
+    assert design.transmission("C", ("B", "D"))(motion) == pytest.approx(np.sum(np.cos(expected) ** 2))
+    excess = np.maximum(np.abs(np.cos(expected)) - np.sin(0.5), 0.0)
+    assert design.transmission("C", ("B", "D"), beyond=0.5)(motion) == pytest.approx(np.sum(excess**2))
+    within = design.transmission_within("C", ("B", "D"), 0.6)(motion, {})
+    assert (np.min(within) >= 0) == (expected.min() >= 0.6)
+
+
+def test_stroke():
+    motion = slider_crank(START).sweep({"A": np.linspace(0.0, 2 * np.pi, 30)})
+    slider = planar.slider_crank(START + TURN).slider
+    assert design.stroke(motion, "S") == pytest.approx(np.ptp(slider))
+    assert design.stroke_of("S", 2 * float(np.ptp(slider)))(motion) == pytest.approx(0.25)
+
+
+def test_weighted_sums(motion):
+    own = np.asarray(motion.points("coupler", POINT))[:, :2]
+    one, other = design.path("coupler", POINT, own + 1.0), design.transmission("C", ("B", "D"))
+    assert (2.0 * one + other * 3.0)(motion) == pytest.approx(2.0 * one(motion) + 3.0 * other(motion))
+    with pytest.raises(ValueError, match="must not be negative"):
+        -1.0 * one
+
+
+def test_grashof_and_full_crank():
+    """Norton's linkage is a crank-rocker; lengthening the crank beyond 60 makes it a triple rocker."""
+    mechanism = planar_fourbar(START)
+    for crank, turns in ((40.0, True), (59.0, True), (61.0, False)):
+        motion = mechanism.with_lengths({KEYS[1]: crank}).sweep({"A": TURN})
+        assert (np.min(design.full_crank(*KEYS)(motion, {})) >= 0) == turns
+        assert (np.min(design.grashof(*KEYS)(motion, {})) >= 0) == turns
+        assert bool(np.all(motion.closed)) == turns
+
+
+def test_box_and_sequence(motion):
+    path = np.asarray(motion.points("coupler", POINT))
+    lower, upper = path.min(axis=0) - 1e-9, path.max(axis=0) + 1e-9
+    assert np.min(design.in_box("coupler", POINT, lower, upper)(motion, {})) >= 0
+    assert np.min(design.in_box("coupler", POINT, lower + [0.1, 0, 0], upper)(motion, {})) < 0
+    assert np.min(design.in_sequence("A")(motion, {})) >= 0
+    assert np.min(design.in_sequence("A", least=0.3)(motion, {})) < 0
+    assert np.min(design.above("D", -0.5)(motion, {})) < 0
+
+
+def test_every_objective_is_drawn(motion):
+    from matplotlib.figure import Figure
+
+    own = np.asarray(motion.points("coupler", POINT))[:, :2]
+    for objective in (
+        design.path("coupler", POINT, own),
+        design.function("D", TURN),
+        design.guidance("coupler", POINT, np.column_stack([own, TURN]), size=1.0),
+        design.transmission("C", ("B", "D")),
+        design.stroke_of("D", 1.0),
+        design.dwell("D", [1, 2, 3]),
+    ):
+        axes = Figure().subplots()
+        objective.plot(axes, motion, color="C1")
+        assert axes.has_data()
+
+
+def test_the_penalty_is_the_closure_residual_and_its_derivative():
+    """Where a four-bar cannot close, least residuals fall as the coupler grows: the slope against differences."""
+    mechanism = planar_fourbar(START, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0)
+    inputs = jnp.linspace(0.0, 3.0, 20)
+
+    def gaps(coupler):
+        motion = mechanism.with_lengths({("coupler", "B", "C"): coupler}).sweep({"A": inputs})
+        return closure_gaps(motion)
+
+    motion = mechanism.sweep({"A": inputs})
+    found, failed = np.asarray(gaps(25.0)), ~np.asarray(motion.closed)
+    assert 0 < failed.sum() < len(failed)
+    np.testing.assert_array_equal(found > 0, failed)
+    assert np.all(found <= np.asarray(motion.residual) * (1 + 1e-9))  # rotations count by half here
+    slope, step = jax.jvp(gaps, (25.0,), (1.0,))[1], 1e-3
+    numeric = (gaps(25.0 + step) - gaps(25.0 - step)) / (2 * step)
+    # a least residual is found to about 1e-6 of itself: it is flat there, its slope is not
+    np.testing.assert_allclose(slope, numeric, rtol=1e-3, atol=1e-6)
+
+
+def test_bad_objectives(motion):
+    with pytest.raises(ValueError, match=r"shape \(poses, 2\), got shape \(3, 3\)"):
+        design.path("coupler", POINT, np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="3 targets but 30 poses"):
+        design.path("coupler", POINT, np.zeros((3, 2)))(motion)
+    with pytest.raises(ValueError, match="no part 'couplr'; did you mean"):
+        design.path("couplr", POINT, np.zeros((30, 2)))(motion)
+    with pytest.raises(ValueError, match="no joint 'Q'"):
+        design.function("Q", TURN)(motion)
+    with pytest.raises(ValueError, match="'A' is on neither of the links"):
+        design.transmission_angle(motion, "C", ("A", "D"))
+    with pytest.raises(ValueError, match="must be positive"):
+        design.stroke_of("D", -1.0)
+    with pytest.raises(ValueError, match="at least two poses"):
+        design.dwell("D", [1])
+    with pytest.raises(ValueError, match="four bars"):
+        design.grashof(KEYS[0])
