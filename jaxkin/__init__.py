@@ -6,6 +6,8 @@ motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
 motion.save("out/")
 """
 
+from jaxkin import design as design
+from jaxkin.design.optimize import optimize as optimize
 from jaxkin.effects.rates import accelerations as accelerations
 from jaxkin.effects.rates import velocities as velocities
 from jaxkin.io import gltf as _gltf  # writers and drawings register themselves

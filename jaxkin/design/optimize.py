@@ -138,8 +138,8 @@ def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
     judged = problem.of_motion(motion, extras)
     if not bool(jnp.all(jnp.isfinite(judged))):
         raise ValueError(
-            f"the loss of the design given is {float(jnp.sum(judged))}: it must be a finite number there; mask poses that do "
-            "not close (motion.closed) and divisions by zero in the loss, or start from another design"
+            f"the loss of the design given is {float(jnp.sum(judged))}: it must be a finite number there; mask poses "
+            "that do not close (motion.closed) and divisions by zero in the loss, or start from another design"
         )
     return motion, extras
 

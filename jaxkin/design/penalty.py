@@ -29,10 +29,10 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
     square = jnp.zeros(len(motion))
     for block in mechanism.structure.blocks:
         joints = [mechanism.all_joints[joint] for joint in block.joints]
-        origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints]))
+        origins = jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints])
         centre = origins.mean(axis=0)
-        radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
-        size = jnp.where(radius > 0, radius, 1.0)
+        spread = jnp.mean(jnp.sum((origins - centre) ** 2, axis=1))
+        size = jnp.sqrt(jnp.where(spread > 0, spread, 1.0))
         matrices = {joint: joint_matrix(mechanism.all_joints[joint], held[joint]) for joint in block.joints}
         for loop in block.loops:
             pose = jnp.eye(4)

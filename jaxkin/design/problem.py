@@ -102,8 +102,10 @@ def checked_shape(problem: Problem, vector) -> None:
     """Refuse a loss that is no single number, where it has to be one; by shapes only, nothing is computed."""
     if problem.squares and isinstance(problem.loss, Objective):
         return
-    found = jax.eval_shape(lambda v: problem._call(*problem.motion(v)[:2]), vector)
-    shape = getattr(found, "shape", None)
+    returned: list[Any] = []
+    jax.eval_shape(lambda v: returned.append(problem._call(*problem.motion(v)[:2])), vector)
+    (found,) = returned
+    shape = getattr(found, "shape", () if isinstance(found, int | float) else None)
     if shape is None:
         raise ValueError(
             f"the loss must return one number, got {type(found).__name__}; return jnp.sum(...) of what it measures"

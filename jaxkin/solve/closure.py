@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
@@ -20,6 +21,7 @@ from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.trig import Trig, cos_sin
 
 Geometry = Spatial | Planar
+Given = Array | np.ndarray
 
 
 class Closure(NamedTuple):
@@ -42,7 +44,7 @@ def closure(system: LoopSystem, geometry: Geometry, state: State, trig: Trig = c
 
 
 def loop_geometry(
-    system: LoopSystem, before: tuple[Array, ...], after: tuple[Array, ...], pitch: tuple[Array, ...]
+    system: LoopSystem, before: tuple[Given, ...], after: tuple[Given, ...], pitch: tuple[Given, ...]
 ) -> tuple[Geometry, Float[Array, ""]]:
     """The constants of the loops from the frames of the joints, one entry a joint, and the characteristic length.
 

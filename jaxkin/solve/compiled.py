@@ -7,6 +7,7 @@ poses by the same program as the plain sweep.
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import jax
 import numpy as np
@@ -57,9 +58,14 @@ def _plain(function):
 
 @cache
 def _program(function):
-    """The function compiled with the options, where this version of JAX knows them."""
+    return jax.jit(function, static_argnums=0, **jit_options())
+
+
+@cache
+def jit_options() -> dict[str, Any]:
+    """The options as an argument of `jax.jit`, where this version of JAX knows them; for whole programs only."""
     try:
         jax.jit(lambda x: x, compiler_options=OPTIONS)(0.0)
     except (TypeError, jax.errors.JaxRuntimeError):
-        return _plain(function)
-    return jax.jit(function, static_argnums=0, compiler_options=OPTIONS)
+        return {}
+    return {"compiler_options": OPTIONS}

@@ -73,7 +73,7 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
     def solve(right: Vector) -> Vector:
-        def eliminate(k: Array, carry: tuple[Array, Array]) -> tuple[Array, Array]:
+        def eliminate(k: Array | int, carry: tuple[Array, Array]) -> tuple[Array, Array]:
             gram, right = carry  # kept apart: the right side is linear, and must stay so for derivatives in reverse
             pivot, at_pivot = _at(gram, k), _at(right, k)
             column = lax.dynamic_index_in_dim(gram, k, axis=1, keepdims=False)
@@ -88,5 +88,5 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     return solve
 
 
-def _at(rows: Array, k: Array) -> Array:
+def _at(rows: Array, k: Array | int) -> Array:
     return lax.dynamic_index_in_dim(rows, k, axis=0, keepdims=False)

@@ -34,6 +34,7 @@ def test_slider_crank_against_its_formula():
     np.testing.assert_allclose(second.angular("crank"), np.tile([0.0, 0.0, growth], (30, 1)), atol=1e-12)
 
 
+@pytest.mark.long
 def test_cardan_shaft_speeds_up_and_slows_down():
     """Output over input: cos(shafts) / (1 - sin^2(shafts) cos^2(theta)), theta from the normal of the shafts' plane."""
     motion = cardan_shafts(0.5).sweep({"in": INPUTS})
@@ -42,6 +43,7 @@ def test_cardan_shaft_speeds_up_and_slows_down():
     np.testing.assert_allclose(ratio, expected, rtol=1e-9)
 
 
+@pytest.mark.long
 def test_a_rigid_rod_keeps_its_length():
     """The velocities of the ends of a rod have equal components along it, and differ by omega cross r."""
     motion = rssr_linkage().sweep({"A": np.linspace(0.0, 1.0, 7)})

@@ -1,0 +1,128 @@
+"""`optimize` on problems whose answer is known, its result on disk, and what it refuses."""
+
+import warnings
+
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin import design
+from reference.mechanisms import planar_fourbar
+
+TURN = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
+POINT = (30.0, 60.0, 0.0)
+CRANK, COUPLER, ROCKER = ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")
+BOUNDS = {CRANK: (20.0, 60.0), COUPLER: (90.0, 150.0), ROCKER: (60.0, 120.0)}
+TRUTH = planar_fourbar(1.0)
+START = TRUTH.with_lengths({CRANK: 45.0, COUPLER: 110.0, ROCKER: 90.0})
+
+
+@pytest.fixture(scope="module")
+def recovered():
+    """From a path that crank 40, coupler 120, rocker 80 draw, from another linkage and seven random ones."""
+    path = np.asarray(TRUTH.sweep({"A": TURN}).points("coupler", POINT))[:, :2]
+    return jk.optimize(design.path("coupler", POINT, path), START, drive={"A": TURN}, lengths=BOUNDS, starts=8)
+
+
+def test_a_synthetic_target_is_recovered(recovered):
+    """To 1e-6 relative, as asked for; a sum of squares that falls to none converges quadratically, to rounding."""
+    found = [recovered.values[f"({', '.join(key)})"] for key in BOUNDS]
+    np.testing.assert_allclose(found, [40.0, 120.0, 80.0], rtol=1e-9)
+    assert recovered.mechanism.lengths[CRANK] == pytest.approx(40.0, rel=1e-9)
+    assert recovered.feasible and recovered.moves.everywhere
+    assert recovered.moves.counts == {"CLOSED": 361}
+    assert recovered.reason.startswith("converged after")
+    least = np.nanmin(recovered.history, axis=1)
+    assert recovered.history.shape[1] == 8 and least[-1] < 1e-15 * least[0]
+
+
+def test_a_result_is_saved_and_read_back(recovered, tmp_path):
+    again = design.read_optimum(recovered.save(tmp_path / "best.npz"))
+    assert str(again) == str(recovered)
+    assert again.mechanism.lengths == recovered.mechanism.lengths
+    np.testing.assert_array_equal(again.history, recovered.history)
+    np.testing.assert_array_equal(again.drive["A"], TURN)
+    assert [file.name for file in tmp_path.iterdir()] == ["best.npz"]  # nothing half written is left
+    assert again.plot().axes and len(recovered.plot().axes) == 2
+    with pytest.raises(ValueError, match=r"saved as a \.npz file, got .*best\.png"):
+        recovered.save(tmp_path / "best.png")
+    (tmp_path / "bad.npz").write_bytes(b"no archive")
+    with pytest.raises(ValueError, match=r"bad\.npz' is no saved result"):
+        design.read_optimum(tmp_path / "bad.npz")
+
+
+@pytest.mark.long
+def test_bounded_minimum_of_any_loss():
+    """Mean transmission quality with rocker and coupler tied: the best crank is the shortest that is allowed.
+
+    In a symmetric four-bar the cosine of the transmission angle swings by 2 ground crank / (2 coupler rocker) about a
+    mean that the tied length sets, so its squares fall with the crank; an extra that nothing depends on is named.
+    """
+
+    def loss(motion, extras):
+        return jnp.mean(jnp.cos(design.transmission_angle(motion, "C", ("B", "D"))) ** 2)
+
+    with pytest.warns(UserWarning, match=r"the loss does not depend on spare: the derivative is exactly zero"):
+        best = jk.optimize(
+            loss,
+            START,
+            drive={"A": TURN},
+            lengths={CRANK: (30.0, 60.0), COUPLER: (90.0, 150.0)},
+            extras={"spare": design.Free(0.5, 0.0, 1.0)},
+            ties={ROCKER: COUPLER},
+            constraints=[design.full_crank(("ground", "A", "D"), CRANK, COUPLER, ROCKER)],
+        )
+    assert best.values["(crank, A, B)"] == pytest.approx(30.0, abs=1e-6)
+    assert best.mechanism.lengths[ROCKER] == pytest.approx(best.mechanism.lengths[COUPLER], rel=1e-12)
+    # cos = 1 - (100^2 + 30^2 - 2 100 30 cos theta) / (2 l^2), of which the mean square is least at:
+    angles, lengths = 1.0 + TURN, np.linspace(90.0, 150.0, 60001)
+    diagonal = 100.0**2 + 30.0**2 - 2 * 100.0 * 30.0 * np.cos(angles)
+    expected = [np.mean((1 - diagonal / (2 * length**2)) ** 2) for length in lengths[::100]]
+    coarse = lengths[::100][np.argmin(expected)]
+    assert best.values["(coupler, B, C)"] == pytest.approx(coarse, abs=0.1)  # the grid's spacing
+    assert best.value == pytest.approx(np.min(expected), rel=1e-5)
+    assert best.values["spare"] == 0.5
+
+
+def quality(motion):
+    return jnp.mean(motion.coordinates["D"] ** 2)
+
+
+BAD = {
+    "part": (dict(lengths={("crnk", "A", "B"): (20, 60)}), r"crnk"),
+    "joint": (dict(lengths={("crank", "A", "Q"): (20, 60)}), r"Q"),
+    "negative": (dict(lengths={CRANK: (-5, 60)}), r"\('crank', 'A', 'B'\): the lower bound -5.0 is negative"),
+    "start": (dict(lengths={CRANK: (50, 60)}), r"the bounds exclude the start, start 45.0, bounds 50.0 to 60.0"),
+    "swapped": (dict(lengths={CRANK: (60, 20)}), r"the lower bound is above the upper one"),
+    "one bound": (dict(lengths={CRANK: 60}), r"give its bounds as \(lower, upper\), got 60"),
+    "infinite": (dict(lengths={CRANK: (20, np.inf)}), r"must be finite"),
+    "nothing": (dict(), r"nothing to choose"),
+    "point": (dict(points={"Q": (-1, 1)}), r"Q"),
+    "tie": (dict(lengths={CRANK: (20, 60)}, ties={ROCKER: COUPLER}), r"\('coupler', 'B', 'C'\) is no variable"),
+    "extra": (dict(extras={"x": 3.0}), r"write jk\.design\.Free"),
+    "method": (dict(lengths={CRANK: (20, 60)}, method="newton"), r'"least-squares" or "l-bfgs", got \'newton\''),
+    "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts and iterations must be at least 1"),
+    "drive": (dict(drive={"Q": TURN}, lengths={CRANK: (20, 60)}), r"no joint 'Q'"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_refusals(name):
+    given, said = BAD[name]
+    with pytest.raises(ValueError, match=said):
+        jk.optimize(quality, START, **{"drive": {"A": TURN}, **given})
+
+
+@pytest.mark.parametrize(
+    ("loss", "said"),
+    [
+        (lambda m: m.coordinates["D"], r"must return one number, got an array of shape \(24, 1\)"),
+        (lambda m: "good", r"must return one number, got str"),
+        (lambda m: jnp.sum(jnp.log(-1.0 - m.coordinates["D"] ** 2)), r"the loss of the design given is nan"),
+    ],
+)
+def test_losses_that_are_none(loss, said):
+    with warnings.catch_warnings(), pytest.raises(ValueError, match=said):
+        warnings.simplefilter("ignore", RuntimeWarning)
+        jk.optimize(loss, START, drive={"A": TURN}, lengths={CRANK: (20, 60)})
