@@ -98,7 +98,8 @@ class Optimum:
         """A matplotlib figure: the losses over the iterations, and the objective before and after."""
         from matplotlib.figure import Figure
 
-        drawn = isinstance(self.loss, Objective) and self.motion is not None
+        objective, motion = self.loss if isinstance(self.loss, Objective) else None, self.motion
+        drawn = objective is not None and motion is not None
         figure = Figure(figsize=(10 if drawn else 5, 3.8), layout="constrained")
         axes = figure.subplots(1, 2 if drawn else 1, squeeze=False)[0]
         axes[0].semilogy(np.arange(1, len(self.history) + 1), self.history, color="0.75", linewidth=0.8)
@@ -111,10 +112,10 @@ class Optimum:
         axes[0].set_xlabel("iteration")
         axes[0].set_ylabel("loss with penalty")
         axes[0].legend(frameon=False)
-        if drawn:
+        if objective is not None and motion is not None:
             if self.initial is not None:
-                self.loss.plot(axes[1], *self.initial, color="0.6", label="before", linewidth=1.0)
-            self.loss.plot(axes[1], self.motion, self.extras, color="C1", label="after")
+                objective.plot(axes[1], *self.initial, color="0.6", label="before", linewidth=1.0)
+            objective.plot(axes[1], motion, self.extras, color="C1", label="after")
             axes[1].legend(frameon=False)
         for each in axes:
             each.spines[["top", "right"]].set_visible(False)
@@ -146,7 +147,7 @@ class Optimum:
         arrays |= {f"extra {name}": value for name, value in self.extras.items()}
         draft = target.with_name(f".{target.name}")
         with open(draft, "wb") as file:
-            np.savez_compressed(file, text=np.array(json.dumps(text)), **arrays)
+            np.savez_compressed(file, **{"text": np.array(json.dumps(text)), **arrays})  # type: ignore[arg-type]
         os.replace(draft, target)
         return target
 
