@@ -79,17 +79,19 @@ def _shortest(
 ) -> Circuit:
     """The shortest circuit that begins with a step out of the directed joints and, once back, keeps their direction."""
     start, row = graph.tail(first), graph.head(first)
-    came = {row: (start, first)}
-    queue = deque([row])
-    while start not in came:
-        row = queue.popleft()
-        for step, other in leaving[row] if row in leaving else around[row]:
-            if other not in came and step.joint != first.joint:
-                came[other] = row, step
+    came = {row: first}
+    queue: deque[int] = deque()
+    ways = [way for way in (leaving[row] if row in leaving else around[row]) if way[0].joint != first.joint]
+    while True:  # out of the first row any way but back
+        for step, other in ways:
+            if other not in came:
+                came[other] = step
                 queue.append(other)
-    row, step = came[start]
-    steps = [step]
-    while step != first:
-        row, step = came[row]
-        steps.append(step)
+        if start in came:
+            break
+        row = queue.popleft()
+        ways = leaving[row] if row in leaving else around[row]
+    steps = [came[start]]
+    while steps[-1] != first:
+        steps.append(came[graph.tail(steps[-1])])
     return tuple(reversed(steps))

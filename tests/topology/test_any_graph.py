@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 from random import Random
+from time import process_time
 
 import networkx as nx
 import numpy as np
@@ -219,3 +220,16 @@ def test_loops_are_hardly_longer_than_without_the_direction(joints: Joints) -> N
     parallel = graph.number_of_edges() - simple.number_of_edges()
     shortest = 2 * parallel + sum(map(len, nx.minimum_cycle_basis(simple)))
     assert shortest <= sum(len(loop.joints) for loop in found.loops) <= 1.3 * shortest
+
+
+def test_a_thousand_parts_and_fifteen_hundred_joints_take_less_than_two_seconds() -> None:
+    """Of processor time. Chords between any parts of a ring: long loops that share most of their joints."""
+    random = Random(0)
+    pairs = [(part, (part + 1) % 1000) for part in range(1000)]
+    pairs += [random.sample(range(1000), 2) for _ in range(500)]
+    start = process_time()
+    found = structure(
+        [f"p{part}" for part in range(1000)], [(f"j{k}", f"p{a}", f"p{b}") for k, (a, b) in enumerate(pairs)], ["p0"]
+    )
+    assert len(found.tree) == 999 and len(found.cycles) == 501 and len(found.elements) == 1
+    assert process_time() - start < 2.0
