@@ -40,12 +40,13 @@ class Step:
     """Numbers of the steps that it needs."""
 
     def __str__(self) -> str:
-        loops = f"{self.loops} {self.subgroup.name} loop{'' if self.loops == 1 else 's'}"
+        after = f"after {listed([str(other + 1) for other in self.after])}: " if self.after else ""
+        loops = _count(self.loops, f"{self.subgroup.name} loop")
         redundant = f", {self.redundant} of them redundant" if self.redundant else ""
         free = f"; {self.free} left free" if self.free else ""
         return (
-            f"{', '.join(self.joints)} of {', '.join(self.parts)}: {loops}, {_count(len(self.unknowns), 'unknown')}, "
-            f"{_count(self.equations, 'equation')}{redundant}{free}"
+            f"{after}{loops} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
+            f"{', '.join(self.joints)}, {_count(self.equations, 'equation')}{redundant}{free}"
         )
 
 
@@ -53,8 +54,8 @@ class Step:
 class Plan:
     """What a drive moves, in the order in which it can be solved. `print` it.
 
-    The plan describes the structure. The solver of today solves all loops of a structure element together, with six
-    equations each; the steps say into what they fall apart.
+    The plan describes the structure. The solver of today solves all loops of a structure element together; the steps
+    say into what they fall apart.
     """
 
     drive: tuple[str, ...]
@@ -68,8 +69,7 @@ class Plan:
     def __str__(self) -> str:
         lines = [f"Plan of a drive of {', '.join(self.drive)}"]
         for number, step in enumerate(self.steps, 1):
-            after = f" (after {', '.join(str(other + 1) for other in step.after)})" if step.after else ""
-            lines.append(f"  {number}. {step}{after}")
+            lines.append(f"  {number}. {step}")
         if not self.steps:
             lines.append("  nothing is to be solved")
         lines += [f"  not solved: {text}" for text in self.skipped]
@@ -98,7 +98,10 @@ def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
     dead = dead_end(mechanism, driven)
     free = left_free(mechanism, driven)
     notes = [f"dead end: {dead}"] if dead else []
-    notes += [f"left free: {listed(free)} could be driven as well"] if free else []
+    if free:
+        notes.append(f"left free: {listed(free)} could be driven as well; without, all move as little as they can")
+    elif not dead and any(step.free for step in steps):
+        notes.append("what is left free is idle: it moves as little as it can")
     return Plan(
         tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in driven),
         tuple(steps),

@@ -84,7 +84,11 @@ def test_the_paper_in_words():
     ]
     assert [step.after for step in both.steps] == [(), (0,), (1,), ()]
     text = str(both)
-    assert "1 Schoenflies loop, 6 unknowns, 4 equations; 2 left free (after 1)" in text
+    second = (
+        "2. after 1: 1 Schoenflies loop over p1&p9, p4, p5, p6: 6 unknowns of p4-p5, p5-p6, p6-p9, 4 equations; 2 left"
+    )
+    assert second in text
+    assert "what is left free is idle: it moves as little as it can" in text
     assert "not solved: p3-p11 is in no loop: its displacement is given, and moves p11" in text
 
     alone = assembly.mechanism(fixed=["p1"]).plan(drive)
@@ -110,7 +114,9 @@ def test_what_rests_and_what_is_left_free_is_told():
         {"A": (0, 0), "B": (10, 40), "C": (50, 70), "D": (90, 40), "E": (100, 0)},
         {"ground": "AE", "a": "AB", "b": "BC", "c": "CD", "d": "DE"},
     )
-    assert five.plan(["A"]).notes == ("left free: E.phi could be driven as well",)
+    assert five.plan(["A"]).notes == (
+        "left free: E.phi could be driven as well; without, all move as little as they can",
+    )
     assert five.plan(["A", "E"]).notes == ()
     assert five.plan(["A", "B", "C"]).notes[0].startswith("dead end: driven A.phi, B.phi, C.phi, but the mechanism")
 
