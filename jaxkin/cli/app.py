@@ -141,17 +141,21 @@ def loops(
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
+    drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
     png: Drawing = None,
 ) -> None:
-    """Print the structure of an assembly: its closed loops, what hangs on them, the tree of both, and its mobility."""
+    """Print the structure of an assembly: its closed loops, what hangs on them, the tree of both, and its mobility.
+
+    With a drive also its plan: which loops it moves, and in which groups and order they can be solved.
+    """
     with one_line_errors():
         from jaxkin.cli import report
 
         with _progress(2) as step:
             step(f"reading {_named(files)}")
-            study = Options(fixed, rigid, ignore, no_combine=no_combine, unit=unit).on(files)
+            study = Options(fixed, rigid, ignore, drive, no_combine, unit).on(files)
             step("finding contacts and joints")
             mechanism = _checked(study).mechanism
         if png:
@@ -159,6 +163,8 @@ def loops(
 
             draw_structure(mechanism.structure, png)
         report.print_structure(mechanism)
+        if study.ranges:
+            report.say(f"\n{mechanism.plan(study.ranges)}")
 
 
 @app.command(

@@ -29,6 +29,16 @@ def mechanism(name, fixed, combine=True):
     return assembly(name).mechanism(fixed=fixed, combine=combine)
 
 
+@pytest.mark.parametrize(("combine", "loops", "redundant"), [(True, 1, 1), (False, 3, 5)])
+def test_figure_6_has_one_freedom(combine, loops, redundant):
+    """Whatever counting gives: -4 with a joint a contact, as in Table 5, 0 with those of a pair combined."""
+    found = mechanism("cam", ("frame",), combine)
+    assert len(found.structure.loops) == loops
+    mobility = found.mobility()
+    assert (mobility.freedoms, mobility.useful, mobility.redundant) == (1, 1, redundant)
+    assert mobility.counted == 1 - redundant
+
+
 def by_parts(pairs):
     return sorted(tuple(sorted(pair[:2], key=lambda part: int(part[1:]))) + tuple(pair[2:]) for pair in pairs)
 
