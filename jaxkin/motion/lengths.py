@@ -149,7 +149,7 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
         _with_frames(joint, {key[1:]: pose for key, pose in frames.items() if key[0] == column}, pitches.get(column))
         for column, joint in enumerate(mechanism.all_joints)
     ]
-    return replace(mechanism, all_joints=tuple(joints), solids=(), known_planes=mechanism.planes), misfits
+    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=mechanism.forms), misfits
 
 
 def _row(mechanism: Mechanism, body: tuple[Feature, ...]) -> str:

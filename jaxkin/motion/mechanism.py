@@ -8,13 +8,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import jax
-import numpy as np
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.plane import plane_columns
+from jaxkin.motion.forms import forms
+from jaxkin.solve.system import Form
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -42,8 +41,8 @@ class Mechanism:
     """What was found, combined or refused on the way from solids to joints, in words."""
     contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
     """The contacts that a joint stands for, by its name; none for joints by hand."""
-    known_planes: tuple[tuple[int, ...] | None, ...] | None = field(default=None)
-    """What `planes` was while the frames were numbers."""
+    known_forms: tuple[Form, ...] | None = field(default=None)
+    """What `forms` was while the frames were numbers."""
 
     @staticmethod
     def build(*, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "") -> Mechanism:
@@ -56,17 +55,12 @@ class Mechanism:
         return Mechanism(tuple(joints), structure(parts, described, fixed), unit)
 
     @cached_property
-    def planes(self) -> tuple[tuple[int, ...] | None, ...]:
-        """For each structure element the coordinates that act in its plane, or None for one in space.
+    def forms(self) -> tuple[Form, ...]:
+        """What is special about the loops of each structure element.
 
         While JAX traces the frames this is what it was before: a mechanism tilted out of its planes is not closed then.
         """
-        blocks, joints = self.structure.blocks, jax.lax.stop_gradient(self.all_joints)
-        if any(traced(joint) or not isinstance(joint.before, np.ndarray | jax.Array) for joint in joints):
-            return self.known_planes or (None,) * len(blocks)
-        if any(joint.before.ndim != 3 for joint in joints):  # a batch of mechanisms
-            return self.known_planes or (None,) * len(blocks)
-        return tuple(plane_columns([joints[joint] for joint in block.joints]) for block in blocks)
+        return forms(self) or self.known_forms or (Form(),) * len(self.structure.blocks)
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -170,6 +164,6 @@ class Mechanism:
 # by hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only
 jax.tree_util.register_pytree_node(
     Mechanism,
-    lambda mechanism: ((mechanism.all_joints,), (mechanism.structure, mechanism.unit, mechanism.planes)),
-    lambda static, leaves: Mechanism(*leaves, *static[:2], known_planes=static[2]),
+    lambda mechanism: ((mechanism.all_joints,), (mechanism.structure, mechanism.unit, mechanism.forms)),
+    lambda static, leaves: Mechanism(*leaves, *static[:2], known_forms=static[2]),
 )

@@ -60,7 +60,7 @@ def _placed(mechanism: Mechanism, place: Place, given, change) -> Mechanism:
         joint = replace(joint, before=stacked) if each == "before" else replace(joint, after=stacked)
     joints: list[Joint] = list(mechanism.all_joints)
     joints[column] = joint
-    return replace(mechanism, all_joints=tuple(joints), solids=(), known_planes=mechanism.planes)
+    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=mechanism.forms)
 
 
 def locate(mechanism: Mechanism, place: Place) -> tuple[int, str | None]:

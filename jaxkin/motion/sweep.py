@@ -23,6 +23,7 @@ from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.compiled import solve
 from jaxkin.solve.status import Status
 from jaxkin.solve.sweep import Poses
+from jaxkin.solve.system import Form
 from jaxkin.topology.structure import Block
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
@@ -47,10 +48,10 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     values = tuple(entry.values for entry in driven.values())
     poses = values[0].shape[0]
     solutions, blocks = [], []
-    for block, plane in zip(mechanism.structure.blocks, mechanism.planes, strict=True):
+    for block, form in zip(mechanism.structure.blocks, mechanism.forms, strict=True):
         inside = [entry for entry in driven.values() if entry.joint in block.joints]
         if poses and (inside or _edited([mechanism.all_joints[joint] for joint in block.joints])):
-            solutions.append(_solve_block(mechanism, block, plane, inside))
+            solutions.append(_solve_block(mechanism, block, form, inside))
             blocks.append(block.joints)
     layout = Layout(
         tuple(joint.freedoms for joint in mechanism.all_joints),
@@ -61,11 +62,11 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
 
 
 def _solve_block(
-    mechanism: Mechanism, block: Block, plane: tuple[int, ...] | None, driven: list[Driven]
+    mechanism: Mechanism, block: Block, form: Form, driven: list[Driven]
 ) -> tuple[Float[Array, "columns padded"], Poses]:
     """Displacements and poses of one structure element. Without a drive: one pose for all."""
     driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
-    system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), plane)
+    system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), form)
     dtype = driven[0].values.dtype if driven else jnp.zeros(0).dtype
     inputs = _padded([entry.values for entry in driven], dtype)
     return solve(system, block_joints(mechanism, block), inputs)

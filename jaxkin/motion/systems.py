@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.solve.sweep import Joints
-from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.system import Form, LoopSystem
 from jaxkin.topology.structure import Block
 
 
-def block_system(
-    mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], plane: tuple[int, ...] | None = None
-) -> LoopSystem:
+def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], form: Form) -> LoopSystem:
     """The loops of a structure element; `driven` are (joint, coordinate) in rising order of the block's columns.
 
-    With the columns that act in its `plane` the element is solved there, unless something is driven along the normal.
+    An element of planar `form` is solved in its plane, unless something is driven along the normal.
     """
     joints = [mechanism.all_joints[joint] for joint in block.joints]
     firsts, column = {}, 0
@@ -22,8 +20,9 @@ def block_system(
         column += joint.freedoms
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
     columns = tuple(firsts[joint] + coordinate for joint, coordinate in driven)
-    inside = plane if plane is not None and set(columns) <= set(plane) else None
-    return LoopSystem(tuple(joint.movements for joint in joints), loops, columns, inside)
+    if form.plane is not None and not set(columns) <= set(form.plane):
+        form = form._replace(plane=None)
+    return LoopSystem(tuple(joint.movements for joint in joints), loops, columns, form)
 
 
 def block_joints(mechanism: Mechanism, block: Block) -> Joints:

@@ -16,6 +16,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.spatial import Spatial, spatial_closure, spatial_geometry
+from jaxkin.solve.spins import spin_equations
 from jaxkin.solve.state import State
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.trig import Trig, cos_sin
@@ -26,7 +27,7 @@ Given = Array | np.ndarray
 
 class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
-    """Rotation and translation of each loop: zero where it closes."""
+    """Rotation and translation of each loop: zero where it closes; then what sets idle spins."""
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
     """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: half the square of the residual nearby."""
@@ -40,7 +41,12 @@ def closure(system: LoopSystem, geometry: Geometry, state: State, trig: Trig = c
         residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x, trig)
         return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
     residual, jacobian, rotated, moved = spatial_closure(system, geometry, state, trig)
-    return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved))
+    merit, gap = 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved)
+    if system.spins:
+        spun, rows = spin_equations(system, geometry.lines, state)
+        residual, jacobian = jnp.concatenate([residual, spun]), jnp.concatenate([jacobian, rows])
+        merit = merit + 0.5 * jnp.sum(spun * spun, axis=0)
+    return Closure(residual, jacobian, merit, gap)
 
 
 def loop_geometry(

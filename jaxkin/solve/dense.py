@@ -26,8 +26,9 @@ from jaxkin.solve.status import tolerance
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.trig import cos_sin_nearby
 
-SEGMENTS = 128
-"""At most so many, of a number of poses that is a power of two."""
+SEGMENTS, WITH_SPINS = 128, 512
+"""At most so many, of a number of poses that is a power of two. Where rods spin between balls, and a ball passes near
+half a turn, the spin changes fast."""
 NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
 """Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial."""
 NARROWEST = 1e-4
@@ -54,7 +55,7 @@ def interpolate(
 ) -> tuple[Poses, Bool[Array, " poses"]]:
     """All poses from those at the nodes of the segments, and which of them are trusted."""
     dtype, poses = values.dtype, values.shape[0]
-    length = max(2 ** (poses - 1).bit_length() // SEGMENTS, 1)
+    length = max(2 ** (poses - 1).bit_length() // (WITH_SPINS if system.spins else SEGMENTS), 1)
     rows = jnp.pad(values, (0, -poses % length), mode="edge").reshape(-1, length)
     middle, half = 0.5 * (rows[:, 0] + rows[:, -1]), jnp.maximum(0.5 * jnp.abs(rows[:, -1] - rows[:, 0]), NARROWEST)
     status, solid, polynomials, inverse = _solve_nodes(system, geometry, knots, middle, half)
@@ -103,7 +104,9 @@ def _solve_nodes(
         data = jnp.concatenate([x.reshape(shape), d.reshape(shape) * half[:, None]], axis=-1)
         return jnp.einsum("ij,...sj->s...i", basis, data)
 
-    polynomials = jax.tree.map(polynomial, state, rate(system, state, slopes(system, closed)))
+    polynomials = jax.tree.map(
+        polynomial, state, rate(system, state, slopes(system, state, closed, jnp.ones_like(values)[None]))
+    )
     status = begin.status.reshape(-1, len(NODES))
     good = (closed.gap <= tolerance(values.dtype)) & (difference(state, begin.state) <= NEAR) & begin.covered
     solid = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)

@@ -1,8 +1,8 @@
-"""The range of a single input, followed once from the assembled pose to either end at as few knots as are safe.
+"""The way through all inputs, followed once from the assembled pose to either end at as few knots as are safe.
 
 Whatever lies between two knots is predicted by cubic Hermite interpolation with exact slopes. An angle comes back after
-a full turn: a value beyond a gap that is a whole number of turns away from where the motion got without one is that
-same pose, and no jump.
+a full turn: where the mechanism does so too, one turn is all that is followed; and a value beyond a gap that is a whole
+number of turns away from where the motion got without one is that same pose, and no jump.
 """
 
 from __future__ import annotations
@@ -11,26 +11,27 @@ from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Geometry
-from jaxkin.solve.continuation import SHORTEST_STEP, Front, arrived, start, substep
+from jaxkin.solve.continuation import SHORTEST_STEP, Front, Way, arrived, start, substep
 from jaxkin.solve.correct import choose
-from jaxkin.solve.state import State, difference, driven, rate, retract
+from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-
-def _room(poses: int) -> int:
-    """Room for the knots to either side of the assembled pose, of which a full turn takes about fifty."""
-    return min(max(512, 2 * poses), max(8192, poses // 4), 65536)
-
-
+ROOM, MOST_ROOM = 8192, 65536
+"""Knots to either side of the assembled pose. A full turn takes about fifty, several inputs in any order some eight a
+pose; what they do not reach is STALLED."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 AT_LIMIT = 2 * SHORTEST_STEP
 """Farther than this from the last knot before a limit nothing closes on the branch that was followed."""
+SAME = 1e-9
+"""Coordinates that differ by less after a full turn have come back (1e-4 in float32)."""
+TURN = 2 * np.pi
 
 
 class Knot(NamedTuple):
@@ -52,6 +53,10 @@ class Knots(NamedTuple):
     """All of a knot in one column, so that it is written, and read, at one stroke."""
     first: Int[Array, ""]
     last: Int[Array, ""]
+    repeats: Bool[Array, "2"]
+    """Whether after a full turn in the falling and in the rising direction the mechanism is where it began."""
+    winding: Float[Array, "columns 2"]
+    """What its coordinates then are."""
 
 
 class Guess(NamedTuple):
@@ -63,56 +68,73 @@ class Guess(NamedTuple):
     """Whether the knots reach as far as the input."""
 
 
-def follow(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"]) -> Knots:
-    """Knots from the assembled pose to the least and the greatest of the values.
+def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array, " poses"]) -> Knots:
+    """Knots from the assembled pose to the least and the greatest of the values, which say how far along the way.
 
     Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
     a full turn may come back, behind a gap, to poses on the other side of the assembled one.
     """
-    room = _room(values.shape[0])
+    dtype, room = values.dtype, min(max(ROOM, 8 * values.shape[0]), MOST_ROOM)
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
-    turn = jnp.array([2 * jnp.pi, -2 * jnp.pi], values.dtype)
-    front = start(system, 2, values.dtype)
-    table = jnp.zeros((_column(system, front).shape[0], 2 * room + 2), values.dtype)
-    nowhere = jnp.array([-jnp.inf, jnp.inf], values.dtype)
+    turn = jnp.array([-TURN, TURN], dtype)
+    front = start(system, 2, dtype)
+    table = jnp.zeros((_column(system, front).shape[0], 2 * room + 2), dtype)
+    nowhere, unknown = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.ones(2, bool)
 
-    def target(limits: Float[Array, "2"]) -> Float[Array, "1 2"]:
-        around = (limits + turn)[::-1]
-        lowest, highest = jnp.minimum(ends[0], around[0]), jnp.maximum(ends[1], around[1])
-        around = jnp.stack([lowest, highest])
-        return jnp.where(system.periodic & jnp.isfinite(around), around, ends)[None]
+    def target(limits: Float[Array, "2"], repeats: Bool[Array, "2"]) -> Float[Array, "2"]:
+        if not system.periodic:
+            return ends
+        around = (limits - turn)[::-1]
+        wider = jnp.stack([jnp.minimum(ends[0], around[0]), jnp.maximum(ends[1], around[1])])
+        return jnp.where(jnp.isfinite(around), wider, jnp.where(repeats, jnp.clip(ends, -TURN, TURN), ends))
 
     def running(carry) -> Array:
-        front, count, limits, _ = carry
-        return jnp.any(~arrived(system, front, target(limits)) & (count < room))
+        front, count, limits, repeats, _ = carry
+        return jnp.any(~arrived(front, target(limits, repeats)) & (count < room))
 
     def step(carry):
-        front, count, limits, table = carry
-        front, final = substep(system, geometry, front, target(limits))
+        front, count, limits, repeats, table = carry
+        front, final = substep(system, geometry, way, front, target(limits, repeats))
         # falling knots to the left of the middle, rising ones to the right; what is not final is written over
         column = _column(system, front)
         table = lax.dynamic_update_slice(table, column[:, :1], (0, room - count[0]))
         table = lax.dynamic_update_slice(table, column[:, 1:], (0, room + 1 + count[1]))
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
-        limits = jnp.where(ended, driven(system, front.state.x)[0], limits)
-        return front, jnp.minimum(count + final, room), limits, table
+        if system.periodic:
+            repeats &= (front.at != turn) | _came_back(system, front.state)
+        return front, jnp.minimum(count + final, room), jnp.where(ended, front.at, limits), repeats, table
 
-    _, count, _, table = lax.while_loop(running, step, (front, jnp.zeros(2, int), nowhere, table))
+    front, count, limits, repeats, table = lax.while_loop(
+        running, step, (front, jnp.zeros(2, int), nowhere, unknown, table)
+    )
     number, first, last = jnp.arange(2 * room + 2), room + 1 - count[0], room + count[1]
-    at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[system.driven[0]]))
-    return Knots(at, table, first, last)
+    at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[0]))
+    repeats &= (front.at == turn) & ~jnp.isfinite(limits)
+    return Knots(at, table, first, last, repeats, jnp.where(repeats, _wound(system, front.state), 0.0))
+
+
+def _wound(system: LoopSystem, state: State) -> Float[Array, "columns lanes"]:
+    """The full turns in the coordinates."""
+    return jnp.where(np.array(system.is_length)[:, None], 0.0, TURN * jnp.round(state.x / TURN))
+
+
+def _came_back(system: LoopSystem, state: State) -> Bool[Array, " lanes"]:
+    """Whether this is the assembled pose, but for full turns."""
+    same = SAME if jnp.finfo(state.x.dtype).bits == 64 else 1e-4
+    rest = jnp.max(jnp.abs(state.x - _wound(system, state)), axis=0)
+    return jnp.maximum(rest, jnp.max(jnp.abs(state.turns[:, 1:]), axis=(0, 1), initial=0.0)) <= same
 
 
 def _column(system: LoopSystem, front: Front) -> Float[Array, "entries lanes"]:
-    """All numbers of a knot: coordinates, turns of the balls, the slopes of both, and the status."""
+    """All numbers of a knot: where it is, coordinates, turns of the balls, the slopes of both, and the status."""
     slope = rate(system, front.state, front.slope)
-    entries = [part.reshape(-1, part.shape[-1]) for part in (*front.state, *slope)]
+    entries = [part.reshape(-1, part.shape[-1]) for part in (front.at, *front.state, *slope)]
     return jnp.concatenate([*entries, front.status[None].astype(front.gap.dtype)])
 
 
 def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Knot:
     """The knots of these numbers, which are within bounds."""
-    column = knots.table.at[:, number].get(mode="promise_in_bounds")
+    at, column = jnp.split(knots.table.at[:, number].get(mode="promise_in_bounds"), [1])
     coordinates, balls = system.columns, len(system.balls)
     half = coordinates + 4 * balls
     state, slope = (
@@ -120,12 +142,16 @@ def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Kno
         for part in (column, column[half:])
     )
     status = column[-1].astype(jnp.int32)
-    return Knot(column[system.driven[0]], state, slope, is_closed(status), status)
+    return Knot(at[0], state, slope, is_closed(status), status)
 
 
 def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> Guess:
     """The poses for these inputs as far as the knots tell; the driven coordinates are not set to the inputs."""
-    values = _unturned(knots, values) if system.periodic else values
+    if system.periodic:
+        values = _unturned(knots, values)
+        side = (values > 0).astype(jnp.int32)
+        turns = jnp.where(knots.repeats[side], jnp.floor(jnp.abs(values) / TURN), 0.0)
+        values = jnp.where(turns > 0, values - jnp.sign(values) * TURN * turns, values)
     number = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.first, knots.last - 1)
     left, right = _knot(system, knots, number), _knot(system, knots, number + 1)
     between = left.closed & (left.status == right.status)
@@ -139,6 +165,8 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
     trusted = between | (near_inner | ~at_limit) & nearest_closed
     state = choose(between, _hermite(system, left, right, values), choose(from_left, left.state, right.state))
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
+    if system.periodic:
+        state = State(state.x + turns * knots.winding[:, side], state.turns)
     least, most = (knots.at.at[end].get(mode="promise_in_bounds") for end in (knots.first, knots.last))
     return Guess(state, status, (values >= least - BEYOND) & (values <= most + BEYOND))
 
@@ -151,9 +179,8 @@ def _unturned(knots: Knots, values: Float[Array, " poses"]) -> Float[Array, " po
     # an end of the range that was reached is no limit
     least = jnp.where(least <= knots.at[knots.first], -jnp.inf, least - AT_LIMIT)
     most = jnp.where(most >= knots.at[knots.last], jnp.inf, most + AT_LIMIT)
-    turn = 2 * jnp.pi
-    down = values - turn * jnp.ceil(jnp.maximum(values - most, 0.0) / turn)
-    back = down + turn * jnp.ceil(jnp.maximum(least - down, 0.0) / turn)
+    down = values - TURN * jnp.ceil(jnp.maximum(values - most, 0.0) / TURN)
+    back = down + TURN * jnp.ceil(jnp.maximum(least - down, 0.0) / TURN)
     return jnp.where((back >= least) & (back <= most), back, values)
 
 

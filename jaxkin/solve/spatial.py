@@ -18,9 +18,10 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.solve.spins import Lines, spin_lines
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
-from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.system import EQUATIONS, LoopSystem
 from jaxkin.solve.trig import Trig, cos_sin
 
 Rotation = Float[Array, "3 3 *poses"]
@@ -36,6 +37,8 @@ class Spatial(NamedTuple):
     end: Float[Array, "loops 4 4"]
     """The constant pose behind the last step."""
     pitch: Float[Array, " joints"]
+    lines: Lines
+    """Of idle spins: see `spins`."""
 
 
 def spatial_closure(
@@ -54,10 +57,10 @@ def spatial_closure(
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     rotated = jnp.sum((rotation - jnp.eye(3, dtype=rotation.dtype)[..., None, None]) ** 2, axis=(0, 1, 2))
     moved = jnp.sum(translation**2, axis=(0, 1))
-    poses = state.x.shape[-1]
+    poses, equations = state.x.shape[-1], EQUATIONS * len(system.loops)
     return (
-        residual.reshape(system.equations, poses),
-        jacobian.reshape(system.equations, system.columns, poses),
+        residual.reshape(equations, poses),
+        jacobian.reshape(equations, system.columns, poses),
         rotated,
         moved,
     )
@@ -132,7 +135,8 @@ def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pit
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
     along = jnp.asarray(turned[table.axis], frames.dtype)
     enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
-    return Spatial(jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]]), leave[-1], pitch)
+    between = jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]])
+    return Spatial(between, leave[-1], pitch, spin_lines(system, frames))
 
 
 def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:

@@ -60,14 +60,41 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
     """The state with the driven coordinates set; a ball is driven by its three angles theta, phi, psi."""
     if not system.driven:
         return state
-    which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
-    given = inputs if len(system.driven) == 1 else inputs[which]
-    state = State(jnp.where(is_driven(system), given, state.x), state.turns)
+    state = State(jnp.where(is_driven(system), _spread(system, inputs), state.x), state.turns)
     for ball, first in enumerate(system.balls):
         if first in system.driven:
             turn = from_angles(state.x[first : first + 3])
             state = State(state.x, state.turns.at[ball].set(turn))
     return state
+
+
+def driven_rate(
+    system: LoopSystem, state: State, direction: Float[Array, "driven poses"]
+) -> tuple[Coordinates, Coordinates]:
+    """The change of the driven coordinates in a direction of the inputs, and the same in columns of the Jacobian.
+
+    They differ for a driven ball, which turns by `z psi' + Rz (y phi' + Ry x theta')` while its angles change.
+    """
+    change = jnp.where(is_driven(system), _spread(system, direction), 0.0)
+    columns = change
+    for first in system.balls:
+        if first in system.driven:
+            _, phi, psi = state.x[first : first + 3]
+            d_theta, d_phi, d_psi = change[first : first + 3]
+            along, across = jnp.cos(phi) * d_theta, d_phi
+            spin = [
+                jnp.cos(psi) * along - jnp.sin(psi) * across,
+                jnp.sin(psi) * along + jnp.cos(psi) * across,
+                d_psi - jnp.sin(phi) * d_theta,
+            ]
+            columns = columns.at[first : first + 3].set(jnp.stack(spin))
+    return change, columns
+
+
+def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordinates:
+    """The inputs in their columns; anything in the others."""
+    which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
+    return inputs if len(system.driven) == 1 else inputs[which]
 
 
 def driven(system: LoopSystem, x: Coordinates) -> Float[Array, "driven poses"]:

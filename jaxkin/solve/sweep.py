@@ -3,8 +3,9 @@
 The range of a single input is followed once, from the assembled pose to either end, at as few knots as are safe.
 Between two knots every pose is predicted by cubic Hermite interpolation with exact slopes and brought to closure by
 Newton steps, all poses at once and in whatever order they come. Poses for which that does not hold are settled by the
-damped corrector alone, in small groups, so that they cost the others nothing. Several inputs are followed along the
-polyline of the poses in the order in which they are given.
+damped corrector alone, in small groups, so that they cost the others nothing. Several inputs are followed in the same
+way along the polyline of the poses in the order in which they are given; what that does not reach is tried in a
+straight line from the assembled pose.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
-from jaxkin.solve.continuation import RESCUE_STEPS, visit
-from jaxkin.solve.correct import correct
+from jaxkin.solve.continuation import RESCUE_STEPS, reach
+from jaxkin.solve.correct import choose, correct
 from jaxkin.solve.dense import Poses, interpolate
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
@@ -77,26 +78,56 @@ def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
         poses = Poses(state, classify(gap, finite, finite), gap)
-    elif len(system.driven) != 1:
-        states, status, gap = visit(system, geometry, inputs.T[:, :, None])
-        poses = Poses(State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), status[:, 0], gap[:, 0])
+    elif len(system.driven) == 1:
+        poses = _of_one_input(system, geometry, inputs[0])
+    elif system.driven:
+        poses = _of_several_inputs(system, geometry, inputs)
     else:
-        poses = _at_once(system, geometry, inputs)
+        poses = Poses(*reach(system, geometry, inputs))
     return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
 
 
-def _at_once(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "1 poses"]) -> Poses:
-    """Poses of a single input: a few by themselves, the many between them by interpolation."""
-    knots = follow(system, geometry, inputs[0])
-    if inputs.shape[1] < MANY:
-        return _in_groups(lambda values: _settle(system, geometry, knots, values), inputs[0])
-    found, trusted = interpolate(system, geometry, knots, inputs[0])
+def _of_one_input(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"]) -> Poses:
+    """A few poses by themselves, the many between them by interpolation."""
+    knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values)
+    if len(values) < MANY:
+        return _in_groups(lambda values: _settle(system, geometry, knots, values, values[None]), values)
+    found, trusted = interpolate(system, geometry, knots, values)
 
     def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
         values, trusted, found = group
-        return lax.cond(jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values))
+        return lax.cond(jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values, values[None]))
 
-    return _in_groups(settle, (inputs[0], trusted, found))
+    return _in_groups(settle, (values, trusted, found))
+
+
+def _of_several_inputs(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"]) -> Poses:
+    """The poses along a polyline, and those that it does not reach."""
+    corners = jnp.concatenate([jnp.zeros_like(inputs[:, :1]), inputs], axis=1)
+    lengths = jnp.max(jnp.abs(jnp.diff(corners, axis=1)), axis=0)
+    at = jnp.concatenate([jnp.zeros_like(lengths[:1]), jnp.cumsum(lengths)])
+
+    def way(here: Float[Array, " lanes"]) -> tuple[Array, Array]:
+        before = jnp.clip(jnp.searchsorted(at, here, side="right") - 1, 0, len(lengths) - 1)
+        length = jnp.where(lengths[before] > 0, lengths[before], 1.0)
+        direction = (corners[:, before + 1] - corners[:, before]) / length
+        return corners[:, before] + (here - at[before]) * direction, direction
+
+    knots = follow(system, geometry, way, at[1:])
+
+    def settle(group: tuple[Array, Array]) -> Poses:
+        at, inputs = group
+        found = _settle(system, geometry, knots, at, inputs)
+        failed = found.status != Status.CLOSED.value
+
+        def otherwise() -> Poses:
+            straight = Poses(*reach(system, geometry, jnp.where(failed, inputs, 0.0)))
+            better = failed & ((straight.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
+            return choose(better, straight, found)
+
+        return lax.cond(jnp.any(failed), otherwise, lambda: found)
+
+    return _in_groups(settle, (at[1:], inputs))
 
 
 def _in_groups(function: Callable, poses):
@@ -117,10 +148,16 @@ def _in_groups(function: Callable, poses):
     return jax.tree.map(join, lax.map(function, jax.tree.map(cut, poses)))
 
 
-def _settle(system: LoopSystem, geometry: Geometry, knots: Knots, values: Float[Array, " poses"]) -> Poses:
-    """Poses begun between the knots and brought to closure by the damped corrector."""
-    begin = guess(system, knots, values)
-    state = drive(system, begin.state, values[None])
+def _settle(
+    system: LoopSystem,
+    geometry: Geometry,
+    knots: Knots,
+    at: Float[Array, " poses"],
+    inputs: Float[Array, "driven poses"],
+) -> Poses:
+    """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
+    begin = guess(system, knots, at)
+    state = drive(system, begin.state, inputs)
     found = correct(system, geometry, state, RESCUE_STEPS)
     near = difference(found.state, state) <= FARTHEST_CORRECTION
     status = classify(found.closure.gap, found.stationary, near & (begin.status == Status.CLOSED.value))

@@ -8,12 +8,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 from jaxkin.geometry.motions import MOVEMENTS
 
 EQUATIONS, IN_PLANE = 6, 3
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
 one and two."""
+
+
+class Form(NamedTuple):
+    """What is special about some loops, so that they need fewer equations, or others."""
+
+    plane: tuple[int, ...] | None = None
+    """If all joints move in parallel planes, the columns that do; None for loops in space."""
+    spins: tuple[tuple[int, int, int], ...] = ()
+    """Pairs of balls about whose line a rod spins idly: their numbers among the balls, and +1, or -1 where a spin turns
+    them in opposite directions."""
 
 
 @dataclass(frozen=True)
@@ -26,8 +37,7 @@ class LoopSystem:
     """For each loop its joints in order of travel with +1, or -1 where travelled from part 2 to part 1."""
     driven: tuple[int, ...]
     """Columns whose values are given."""
-    plane: tuple[int, ...] | None = None
-    """If all joints move in parallel planes, the columns that do; None for loops in space."""
+    form: Form
 
     @cached_property
     def chains(self) -> tuple[tuple[tuple[str, int, int, int], ...], ...]:
@@ -58,9 +68,20 @@ class LoopSystem:
         return len(self.is_length)
 
     @property
+    def plane(self) -> tuple[int, ...] | None:
+        """See `Form`."""
+        return self.form.plane
+
+    @cached_property
+    def spins(self) -> tuple[tuple[int, int, int], ...]:
+        """See `Form`; without those of balls that are driven."""
+        free = [first not in self.driven for first in self.balls]
+        return tuple(spin for spin in self.form.spins if free[spin[0]] and free[spin[1]])
+
+    @property
     def equations(self) -> int:
-        """Number of rows of the Jacobian."""
-        return (EQUATIONS if self.plane is None else IN_PLANE) * len(self.loops)
+        """Number of rows of the Jacobian: those of the loops, then one a spin."""
+        return (EQUATIONS if self.plane is None else IN_PLANE) * len(self.loops) + len(self.spins)
 
     @cached_property
     def balls(self) -> tuple[int, ...]:

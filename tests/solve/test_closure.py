@@ -9,7 +9,7 @@ from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.solve import closure as module
 from jaxkin.solve import spatial
 from jaxkin.solve.state import angles, assembled, drive, from_angles, multiply, retract, rotation_matrix
-from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.system import Form, LoopSystem
 
 closure = jax.jit(module.closure, static_argnums=0)
 loop_geometry = jax.jit(module.loop_geometry, static_argnums=0)
@@ -30,7 +30,9 @@ def random_pose(rng):
 def loop():
     """A loop through every kind of movement, both ways round, with frames that differ on the two parts."""
     rng = np.random.default_rng(4)
-    system = LoopSystem(CHAINS, (((0, 1), (1, -1), (2, 1), (3, -1), (4, 1), (5, 1)), ((2, -1), (0, 1), (4, -1))), (0,))
+    system = LoopSystem(
+        CHAINS, (((0, 1), (1, -1), (2, 1), (3, -1), (4, 1), (5, 1)), ((2, -1), (0, 1), (4, -1))), (0,), Form()
+    )
     before = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
     after = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
     pitch = tuple(jnp.asarray(0.7 if chain == ("T_screw",) else 0.0) for chain in CHAINS)
@@ -72,7 +74,7 @@ def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
 def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     """Away from closure the columns are twists, so the loop is closed first, by a constant behind its last joint."""
     system, before, after, pitch, q = loop
-    system = LoopSystem(system.movements, system.loops[:1], system.driven)
+    system = LoopSystem(system.movements, system.loops[:1], system.driven, Form())
     geometry, _ = loop_geometry(system, before, after, pitch)
     state = as_state(system, q[:, :1])
 
@@ -116,7 +118,7 @@ def rotation_columns(given):
 
 def test_a_ball_turns_half_a_turn_about_any_axis():
     """retract never locks: many small turns about a generic axis add up to the turn about that axis."""
-    system = LoopSystem((("T_theta_phi_psi",),), (((0, 1),),), ())
+    system = LoopSystem((("T_theta_phi_psi",),), (((0, 1),),), (), Form())
     axes = np.random.default_rng(2).normal(size=(3, 20))
     axes /= np.linalg.norm(axes, axis=0)
     state = assembled(system, 20, jnp.float64)

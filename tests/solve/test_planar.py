@@ -15,6 +15,7 @@ from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.closure import closure, loop_geometry
 from jaxkin.solve.state import State
 from jaxkin.solve.status import Status
+from jaxkin.solve.system import Form
 from reference.catalogue import jansen, oldham, scotch_yoke
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
 
@@ -23,9 +24,9 @@ PLANAR = [planar_fourbar, slider_crank, jansen, oldham, scotch_yoke]
 
 def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
-    (block,), (columns,) = mechanism.structure.blocks, mechanism.planes
-    for plane in (columns, None):
-        system = block_system(mechanism, block, ((block.joints[0], 0),), plane)
+    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    for chosen in (form, Form()):
+        system = block_system(mechanism, block, ((block.joints[0], 0),), chosen)
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism, block)))[0]
 
 
@@ -56,8 +57,8 @@ def test_the_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(ma
 
 
 def test_which_structures_are_planar():
-    assert all(None not in make().planes for make in PLANAR)
-    assert spherical_linkage().planes == (None,) and rssr_linkage().planes == (None,)
+    assert all(make().forms[0].plane is not None for make in PLANAR)
+    assert spherical_linkage().forms[0].plane is None and rssr_linkage().forms[0].plane is None
 
 
 def test_a_tilted_hinge_makes_a_loop_spatial():
@@ -98,6 +99,6 @@ def test_placed_anywhere_the_plane_is_found_and_the_motion_is_the_same():
     mechanism = planar_fourbar(1.0)
     joints = [replace(joint, before=pose @ joint.before, after=pose @ joint.after) for joint in mechanism.all_joints]
     placed = Mechanism.build(joints=joints, fixed=["ground"])
-    assert placed.planes == mechanism.planes
+    assert placed.forms == mechanism.forms
     expected = mechanism.sweep({"A": turn}).coordinates["D"]
     np.testing.assert_allclose(placed.sweep({"A": turn}).coordinates["D"], expected, atol=1e-13)

@@ -1,0 +1,32 @@
+"""What is special about the loops of a mechanism, found while its frames are numbers: see `Form`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import jax
+import numpy as np
+
+from jaxkin.geometry.traced import traced
+from jaxkin.motion.plane import plane_columns
+from jaxkin.motion.rods import idle_spins
+from jaxkin.solve.system import Form
+
+if TYPE_CHECKING:
+    from jaxkin.motion.mechanism import Mechanism
+
+
+def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
+    """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
+    joints = jax.lax.stop_gradient(mechanism.all_joints)
+    for joint in joints:
+        if traced(joint) or not isinstance(joint.before, np.ndarray | jax.Array) or joint.before.ndim != 3:
+            return None
+    row_of = mechanism.structure.row_of
+    fixed = row_of[mechanism.fixed[0]]
+    bodies = {part: fixed if part in mechanism.fixed else row for part, row in row_of.items()}
+    found = []
+    for block in mechanism.structure.blocks:
+        inside = [joints[joint] for joint in block.joints]
+        found.append(Form(plane_columns(inside), idle_spins(inside, bodies)))
+    return tuple(found)
