@@ -1,10 +1,10 @@
-"""Sweeps against closed forms, in one process: poses per second warm, compile time, error and residual.
+"""Sweeps against closed forms, in one process: poses per second warm, compile time, residual.
 
-    python benchmarks/sweep.py
+    python benchmarks/sweep.py [POSES ...]
 
-Every mechanism is swept over one turn at several numbers of poses; the four-bar's closed form with its angles, jitted,
-is timed beside it on the same inputs. Medians of repeated runs, results awaited. Machines differ and are noisy: compare
-the columns of one run, not the figures of two.
+Every mechanism is swept over its range at several numbers of poses; the four-bar's closed form with its angles, jitted,
+is timed beside it on as many inputs, and so are the form that stops at coordinates and one in NumPy. Medians of
+repeated runs, results awaited. Machines differ and are noisy: compare the columns of one run, not the figures of two.
 """
 
 from __future__ import annotations
@@ -18,16 +18,18 @@ import jax.numpy as jnp
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-from reference import mechanisms, planar
+from reference import catalogue, mechanisms, parallel, planar
 
-RUNS = 7
+SECONDS, RUNS = 1.0, 15
+"""Each figure is the median of so many runs, or of those that fit into this time, at least of three."""
+SIZES = (1, 360, 10_000, 100_000)
 
 
 def median_time(function, *args) -> float:
     """Seconds of a call whose first run is not counted."""
     jax.block_until_ready(function(*args))
-    times = []
-    for _ in range(RUNS):
+    times: list[float] = []
+    while len(times) < 3 or (len(times) < RUNS and sum(times) < SECONDS):
         begin = time.perf_counter()
         jax.block_until_ready(function(*args))
         times.append(time.perf_counter() - begin)
@@ -35,50 +37,85 @@ def median_time(function, *args) -> float:
 
 
 @jax.jit
+def closed_points(theta):
+    """Where crank pin and rocker pin of the four-bar are: the intersection of two circles, no angle."""
+    x, y = 40.0 * jnp.cos(theta), 40.0 * jnp.sin(theta)
+    across, up = 100.0 - x, -y
+    square = across * across + up * up
+    along = (120.0**2 - 80.0**2 + square) / (2.0 * square)
+    beside = jnp.sqrt(120.0**2 / square - along * along)
+    return x, y, x + along * across - beside * up, y + along * up + beside * across
+
+
+@jax.jit
 def closed_fourbar(theta):
-    """Coupler and rocker angles of the open branch by the law of cosines."""
-    x, y = 100.0 - 40.0 * jnp.cos(theta), -40.0 * jnp.sin(theta)
-    square = x * x + y * y
-    to_crank = jnp.arctan2(-y, -x)
-    rocker = to_crank - jnp.arccos((80.0**2 + square - 120.0**2) / (160.0 * jnp.sqrt(square)))
-    coupler = jnp.arctan2(y + 80.0 * jnp.sin(rocker), x + 80.0 * jnp.cos(rocker))
-    return coupler, rocker
+    """The same with coupler and rocker angles."""
+    x, y, rocker_x, rocker_y = closed_points(theta)
+    return jnp.arctan2(rocker_y - y, rocker_x - x), jnp.arctan2(rocker_y, rocker_x - 100.0)
 
 
-def main() -> None:
+def hexapod_legs(poses: int) -> dict[str, np.ndarray]:
+    """Legs of the catalogue's hexapod while its platform runs through a closed curve."""
+    mechanism = catalogue.hexapod()
+    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    legs = parallel.curve(parallel.hexapod().base, home, poses).legs
+    return {f"leg {i}": legs[:, i] for i in range(6)}
+
+
+def turn_of(joint: str, upto: float = 2 * np.pi):
+    return lambda poses: {joint: np.linspace(0.0, upto, poses)}
+
+
+CASES = {
+    "four-bar": (mechanisms.planar_fourbar, turn_of("A")),
+    "slider-crank": (mechanisms.slider_crank, turn_of("A")),
+    "Jansen leg": (catalogue.jansen, turn_of("O")),
+    "Watt six-bar": (catalogue.watt, turn_of("A")),
+    "cam (b)": (mechanisms.cam, turn_of("shaft")),
+    "Cardan": (mechanisms.cardan_shafts, turn_of("in")),
+    "spherical four-bar": (mechanisms.spherical_linkage, turn_of("A")),
+    "ball in a bore (j)": (mechanisms.ball_in_bore, turn_of("A")),
+    "RSSR": (mechanisms.rssr_linkage, turn_of("A")),
+    "Bennett": (mechanisms.bennett_linkage, turn_of("A")),
+    "Stewart-Gough": (catalogue.hexapod, hexapod_legs),
+}
+
+
+def main(sizes: tuple[int, ...]) -> None:
     jax.config.update("jax_enable_x64", True)
-    cases = {
-        "four-bar": (mechanisms.planar_fourbar(), "A"),
-        "slider-crank": (mechanisms.slider_crank(), "A"),
-        "cam (b)": (mechanisms.cam(), "shaft"),
-        "spherical four-bar": (mechanisms.spherical_linkage(), "A"),
-        "Cardan": (mechanisms.cardan_shafts(), "in"),
-        "RSSR": (mechanisms.rssr_linkage(), "A"),
-    }
-    print(
-        f"{'':20}{'poses':>8}{'first [s]':>11}{'ns a pose':>11}{'closed form':>13}{'ratio':>8}{'residual':>10}"
-        f"{'closed':>8}"
-    )
-    for poses in (1, 360, 10_000, 100_000):
-        inputs = jnp.linspace(0.0, 2 * jnp.pi, poses)
-        reference = median_time(closed_fourbar, inputs + 1.0)
-        for name, (mechanism, joint) in cases.items():
+    print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64")
+    print(f"{'':20}{'poses':>8}{'first [s]':>11}{'ms a call':>11}{'ns a pose':>11}{'ratio':>8}{'residual':>10}  closed")
+    for poses in sizes:
+        turn = jnp.linspace(1.0, 1.0 + 2 * jnp.pi, poses)
+        reference = median_time(closed_fourbar, turn)
+        rows = {
+            "closed, angles": reference,
+            "closed, points": median_time(closed_points, turn),
+            "closed, NumPy": median_time(planar.fourbar, np.asarray(turn)),
+        }
+        for name, seconds in rows.items():
+            print(f"{name:20}{poses:>8}{'':>11}{_figures(seconds, poses, reference)}", flush=True)
+        for name, (make, drive) in CASES.items():
+            mechanism, inputs = make(), drive(poses)
             begin = time.perf_counter()
-            motion = mechanism.sweep({joint: inputs})
+            motion = mechanism.sweep(inputs)
             jax.block_until_ready(motion.residual)
             first = time.perf_counter() - begin
-            warm = median_time(lambda m=mechanism, j=joint, u=inputs: m.sweep({j: u}).displacements)
-            closed = float(jnp.mean(motion.closed))
+            warm = median_time(lambda m=mechanism, u=inputs: m.sweep(u).displacements)
+            residual, closed = float(np.max(motion.residual)), float(np.mean(motion.closed))
             print(
-                f"{name:20}{poses:>8}{first:>11.2f}{warm / poses * 1e9:>11.0f}{reference / poses * 1e9:>13.0f}"
-                f"{reference / warm:>8.3f}{float(jnp.max(motion.residual)):>10.0e}{closed:>8.0%}",
+                f"{name:20}{poses:>8}{first:>11.2f}{_figures(warm, poses, reference)}{residual:>10.0e}{closed:>8.1%}",
                 flush=True,
             )
-    exact = planar.fourbar(1.0 + np.linspace(0.0, 2 * np.pi, 3600)).rocker
-    found = cases["four-bar"][0].sweep({"A": np.linspace(0.0, 2 * np.pi, 3600)}).coordinates["D"][:, 0]
-    error = np.max(np.abs(np.unwrap(exact) - exact[0] - found))
-    print(f"\nfour-bar, 3600 poses: largest error of the rocker angle {error:.1e}")
+        shuffled = np.random.default_rng(0).permutation(np.linspace(0.0, 2 * np.pi, poses))
+        mechanism = mechanisms.planar_fourbar()
+        warm = median_time(lambda m=mechanism, u=shuffled: m.sweep({"A": u}).displacements)
+        print(f"{'four-bar, unsorted':20}{poses:>8}{'':>11}{_figures(warm, poses, reference)}", flush=True)
+
+
+def _figures(seconds: float, poses: int, reference: float) -> str:
+    return f"{seconds * 1e3:>11.2f}{seconds / poses * 1e9:>11.0f}{reference / seconds:>8.3f}"
 
 
 if __name__ == "__main__":
-    main()
+    main(tuple(int(text) for text in sys.argv[1:]) or SIZES)

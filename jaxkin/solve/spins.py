@@ -8,8 +8,11 @@ after a thousand turns no spin is left behind, as it is by least-norm steps alon
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import jax.numpy as jnp
-from jaxtyping import Array, Float
+import numpy as np
+from jaxtyping import Array, Float, Int
 
 from jaxkin.solve.state import State
 from jaxkin.solve.system import LoopSystem
@@ -24,27 +27,41 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
     for chain in system.chains:
         of_ball += [first + frame for _, frame, column, _ in chain if column in system.balls]
         first += len(chain)
-    lines = []
-    for one, other, sign in system.spins:
-        a, b = frames[of_ball[one]], frames[of_ball[other]]
-        line = b[:3, 3] - a[:3, 3]
-        line = line / jnp.sqrt(jnp.sum(line * line))
-        lines.append(jnp.stack([a[:3, :3].T @ line, sign * b[:3, :3].T @ line]))
-    return jnp.stack(lines) if lines else jnp.zeros((0, 2, 3), frames.dtype)
+    balls, signs = _pairs(system)
+    ends = frames[np.array(of_ball, int)[balls]]
+    line = ends[:, 1, :3, 3] - ends[:, 0, :3, 3]
+    line = line / jnp.sqrt(jnp.sum(line * line, axis=1, keepdims=True))
+    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * signs
 
 
-def spin_equations(system: LoopSystem, lines: Lines, state: State) -> tuple[Array, Array]:
-    """Residual (spins, poses) and Jacobian (spins, columns, poses) of the equations."""
-    residuals, rows = [], []
-    for (*balls, _), pair in zip(system.spins, lines, strict=True):
-        residual, row = 0.0, jnp.zeros((system.columns, state.x.shape[-1]), state.x.dtype)
-        for ball, line in zip(balls, pair[..., None], strict=True):
-            w, v = state.turns[ball, 0], state.turns[ball, 1:]
-            along = jnp.sum(v * line, axis=0)
-            residual += 2 * w * along
+def spin_equations(
+    system: LoopSystem, lines: Lines, state: State
+) -> tuple[Float[Array, "spins poses"], Float[Array, "spins columns poses"]]:
+    """Residual and Jacobian of the equations."""
+    balls, _ = _pairs(system)
+    poses = state.x.shape[-1]
+    w, v = state.turns[balls, :1], state.turns[balls, 1:]
+    line = lines[..., None]
+    along = jnp.sum(v * line, axis=2, keepdims=True)
+    turned = w * w * line + w * jnp.cross(v, line, axis=2) - along * v
+    turned = jnp.concatenate([turned.reshape(-1, poses), jnp.zeros((1, poses), turned.dtype)])
+    return jnp.sum(2 * w * along, axis=(1, 2)), turned[_places(system)]
+
+
+@lru_cache(maxsize=256)
+def _pairs(system: LoopSystem) -> tuple[Int[np.ndarray, "spins 2"], Float[np.ndarray, "spins 2 1"]]:
+    """The two balls of each spin, and the signs of their turns."""
+    table = np.array(system.spins, int).reshape(-1, 3)
+    return table[:, :2], np.stack([np.ones(len(table)), table[:, 2]], axis=1)[..., None]
+
+
+@lru_cache(maxsize=256)
+def _places(system: LoopSystem) -> Int[np.ndarray, "spins columns"]:
+    """For each entry of the Jacobian its number among the turns of the pairs, three a ball; behind them is a zero."""
+    balls, _ = _pairs(system)
+    places = np.full((len(balls), system.columns), 6 * len(balls))
+    for spin, pair in enumerate(balls):
+        for end, ball in enumerate(pair):
             first = system.balls[ball]
-            derivative = w * w * line + w * jnp.cross(v, line, axis=0) - along * v
-            row = row.at[first : first + 3].set(derivative)
-        residuals.append(residual)
-        rows.append(row)
-    return jnp.stack(residuals), jnp.stack(rows)
+            places[spin, first : first + 3] = 6 * spin + 3 * end + np.arange(3)
+    return places

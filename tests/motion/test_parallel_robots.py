@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from jaxkin.joints.pairs import prismatic, revolute, spherical
 from jaxkin.motion.mechanism import Mechanism
@@ -13,25 +12,11 @@ from reference.mechanisms import rssr_linkage, spherical_linkage
 LEGS = [f"leg {i}" for i in range(6)]
 
 
-def on_a_curve(poses):
-    """The platform of the catalogue's hexapod on a closed curve: its displacement, and those of the legs."""
-    at = parallel.hexapod()
-    mechanism = hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
-    x = np.linspace(0.0, 2 * np.pi, poses)
-    moved = np.tile(np.eye(4), (poses, 1, 1))
-    turn = Rotation.from_rotvec(np.stack([0.1 * np.sin(x), 0.1 - 0.1 * np.cos(x), 0.2 * np.sin(2 * x)], axis=1))
-    centre = home.mean(axis=0)
-    moved[:, :3, :3] = turn.as_matrix()
-    shift = np.stack([20 * np.sin(x), 15 - 15 * np.cos(x), 10 * np.sin(x)], axis=1)
-    moved[:, :3, 3] = centre + shift - moved[:, :3, :3] @ centre
-    tops = np.einsum("pij,kj->pki", moved[:, :3, :3], home) + moved[:, None, :3, 3]
-    return mechanism, moved, np.linalg.norm(tops - at.base, axis=2) - np.linalg.norm(home - at.base, axis=1)
-
-
 @pytest.mark.parametrize("shuffled", [False, True])
 def test_a_hexapod_follows_its_legs(shuffled):
-    mechanism, moved, legs = on_a_curve(60)
+    mechanism = hexapod()
+    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    moved, legs = parallel.curve(parallel.hexapod().base, home, 60)
     which = np.random.default_rng(5).permutation(60) if shuffled else np.arange(60)
     motion = mechanism.sweep(dict(zip(LEGS, legs[which].T, strict=True)))
     assert np.all(motion.closed)
@@ -46,7 +31,7 @@ def test_which_rods_spin_idly():
 
 
 def test_a_door_on_two_balls_turns():
-    """The turn about the line of two balls is of use where both are on the same body; so is that of an oblique slide."""
+    """The turn about the line of two balls is of use on one body; beside an oblique slide there is none."""
     hinges = [spherical(name, "frame", "door", point=(0, 0, z)) for name, z in (("low", 0.0), ("high", 9.0))]
     door = Mechanism.build(fixed=["frame"], joints=hinges)
     assert door.forms[0].spins == ()

@@ -179,7 +179,7 @@ def test_a_ball_driven_by_its_three_angles():
 
 
 def test_the_rod_of_an_rssr_does_not_spin():
-    """Its idle freedom has no memory: each pose is the same by whatever way, and a thousand turns leave nothing behind."""
+    """Its idle freedom has no memory: each pose is the same by whatever way, and 1,000 turns leave nothing."""
     mechanism = rssr_linkage()
     back_and_forth = 2.0 * np.sin(np.linspace(0.0, 2 * np.pi, 99))
     motion = mechanism.sweep({"A": back_and_forth})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from reference.spatial import half_turns
 
@@ -29,6 +30,27 @@ def hexapod(base_radius=200.0, platform_radius=120.0, base_gap=0.25, platform_ga
     base = (thirds + base_gap * np.array([-1, 1])).ravel()
     platform = (thirds + (np.pi / 3 - platform_gap) * np.array([-1, 1])).ravel()
     return Hexapod(_ring(base_radius, base), _ring(platform_radius, platform))
+
+
+class Curve(NamedTuple):
+    """A closed curve of a platform."""
+
+    moved: Array
+    """Displacement of the platform (poses, 4, 4)."""
+    legs: Array
+    """Displacements of the legs (poses, 6)."""
+
+
+def curve(base: Array, home: Array, poses: int) -> Curve:
+    """A platform that starts with its balls at `home` sways 20 mm and 0.2 rad about its middle, and comes back."""
+    x, centre = np.linspace(0.0, 2 * np.pi, poses), home.mean(axis=0)
+    moved = np.tile(np.eye(4), (poses, 1, 1))
+    axes = np.stack([0.1 * np.sin(x), 0.1 - 0.1 * np.cos(x), 0.2 * np.sin(2 * x)], axis=1)
+    shift = np.stack([20 * np.sin(x), 15 - 15 * np.cos(x), 10 * np.sin(x)], axis=1)
+    moved[:, :3, :3] = Rotation.from_rotvec(axes).as_matrix()
+    moved[:, :3, 3] = centre + shift - moved[:, :3, :3] @ centre
+    tops = np.einsum("pij,kj->pki", moved[:, :3, :3], home) + moved[:, None, :3, 3]
+    return Curve(moved, np.linalg.norm(tops - base, axis=2) - np.linalg.norm(home - base, axis=1))
 
 
 def _ring(radius: float, angles: Array) -> Array:
