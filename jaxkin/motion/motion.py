@@ -51,6 +51,18 @@ class Motion:
         return self.status == Status.CLOSED.value
 
     @cached_property
+    def sigma_min(self) -> Float[Array, " poses"]:
+        """How near to singular each pose is: the smallest singular value of the closure Jacobian not always zero.
+
+        For radians and characteristic lengths, of the worst structure element; infinite where no loop is driven. A pose
+        is right to about its residual over this value, and derivatives grow as one over it: at a dead point or a change
+        point, where it is zero, a closed loop is accurate to the square root of rounding only.
+        """
+        from jaxkin.motion.singularity import sigma_min
+
+        return sigma_min(self)
+
+    @cached_property
     def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
         """Displacements of each joint, in the order of its `coordinates`; angles count full turns."""
         return dict(zip(self.mechanism.joints, self.displacements, strict=True))

@@ -100,7 +100,9 @@ def substep(
     distance = jnp.abs(moved)
     hard = jnp.any(starting | in_gap)
     found = correct(system, geometry, predicted, jnp.where(hard, RESCUE_STEPS, CORRECTOR_STEPS))
-    status = classify(found.closure.gap, found.stationary, ~front.anchored)
+    # a target so near that no step was short enough, just inside a limit
+    beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= SHORTEST_STEP)
+    status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)
     closed = is_closed(status)
 
     # following: near the prediction, or, without a secant, within a tiny step

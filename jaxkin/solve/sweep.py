@@ -46,7 +46,7 @@ class Joints(NamedTuple):
 def find_poses(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]) -> Poses:
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism."""
     joints, inputs = lax.stop_gradient((joints, inputs))
-    geometry, lengths = _scaled(system, joints)
+    geometry, lengths = scaled(system, joints)
     return _search(system, geometry, inputs / driven(system, lengths))
 
 
@@ -57,14 +57,13 @@ def displacements(
 
     In radians and lengths of the mechanism; those of least residual where a pose did not close.
     """
-    geometry, lengths = _scaled(system, joints)
+    geometry, lengths = scaled(system, joints)
     poses = lax.stop_gradient(poses)
-    scaled = inputs / driven(system, lengths)
-    state = attach(system, geometry, scaled, poses.state, is_closed(poses.status))
+    state = attach(system, geometry, inputs / driven(system, lengths), poses.state, is_closed(poses.status))
     return _coordinates(system, state) * lengths
 
 
-def _scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
+def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
     """The geometry, and what the coordinates of the solver are multiplied by to be those of the mechanism."""
     geometry, length = loop_geometry(system, *joints)
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]

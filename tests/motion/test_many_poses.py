@@ -9,7 +9,7 @@ import pytest
 from jaxkin.solve.status import Status
 from jaxkin.solve.sweep import MANY
 from reference import higher_pairs, planar, spatial
-from reference.mechanisms import bennett_linkage, cam, planar_fourbar, rssr_linkage
+from reference.mechanisms import cam, planar_fourbar, rssr_linkage
 
 POSES = MANY + 100
 TURN = np.linspace(0.0, 2 * np.pi, POSES)
@@ -36,16 +36,11 @@ def test_a_fourbar_in_any_order(order):
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], displacement(*rocker), atol=1e-12)
 
 
-def test_a_cam_a_bennett_linkage_and_an_rssr_linkage():
-    """Line contact, an overconstrained loop, and balls with an idle spin between them."""
+def test_a_cam_and_an_rssr_linkage():
+    """Line contact, and balls with an idle spin between them."""
     motion = cam(0.5).sweep({"shaft": TURN})
     height = higher_pairs.cam_flat_follower(0.5 + TURN)
     np.testing.assert_allclose(motion.coordinates["guide"][:, 0], height - height[0], atol=1e-11)  # mm, size 15
-    range_ = np.linspace(0.0, 2.0, POSES)
-    motion = bennett_linkage(0.9).sweep({"A": range_})
-    expected = spatial.bennett(0.9 + range_)[:, 2]
-    expected = displacement(expected, expected[0])
-    np.testing.assert_allclose(motion.coordinates["C"][:, 0], expected, atol=1e-12)
     motion = rssr_linkage(0.3).sweep({"A": TURN})
     output = spatial.rssr(0.3 + TURN).output
     expected = displacement(output, output[0])

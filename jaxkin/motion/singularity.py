@@ -1,0 +1,43 @@
+"""How near to singular the poses of a motion are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.traced import traced
+from jaxkin.motion.drive import coordinate
+from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.solve.singular import least_singular_value
+from jaxkin.topology.rates import null_space
+
+if TYPE_CHECKING:
+    from jaxkin.motion.mechanism import Mechanism
+    from jaxkin.motion.motion import Motion
+    from jaxkin.solve.system import LoopSystem
+
+
+def sigma_min(motion: Motion) -> Float[Array, " poses"]:
+    """See `Motion.sigma_min`."""
+    mechanism = motion.mechanism
+    driven = [coordinate(mechanism, name) for name in motion.inputs]
+    least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
+    for number, (block, form) in enumerate(zip(mechanism.structure.blocks, mechanism.forms, strict=True)):
+        inside = [entry for entry in driven if entry[0] in block.joints]
+        inside.sort(key=lambda entry: (block.joints.index(entry[0]), entry[1]))
+        system = block_system(mechanism, block, tuple(inside), form)
+        if inside and (rank := _rank(mechanism, number, system)):
+            columns = jnp.concatenate([motion.displacements[joint] for joint in block.joints], axis=1).T
+            least = jnp.minimum(least, least_singular_value(system, rank, block_joints(mechanism, block), columns))
+    return least
+
+
+def _rank(mechanism: Mechanism, number: int, system: LoopSystem) -> int:
+    """Independent equations for the free coordinates where nothing is singular; as many as may be where JAX traces."""
+    if traced(mechanism.all_joints):
+        return min(system.equations, len(system.free))
+    freedoms = mechanism.loop_freedoms[number]
+    return null_space(freedoms.jacobian[:, np.array(system.free, int)], freedoms.noise)[0] + len(system.spins)
