@@ -62,9 +62,14 @@ class Merged:
             around.setdefault(part2, []).append((joint, -1, part1))
         return around
 
-    def lightest(self, weights: Mapping[int, int], joint: int) -> frozenset[int]:
-        """The lightest circuit through a joint, of joints with weights; it alone where its parts are merged."""
+    def lightest(self, weights: Mapping[int, int]) -> set[frozenset[int]]:
+        """The lightest circuit through each of some joints with weights; it alone where its parts are merged."""
         around = self._around(list(weights))
+        return {self._lightest(around, weights, joint) for joint in weights}
+
+    def _lightest(
+        self, around: Mapping[str, Sequence[tuple[int, int, str]]], weights: Mapping[int, int], joint: int
+    ) -> frozenset[int]:
         start, end = (self.stands[part] for part in self.ends[joint])
         queue: list[tuple[int, str, tuple[int, ...]]] = [(0, start, ())]
         done: set[str] = set()

@@ -88,7 +88,7 @@ class _Order:
     def next(self) -> list[int]:
         """The lightest set of joints found that can be solved alone, else all that hang together with the first."""
         weights = {joint: len(self.unknown[joint]) for joint in self.remaining}
-        circuits = sorted({self.graph.lightest(weights, joint) for joint in self.remaining}, key=self._weight)
+        circuits = sorted(self.graph.lightest(weights), key=self._weight)
         for joints in self._unions(circuits):
             if self._solvable(sorted(joints)):
                 return sorted(joints)

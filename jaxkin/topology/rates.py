@@ -49,7 +49,7 @@ def null_space(
     """The rank of a Jacobian, and an orthonormal basis of what it takes to zero."""
     if not matrix.shape[0]:
         return 0, np.eye(matrix.shape[1])
-    _, values, directions = np.linalg.svd(matrix)
+    values, directions = _right(matrix)
     rank = int((values > noise.rank * values[0]).sum()) if values.size else 0
     return rank, directions[rank:]
 
@@ -58,10 +58,16 @@ def without(
     motions: Float[np.ndarray, "n columns"], resting: Sequence[int], noise: Noise
 ) -> Float[np.ndarray, "m columns"]:
     """A basis of those motions in which some columns rest."""
-    _, values, mixes = np.linalg.svd(motions[:, list(resting)].T)
+    values, mixes = _right(motions[:, list(resting)].T)
     return mixes[int((values > noise.rate).sum()) :] @ motions
 
 
 def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], noise: Noise) -> int:
     """How many of the rates of these columns the motions allow independently of each other."""
     return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > noise.rate).sum())
+
+
+def _right(matrix: Float[np.ndarray, "rows columns"]) -> tuple[np.ndarray, Float[np.ndarray, "columns columns"]]:
+    """Singular values, and all right singular vectors; the left ones, which may be far more, are not worked out."""
+    _, values, directions = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
+    return values, directions
