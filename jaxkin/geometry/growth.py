@@ -22,14 +22,23 @@ TIGHT, LOOSE = 0.5, 5.0
 """Times the rounding: kernels cut faces less exactly than their numbers are written, but a few facets of a torus are
 within the looser one of a cylinder."""
 
-FAILURES = 1000
+FAILURES = 300
 """Seeds in a row from which no face could be grown, after which the search for such ends: free forms take no longer."""
+
+WORK = 100_000_000
+"""Triangles compared with a surface, each time counted, after which all search ends: bounds the time of any mesh."""
 
 _ROUNDS = 8
 """From few facets to the whole face in fewer: the surface of a few is off farther away."""
 
 _MOST = 0.9
 """Of the area of a facet: the surface that it is of, but for a small triangle of the next face in the same plane."""
+
+_LARGER = 100.0
+"""How many times as large as another one the facets of one seed may be."""
+
+_SMALL = 10.0
+"""So many times as small as the triangles of a face is what is left out of it, if the face fits without."""
 
 _FLAT = 4.0
 """A flat face is so many times as large as the facets of the free form around it."""
@@ -61,7 +70,7 @@ class Growth:
         smooth = number[np.concatenate([mesh.smooth, flat])]
         self.smooth = smooth[np.all(smooth >= 0, axis=1)]
         self.free = np.ones(0, bool)
-        self.failures = 0
+        self.failures = self.work = 0
         self._divide(np.unique(mesh.facet_of[rows], return_inverse=True)[1])
 
     def _divide(self, facet_of: np.ndarray) -> None:
@@ -91,7 +100,7 @@ class Growth:
         for within, seeds in product((TIGHT, LOOSE), (self._stars, self._strips)):
             self.failures = 0
             for facet in order[self.free[order]].tolist():
-                if self.free[facet] and self.failures < FAILURES:
+                if self.free[facet] and self.failures < FAILURES and self.work < WORK:
                     grown = (self._grown(seed, within * self.mesh.tolerance) for seed in seeds(facet))
                     region = next((region for region in grown if region is not None), None)
                     found += [region] if region is not None else []
@@ -101,15 +110,19 @@ class Growth:
         """A facet with all that share a corner with it."""
         near = self.at_corner[:, self.corners[facet].indices].indices
         near = np.unique(near[self.free[near]])
-        if len(near) >= 4:
+        if len(near) >= 4 and self._alike(near):
             yield near.tolist()
 
     def _strips(self, facet: int) -> Iterator[list[int]]:
         """A facet between two neighbours."""
         near = [n for n in self.neighbours[facet] if self.free[n]]
         for a, b in combinations(near, 2):
-            if b not in self.neighbours[a]:
+            if b not in self.neighbours[a] and self._alike([a, facet, b]):
                 yield [a, facet, b]
+
+    def _alike(self, which: list[int] | np.ndarray) -> bool:
+        """Whether facets are about as large: a flat face among them, or a part of the next face, costs no fit."""
+        return bool(self.area[which].max() < _LARGER * self.area[which].min())
 
     def _triangles(self, which: list[int] | np.ndarray) -> Rows:
         return self.rows[np.sort(np.concatenate([self.members[k] for k in which]))]
@@ -123,9 +136,16 @@ class Growth:
         taken[seed] = True
         for _ in range(_ROUNDS):
             good = on(self.mesh, surface, self.rows, 4 * within, CHORD)
+            self.work += len(self.rows)
             taken = np.append(taken, np.zeros(self._rid(good), bool))
             now = self._around(seed, good)
             better = surface_of(self.mesh, self._triangles(np.flatnonzero(now)), within, torus=True)
+            if better is None:  # a triangle of the next face may happen to be near
+                areas = self.mesh.areas[self.rows]
+                good &= areas * _SMALL > np.median(areas[now[self.facet_of]])
+                taken = np.append(taken, np.zeros(self._rid(good), bool))
+                now = self._around(seed, good)
+                better = surface_of(self.mesh, self._triangles(np.flatnonzero(now)), within, torus=True)
             if better is None or type(better) is not type(surface):
                 break
             surface, same, taken = better, np.array_equal(now, taken), now

@@ -16,6 +16,9 @@ from jaxkin.geometry.growth import LOOSE, TIGHT, Growth, Region
 _STRAY = 0.8
 """Radians between a lone triangle and the surface that holds its corners, next to facets of that surface."""
 
+_FEW = 4
+"""Triangles left over between faces: each may be of one of them."""
+
 
 def regions(mesh: Facets) -> list[Region]:
     """All triangles of a solid, by faces, in the order of their first triangles."""
@@ -35,10 +38,12 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
     if region.surface is None or not region.is_round:
         return [region]
     arc = arcs(mesh, region.surface, region.rows)
-    parts = grouped(mesh.facet_of[region.rows])
-    widths = np.array([arc[part].max() for part in parts])
+    facet = np.unique(mesh.facet_of[region.rows], return_inverse=True)[1]
+    widths = np.zeros(int(facet.max()) + 1)
+    np.maximum.at(widths, facet, arc)
     # a lone triangle may be as wide as the mesher liked, where the face has a jagged rim
-    wide = [region.rows[p] for p, w in zip(parts, widths, strict=True) if len(p) > 1 and w > UNEVEN * np.median(widths)]
+    wide_ones = np.flatnonzero((np.bincount(facet) > 1) & (widths > UNEVEN * np.median(widths)))
+    wide = [region.rows[facet == k] for k in wide_ones]
     flats = [Region(surface_of(mesh, rows, LOOSE * mesh.tolerance, one_facet=True), rows) for rows in wide]
     return [Region(region.surface, np.setdiff1d(region.rows, np.concatenate([[], *wide]))), *flats]
 
@@ -53,7 +58,9 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
         if region.is_round:
             owner[region.rows] = k
     lone = np.bincount(mesh.facet_of)[mesh.facet_of] == 1
-    lone[[region.rows[0] for region in found if len(region.rows) == 1]] = True
+    for region in found:
+        if len(region.rows) == 1 or (region.surface is None and len(region.rows) <= _FEW):
+            lone[region.rows] = True
     left = len(owner) + 1
     while np.sum(owner < 0) < left:
         left = int(np.sum(owner < 0))

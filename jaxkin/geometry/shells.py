@@ -14,7 +14,7 @@ Rows = Int[np.ndarray, "_"]
 _SAMPLES = 200
 """Triangles at whose middles the sides are checked."""
 
-_SOLID_ANGLES = 20_000_000
+_SOLID_ANGLES = 8_000_000
 """Bounds the time of that check."""
 
 

@@ -6,13 +6,18 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from jaxkin.geometry.part import Part
+import numpy as np
+
+from jaxkin.geometry.part import Part, size
 from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.step import read_step
 from jaxkin.io.units import METRES
 from jaxkin.motion.assembly import Assembly
 
 STEP = (".step", ".stp")
+
+_TWINS = 1e-6
+"""Of the size of the assembly; two copies in the same place differ by the rounding of their placements at most."""
 
 
 def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = None) -> Assembly:
@@ -29,7 +34,7 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     if isinstance(source, str | Path):
         parts, said = _read(Path(source))
-        return Assembly(parts, _agreed({Path(source).name: said}, unit), Path(source).name)
+        return Assembly(_apart(parts), _agreed({Path(source).name: said}, unit), Path(source).name)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(
             f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
@@ -38,7 +43,7 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
     for name, file in source.items():
         found, units[f"{name} ({Path(file).name})"] = _read(Path(file), name)
         parts += found
-    return Assembly(tuple(parts), _agreed(units, unit), ", ".join(Path(file).name for file in source.values()))
+    return Assembly(_apart(tuple(parts)), _agreed(units, unit), ", ".join(Path(file).name for file in source.values()))
 
 
 def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
@@ -60,6 +65,21 @@ def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
             f"load the file as an assembly, load({str(path)!r})"
         )
     return tuple(replace(part, name=name) for part in parts), unit
+
+
+def _apart(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """The parts, no two of them the same solid in the same place."""
+    near = _TWINS * size(parts)
+    seen: dict[int, list[Part]] = {}
+    for part in parts:
+        for other in seen.setdefault(len(part.triangles), []):
+            same = np.abs(part.box - other.box).max() < near
+            if same and np.linalg.norm(part.triangles.mean(axis=(0, 1)) - other.triangles.mean(axis=(0, 1))) < near:
+                raise ValueError(
+                    f"the parts {other.name!r} and {part.name!r} are the same solid in the same place: leave one out"
+                )
+        seen[len(part.triangles)].append(part)
+    return parts
 
 
 def _agreed(said: Mapping[str, str], unit: str | None) -> str:

@@ -13,6 +13,7 @@ from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
+from jaxkin.io.mesh_check import PARTS
 from jaxkin.io.mesh_nodes import Node, read_nodes
 from jaxkin.io.names import unique
 
@@ -39,7 +40,6 @@ def read_mesh(path: str | Path, whole: str | None = None) -> tuple[tuple[Part, .
         solids = _bodies(nodes[0], path)
     names = unique(solid.name for solid in solids)
     parts = tuple(_part(name, solid, path.name) for name, solid in zip(names, solids, strict=True))
-    _refuse_twins(parts, path.name)
     return parts, unit
 
 
@@ -47,7 +47,10 @@ def _bodies(node: Node, path: Path) -> list[Node]:
     """The connected bodies of a node."""
     welded = weld(node.corners, 2 * node.tolerance)
     corners = welded.points[welded.triangles]
-    found = bodies(corners, shells(welded)) if len(corners) else []
+    closed = shells(welded) if len(corners) else []
+    if len(closed) > PARTS:
+        raise ValueError(f"{path.name} holds {len(closed)} bodies, more than {PARTS}: export it part by part")
+    found = bodies(corners, closed) if closed else []
     if len(found) < 2 or len(welded.open_edges):
         return [Node(path.stem, node.color, node.corners, node.grain)]
     return [Node(f"part {number}", node.color, corners[rows], node.grain) for number, rows in enumerate(found, start=1)]
@@ -68,6 +71,9 @@ def _part(name: str, solid: Node, source: str) -> Part:
             f"({place}); repair the mesh, or export the part as a solid"
         )
     triangles = welded.triangles
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=-1).sum() / 2
+    if abs(volume(corners)) <= 2 * solid.tolerance * area:
+        raise ValueError(f"{where} is a sheet, or nothing: its triangles hold no volume; export it as a solid")
     if volume(corners) < 0:
         triangles, corners = triangles[:, ::-1], corners[:, ::-1]
         notes.append("its triangles faced inwards: turned round")
@@ -86,16 +92,3 @@ def _part(name: str, solid: Node, source: str) -> Part:
         else:
             faces.append(Face(label, region.surface, corners[region.rows]))
     return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.grain)
-
-
-def _refuse_twins(parts: tuple[Part, ...], source: str) -> None:
-    """Refuse a body that is there twice in the same place."""
-    seen: dict[bytes, str] = {}
-    for part in parts:
-        flat = part.triangles.reshape(-1, 3)
-        key = flat[np.lexsort(flat.T)].tobytes()
-        if key in seen:
-            raise ValueError(
-                f"{source}: the parts {seen[key]!r} and {part.name!r} are the same solid in the same place"
-            )
-        seen[key] = part.name

@@ -9,8 +9,11 @@ import re
 import zipfile
 from pathlib import Path
 
-MOST = 2_000_000
+MOST = 1_000_000
 """Triangles of a file; a large assembly has some hundred thousand."""
+
+PARTS = 5_000
+"""Nodes, or bodies, of a file: each takes some hundredths of a second."""
 
 LARGEST = 500_000_000
 """Bytes of a file, or of what is packed in it: what `MOST` triangles take as text."""

@@ -16,13 +16,16 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
-from jaxkin.io.mesh_check import MOST, check, is_binary_stl, too_many
+from jaxkin.io.mesh_check import MOST, PARTS, check, is_binary_stl, too_many
 
 SECONDS = 120
 """For one file; a binary one of `MOST` triangles takes five, as text half a minute."""
 
 MEMORY = 8 << 30
 """Bytes of address space for the reader, most of it never used: `MOST` triangles as text take two."""
+
+_LEAST, _GREATEST = 1e-15, 1e15
+"""Sizes of parts, from what is a micrometre in thousands of kilometres to the other way round."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +73,7 @@ def _by_trimesh(path: Path) -> list[Node]:
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "nodes.npz"
         worker = Path(__file__).with_name("mesh_worker.py")
-        command = [sys.executable, "-P", str(worker), kind, str(MOST), str(MEMORY), str(target), str(path)]
+        command = [sys.executable, "-P", str(worker), kind, str(MOST), str(PARTS), str(MEMORY), str(target), str(path)]
         try:
             done = subprocess.run(
                 command, capture_output=True, text=True, errors="replace", check=False, timeout=SECONDS
@@ -99,9 +102,14 @@ def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.nd
         corners = corners[:, ::-1]
     grain = 3e-7 * float(np.abs(corners).max() * scale.max())
     node = Node(name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), grain)
-    if not np.all(np.isfinite(node.corners)) or not 0 < 200 * grain < 1e6 * node.tolerance:
+    size = float(np.linalg.norm(np.ptp(node.corners.reshape(-1, 3), axis=0)))
+    if size == 0:
+        raise ValueError(f"{source}: all its triangles are one point: export the part as a solid")
+    if not _LEAST < size < _GREATEST:
+        raise ValueError(f"{source}: a part of the size {size:.2g} is none in any unit: export it in a usual one")
+    if size < 200 * grain:
         raise ValueError(
-            f"{source}: coordinates up to {np.abs(corners).max():.2g} leave too few digits for the size of the part; "
-            "export it nearer to the origin, in a usual unit"
+            f"{source}: coordinates up to {np.abs(node.corners).max():.2g} leave too few digits for a part of the size "
+            f"{size:.2g}: export it nearer to the origin"
         )
     return node

@@ -1,4 +1,4 @@
-"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST BYTES TARGET FILE`.
+"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST PARTS BYTES TARGET FILE`.
 
 What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
 so that it starts at once. TARGET becomes a .npz of the triangles of every node, and their names.
@@ -7,12 +7,17 @@ so that it starts at once. TARGET becomes a .npz of the triangles of every node,
 import contextlib
 import json
 import sys
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 
-def main(kind: str, most: int, memory: int, target: str, source: str) -> None:
+class Refused(Exception):
+    """What the reader would take, but is too much or makes no sense."""
+
+
+def main(kind: str, most: int, parts: int, memory: int, target: str, source: str) -> None:
     """Write the nodes of a file, or the reason why there are none, as one line on standard error."""
     with contextlib.suppress(ImportError, ValueError):  # not on every system
         import resource
@@ -20,11 +25,13 @@ def main(kind: str, most: int, memory: int, target: str, source: str) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     try:
         with open(source, "rb") as file:
-            nodes = read(file, kind, most)
+            nodes = read(file, kind, most, parts)
     except MemoryError:
         sys.exit("it asks for more memory than a mesh of that size needs")
     except RecursionError:
         sys.exit("its nodes are nested without end")
+    except Refused as error:
+        sys.exit(str(error))
     except Exception as error:
         sys.exit(f"{type(error).__name__}: {error}".splitlines()[0][:200])
     arrays = {f"{key}{k}": node[key] for k, node in enumerate(nodes) for key in ("corners", "pose")}
@@ -32,12 +39,15 @@ def main(kind: str, most: int, memory: int, target: str, source: str) -> None:
     np.savez(target, **arrays, about=np.array(json.dumps(about)))
 
 
-def read(file, kind: str, most: int) -> list[dict]:
+def read(file, kind: str, most: int, parts: int) -> list[dict]:
     """Nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the world."""
     # what trimesh could use and reading does without takes twice as long to import as all the rest
     for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if kind != "3mf" else ())):
         sys.modules[module] = None  # pyright: ignore[reportArgumentType]
-    from trimesh import Trimesh, load_scene
+    from trimesh import Trimesh, graph, load_scene
+
+    if kind == "3mf":  # trimesh gives up the search without a word when there are many instances
+        graph.multigraph_paths = partial(instances, parts=parts)
 
     options: dict[str, dict[str, Any]] = {
         "obj": {"split_objects": True, "group_material": False, "skip_materials": True},
@@ -47,17 +57,35 @@ def read(file, kind: str, most: int) -> list[dict]:
     scene = load_scene(file, file_type=kind, process=False, **options.get(kind, {}))
     nodes, total = [], 0
     order = list(scene.geometry)
+    if len(scene.graph.nodes_geometry) > parts:
+        raise Refused(f"it holds more than {parts} parts")
     placed = [(name, *scene.graph[name]) for name in scene.graph.nodes_geometry]
-    for name, pose, geometry in sorted(placed, key=lambda node: (order.index(node[2]), str(node[0]))):
+    for name, pose, geometry in sorted(placed, key=lambda node: (order.index(node[2]), len(node[0]), node[0])):
         mesh = scene.geometry[geometry]
         if isinstance(mesh, Trimesh) and len(mesh.faces):
             total += len(mesh.faces)
             if total > most:
-                raise ValueError(f"it holds more than {most} triangles")
+                raise Refused(f"it holds more than {most} triangles")
             if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices):
-                raise ValueError("its triangles name corners that are not there")
+                raise Refused("its triangles name corners that are not there")
             nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": pose})
     return nodes
+
+
+def instances(G, source, parts: int) -> list[list]:
+    """All paths from the source to the leaves of a graph with several edges between two nodes, as (node, edge)."""
+    found, todo = [], [[(source, 0)]]
+    while todo:
+        path = todo.pop()
+        below = G[path[-1][0]]
+        if len(path) > 100:
+            raise RecursionError
+        if not below:
+            found.append(path)
+        if len(found) + len(todo) > parts:
+            raise Refused(f"it holds more than {parts} parts")
+        todo += [[*path, (node, edge)] for node in reversed(list(below)) for edge in reversed(list(below[node]))]
+    return found
 
 
 def color(mesh) -> list[float] | None:
@@ -68,4 +96,4 @@ def color(mesh) -> list[float] | None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4], sys.argv[5])
+    main(sys.argv[1], *map(int, sys.argv[2:5]), *sys.argv[5:])

@@ -16,9 +16,21 @@ TESSELLATION = {"tol_linear": 0.01, "tol_relative": True, "tol_angular": 0.2}
 _SCRIPT = """
 import sys
 sys.modules["trimesh"] = None
+try:
+    import resource
+    resource.setrlimit(resource.RLIMIT_AS, ({memory}, {memory}))
+except (ImportError, ValueError):  # not on every system
+    pass
 import cascadio
 cascadio.step_to_glb(sys.argv[1], sys.argv[2], include_brep=True, **{tessellation})
 """
+
+
+SECONDS = 300
+"""For one file; hundreds of solids take some ten."""
+
+MEMORY = 16 << 30
+"""Bytes of address space for the reader, most of it never used."""
 
 
 def convert(data: bytes, name: str) -> bytes:
@@ -29,8 +41,16 @@ def convert(data: bytes, name: str) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder) / "in.step", Path(folder) / "out.glb"
         source.write_bytes(data)
-        command = [sys.executable, "-P", "-c", _SCRIPT.format(tessellation=TESSELLATION), str(source), str(target)]
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+        script = _SCRIPT.format(tessellation=TESSELLATION, memory=MEMORY)
+        command = [sys.executable, "-P", "-c", script, str(source), str(target)]
+        try:
+            done = subprocess.run(
+                command, capture_output=True, text=True, errors="replace", check=False, timeout=SECONDS
+            )
+        except subprocess.TimeoutExpired:
+            raise ValueError(
+                f"{name} was not read within {SECONDS} seconds: it is damaged, or larger than can be used"
+            ) from None
         glb = target.read_bytes() if target.exists() else b""
     said = done.stdout + done.stderr
     if "Traceback" in said:
