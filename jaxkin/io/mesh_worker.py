@@ -96,4 +96,5 @@ def color(mesh) -> list[float] | None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], *map(int, sys.argv[2:5]), *sys.argv[5:])
+    kind, most, parts, memory, target, source = sys.argv[1:]
+    main(kind, int(most), int(parts), int(memory), target, source)
