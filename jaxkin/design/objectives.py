@@ -65,7 +65,7 @@ def path(
 ) -> Objective:
     """Path generation: a point of a part is to pass through target points. Square of their distances.
 
-    `point` is where it is in the assembled pose, (x, y, z), or the name of an extra variable. With `timing` pose i is
+    `point` is where it is in the assembled pose, (x, y, z) or (x, y), or the name of an extra variable. With `timing` pose i is
     to reach target i; without it each target is measured from the nearest place of the path, straight between poses.
     `targets` have the world coordinates named by `components`, x and y by default. `placement` names an extra variable
     (x, y, angle) by which the whole mechanism is moved in the plane x y before it is compared.
@@ -73,7 +73,7 @@ def path(
     wanted = as_rows(targets, "path targets", len(components))
 
     def traced_path(motion: Motion, extras: Extras):
-        found = motion.points(part, extras[point] if isinstance(point, str) else point)
+        found = motion.points(part, _point(point, extras))
         if placement is not None:
             x, y, angle = extras[placement]
             cos, sin = jnp.cos(angle), jnp.sin(angle)
@@ -135,14 +135,14 @@ def guidance(part: str, point: Sequence[float | int] | str, targets: Any, *, siz
     wanted = as_rows(targets, "guidance targets", 3)
 
     def rows(motion: Motion, extras: Extras):
-        found = motion.points(part, extras[point] if isinstance(point, str) else point)[:, :2]
+        found = motion.points(part, _point(point, extras))[:, :2]
         turn = motion.transforms[part][:, :3, :3]
         angle = jnp.arctan2(turn[:, 1, 0], turn[:, 0, 0]) - wanted[:, 2]
         # 2 sin(half) is the angle for small ones, smooth, and the same for full turns
         return jnp.concatenate([(found - wanted[:, :2]).ravel(), size * 2 * jnp.sin(angle / 2)])
 
     def draw(axes, motion: Motion, extras: Extras, style: dict):
-        found = np.asarray(motion.points(part, extras[point] if isinstance(point, str) else point))
+        found = np.asarray(motion.points(part, _point(point, extras)))
         turn = np.asarray(motion.transforms[part])
         angle = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
         axes.plot(found[:, 0], found[:, 1], **style)
@@ -207,6 +207,12 @@ def dwell(joint: str, poses: Any) -> Objective:
         axes.set_ylabel(joint)
 
     return Objective((("dwell", 1.0, rows, draw),))
+
+
+def _point(point: Any, extras: Extras):
+    """Coordinates of a point that may be an extra variable; (x, y) is in the plane z = 0."""
+    found = jnp.asarray(extras[point] if isinstance(point, str) else point, float)
+    return jnp.append(found, 0.0) if found.shape == (2,) else found
 
 
 def _nearest(places: Float[Array, "poses k"], targets: Float[Array, "targets k"]) -> Float[Array, "targets k"]:

@@ -16,7 +16,7 @@ from jaxkin.design.objectives import Objective
 from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, Solver, bounded, least_squares
-from jaxkin.design.variables import inside, spread, variables
+from jaxkin.design.variables import Variables, inside, spread, variables
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 
@@ -93,7 +93,7 @@ def optimize(
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
     vectors, weight = _best_of(solver, pool, starts)
     weight = penalty if penalty is not None else weight
-    _warn_of_idle(solver, inside(chosen, vectors), weight, chosen.names)
+    _warn_of_idle(solver, inside(chosen, vectors), weight, chosen)
 
     history: list[np.ndarray] = []
     bar = _Bar(iterations, progress)
@@ -196,9 +196,11 @@ def _rank(losses, violations) -> int:
     return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))
 
 
-def _warn_of_idle(solver: Solver, vectors, weight: float, names: list[str]) -> None:
+def _warn_of_idle(solver: Solver, vectors, weight: float, chosen: Variables) -> None:
     slopes = np.asarray(solver.slopes(solver.begin(vectors, weight)))
-    idle = [name for name, slope in zip(names, slopes.T, strict=True) if not np.any(slope)]
+    loose = chosen.upper > chosen.lower
+    idle = [name for name, slope in zip(chosen.names, slopes.T, strict=True) if not np.any(slope)]
+    idle = [name for name, free in zip(chosen.names, loose, strict=True) if free and name in idle]
     if idle:
         warnings.warn(
             f"the loss does not depend on {', '.join(idle)}: the derivative is exactly zero for every start, and "

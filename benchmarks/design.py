@@ -1,0 +1,161 @@
+"""Many designs at once, and what derivatives cost, beside formulas written by hand in JAX, in one process.
+
+    python benchmarks/design.py [gradient] [ratios] [batch]
+
+Medians of repeated runs, results awaited; wall time. Machines differ and are noisy: compare the figures of one run.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+from reference import catalogue, mechanisms
+
+SECONDS, RUNS = 2.0, 15
+"""Each figure is the median of so many runs, or of those that fit into this time, at least of three."""
+BARS = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")]
+NOW = [100.0, 40.0, 120.0, 80.0]
+POINT = (30.0, 60.0, 0.0)
+TOGETHER = 100
+"""Designs that go through one batch of a compiled call over very many: their knots stay in the cache."""
+
+
+def median_time(function, *args) -> tuple[float, float]:
+    """Seconds of a call, and of its first run."""
+    begin = time.perf_counter()
+    jax.block_until_ready(function(*args))
+    first = time.perf_counter() - begin
+    times: list[float] = []
+    while len(times) < 3 or (len(times) < RUNS and sum(times) < SECONDS):
+        begin = time.perf_counter()
+        jax.block_until_ready(function(*args))
+        times.append(time.perf_counter() - begin)
+    return float(np.median(times)), first
+
+
+def dyad(bars, theta):
+    """Crank pin and rocker pin of a four-bar by the intersection of two circles; poses, and designs, in the last axes."""
+    ground, crank, coupler, rocker = bars
+    x, y = crank * jnp.cos(theta), crank * jnp.sin(theta)
+    across, up = ground - x, -y
+    square = across * across + up * up
+    along = (coupler**2 - rocker**2 + square) / (2.0 * square)
+    beside = jnp.sqrt(coupler**2 / square - along * along)
+    return x, y, x + along * across - beside * up, y + along * up + beside * across
+
+
+def by_hand(bars, theta, point):
+    """Path of a coupler point, given along and across the coupler."""
+    x, y, rocker_x, rocker_y = dyad(bars, theta)
+    along, up = (rocker_x - x) / bars[2], (rocker_y - y) / bars[2]
+    return jnp.stack([x + point[0] * along - point[1] * up, y + point[0] * up + point[1] * along], axis=-1)
+
+
+def gradient() -> None:
+    """Gradient of a path error over 360 poses with respect to all four bars."""
+    mechanism, start = mechanisms.planar_fourbar(1.0), 1.0
+    inputs = jnp.linspace(0.0, 2 * jnp.pi, 360)
+    pins = [mechanism.joints[name].before[0][:2, 3] for name in "BC"]
+    unit = (pins[1] - pins[0]) / 120.0
+    local = jnp.array([unit @ (POINT[:2] - pins[0]), unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0])])
+    wanted = by_hand(jnp.array(NOW), start + inputs, local) + jnp.array([1.0, 2.0])
+
+    def ours(bars):
+        motion = mechanism.with_lengths(dict(zip(BARS, bars, strict=True))).sweep({"A": inputs})
+        return jnp.sum((motion.points("coupler", POINT)[:, :2] - wanted) ** 2)
+
+    def hand(bars):
+        return jnp.sum((by_hand(bars, start + inputs, local) - wanted) ** 2)
+
+    bars = jnp.array([101.0, 39.0, 122.0, 79.0])
+    one, other = jax.jit(jax.grad(ours)), jax.jit(jax.grad(hand))
+    far = float(jnp.max(jnp.abs(one(bars) / other(bars) - 1)))
+    print("gradient of a path error, 360 poses, four bars       ms   first [s]")
+    for name, function in {
+        "loss": jax.jit(ours),
+        "gradient": one,
+        "gradient of the formula by hand": other,
+    }.items():
+        seconds, first = median_time(function, bars)
+        print(f"  {name:45}{seconds * 1e3:>8.2f}{first:>10.1f}", flush=True)
+    print(f"  largest relative difference of the two gradients {far:.1e}\n")
+
+
+def ratios() -> None:
+    """Derivatives over the forward sweep, 360 poses: reverse for all frames at once, velocity and acceleration nested."""
+    inputs = jnp.linspace(0.0, 2 * jnp.pi, 360)
+    print("over the forward sweep, 360 poses    forward [ms]   reverse  velocity  acceleration")
+    cases = {
+        "four-bar": (mechanisms.planar_fourbar(1.0), "A"),
+        "Jansen leg": (catalogue.jansen(), "O"),
+        "spherical four-bar": (mechanisms.spherical_linkage(1.0), "A"),
+    }
+    for name, (mechanism, joint) in cases.items():
+
+        def place(mechanism, inputs, joint=joint):
+            return jnp.concatenate(mechanism.sweep({joint: inputs}).displacements, axis=1)
+
+        def loss(mechanism, inputs, place=place):
+            return jnp.sum(place(mechanism, inputs) ** 2)
+
+        def velocity(mechanism, inputs, place=place):
+            return jax.jvp(lambda u: place(mechanism, u), (inputs,), (jnp.ones_like(inputs),))
+
+        def acceleration(mechanism, inputs, velocity=velocity):
+            return jax.jvp(lambda u: velocity(mechanism, u), (inputs,), (jnp.ones_like(inputs),))
+
+        forward, *rest = (
+            median_time(jax.jit(function), mechanism, inputs)[0]
+            for function in (loss, jax.value_and_grad(loss), velocity, acceleration)
+        )
+        print(f"  {name:35}{forward * 1e3:>12.2f}" + "".join(f"{each / forward:>10.2f}" for each in rest), flush=True)
+    print()
+
+
+def batch() -> None:
+    """10,000 four-bars and 1,000 Jansen legs, 200 poses each, in one compiled call."""
+    inputs = jnp.linspace(0.0, 2 * jnp.pi, 200)
+    random = np.random.default_rng(0)
+    print("designs of 200 poses in one call      designs   ms a call   ns a pose   closed   first [s]")
+
+    def line(name, count, seconds, first, closed):
+        nanoseconds = seconds / count / 200 * 1e9
+        print(f"  {name:35}{count:>8}{seconds * 1e3:>12.1f}{nanoseconds:>12.0f}{closed:>9.1%}{first:>12.1f}", flush=True)
+
+    def many(mechanism, keys, joint):
+        def one(lengths):
+            motion = mechanism.with_lengths(dict(zip(keys, lengths, strict=True))).sweep({joint: inputs})
+            return motion.displacements, motion.closed
+
+        return jax.jit(lambda designs: lax.map(one, designs, batch_size=TOGETHER))
+
+    bars = jnp.asarray(np.array(NOW) * random.uniform(0.97, 1.03, (10_000, 4)))
+    hand = jax.jit(lambda bars, theta: dyad(bars[..., None].swapaxes(0, 1), theta))
+    seconds, first = median_time(hand, bars, 1.0 + inputs)
+    line("four-bars by hand", len(bars), seconds, first, 1.0)
+    ours = many(mechanisms.planar_fourbar(1.0), BARS, "A")
+    seconds, first = median_time(ours, bars)
+    line("four-bars", len(bars), seconds, first, float(jnp.mean(ours(bars)[1])))
+
+    leg = catalogue.jansen()
+    keys = [key for key in leg.lengths if len(key) == 3]
+    now = np.array([float(leg.lengths[key]) for key in keys])
+    legs = jnp.asarray(now * random.uniform(0.99, 1.01, (1_000, len(now))))
+    ours = many(leg, keys, "O")
+    seconds, first = median_time(ours, legs)
+    line(f"Jansen legs, {len(keys)} lengths", len(legs), seconds, first, float(jnp.mean(ours(legs)[1])))
+
+
+if __name__ == "__main__":
+    jax.config.update("jax_enable_x64", True)
+    print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64\n")
+    for name in sys.argv[1:] or ("gradient", "ratios", "batch"):
+        {"gradient": gradient, "ratios": ratios, "batch": batch}[name]()
