@@ -65,7 +65,9 @@ def gradient() -> None:
     inputs = jnp.linspace(0.0, 2 * jnp.pi, 360)
     pins = [mechanism.joints[name].before[0][:2, 3] for name in "BC"]
     unit = (pins[1] - pins[0]) / 120.0
-    local = jnp.array([unit @ (POINT[:2] - pins[0]), unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0])])
+    local = jnp.array(
+        [unit @ (POINT[:2] - pins[0]), unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0])]
+    )
     wanted = by_hand(jnp.array(NOW), start + inputs, local) + jnp.array([1.0, 2.0])
 
     def ours(bars):
@@ -128,7 +130,9 @@ def batch() -> None:
 
     def line(name, count, seconds, first, closed):
         nanoseconds = seconds / count / 200 * 1e9
-        print(f"  {name:35}{count:>8}{seconds * 1e3:>12.1f}{nanoseconds:>12.0f}{closed:>9.1%}{first:>12.1f}", flush=True)
+        print(
+            f"  {name:35}{count:>8}{seconds * 1e3:>12.1f}{nanoseconds:>12.0f}{closed:>9.1%}{first:>12.1f}", flush=True
+        )
 
     def many(mechanism, keys, joint):
         def one(lengths):
