@@ -2,7 +2,8 @@
 
     python benchmarks/design.py [gradient] [ratios] [batch]
 
-Medians of repeated runs, results awaited; wall time. Machines differ and are noisy: compare the figures of one run.
+The shortest of repeated runs, results awaited, since other work on the machine only lengthens them. Machines differ:
+compare the figures of one run.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from reference import catalogue, mechanisms
 
 SECONDS, RUNS = 2.0, 15
-"""Each figure is the median of so many runs, or of those that fit into this time, at least of three."""
+"""Each figure is the shortest of so many runs, or of those that fit into this time, at least of three."""
 BARS = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D")]
 NOW = [100.0, 40.0, 120.0, 80.0]
 POINT = (30.0, 60.0, 0.0)
@@ -28,7 +29,7 @@ TOGETHER = 100
 """Designs that go through one batch of a compiled call over very many: their knots stay in the cache."""
 
 
-def median_time(function, *args) -> tuple[float, float]:
+def least_time(function, *args) -> tuple[float, float]:
     """Seconds of a call, and of its first run."""
     begin = time.perf_counter()
     jax.block_until_ready(function(*args))
@@ -38,11 +39,11 @@ def median_time(function, *args) -> tuple[float, float]:
         begin = time.perf_counter()
         jax.block_until_ready(function(*args))
         times.append(time.perf_counter() - begin)
-    return float(np.median(times)), first
+    return min(times), first
 
 
 def dyad(bars, theta):
-    """Crank pin and rocker pin of a four-bar by the intersection of two circles; poses, and designs, in the last axes."""
+    """Crank pin and rocker pin of a four-bar by two circles; poses, and designs, in the last axes."""
     ground, crank, coupler, rocker = bars
     x, y = crank * jnp.cos(theta), crank * jnp.sin(theta)
     across, up = ground - x, -y
@@ -86,13 +87,13 @@ def gradient() -> None:
         "gradient": one,
         "gradient of the formula by hand": other,
     }.items():
-        seconds, first = median_time(function, bars)
+        seconds, first = least_time(function, bars)
         print(f"  {name:45}{seconds * 1e3:>8.2f}{first:>10.1f}", flush=True)
     print(f"  largest relative difference of the two gradients {far:.1e}\n")
 
 
 def ratios() -> None:
-    """Derivatives over the forward sweep, 360 poses: reverse for all frames at once, velocity and acceleration nested."""
+    """Derivatives over the forward sweep: reverse for all frames at once, velocity and acceleration nested."""
     inputs = jnp.linspace(0.0, 2 * jnp.pi, 360)
     print("over the forward sweep, 360 poses    forward [ms]   reverse  velocity  acceleration")
     cases = {
@@ -115,7 +116,7 @@ def ratios() -> None:
             return jax.jvp(lambda u: velocity(mechanism, u), (inputs,), (jnp.ones_like(inputs),))
 
         forward, *rest = (
-            median_time(jax.jit(function), mechanism, inputs)[0]
+            least_time(jax.jit(function), mechanism, inputs)[0]
             for function in (loss, jax.value_and_grad(loss), velocity, acceleration)
         )
         print(f"  {name:35}{forward * 1e3:>12.2f}" + "".join(f"{each / forward:>10.2f}" for each in rest), flush=True)
@@ -143,10 +144,10 @@ def batch() -> None:
 
     bars = jnp.asarray(np.array(NOW) * random.uniform(0.97, 1.03, (10_000, 4)))
     hand = jax.jit(lambda bars, theta: dyad(bars[..., None].swapaxes(0, 1), theta))
-    seconds, first = median_time(hand, bars, 1.0 + inputs)
+    seconds, first = least_time(hand, bars, 1.0 + inputs)
     line("four-bars by hand", len(bars), seconds, first, 1.0)
     ours = many(mechanisms.planar_fourbar(1.0), BARS, "A")
-    seconds, first = median_time(ours, bars)
+    seconds, first = least_time(ours, bars)
     line("four-bars", len(bars), seconds, first, float(jnp.mean(ours(bars)[1])))
 
     leg = catalogue.jansen()
@@ -154,7 +155,7 @@ def batch() -> None:
     now = np.array([float(leg.lengths[key]) for key in keys])
     legs = jnp.asarray(now * random.uniform(0.99, 1.01, (1_000, len(now))))
     ours = many(leg, keys, "O")
-    seconds, first = median_time(ours, legs)
+    seconds, first = least_time(ours, legs)
     line(f"Jansen legs, {len(keys)} lengths", len(legs), seconds, first, float(jnp.mean(ours(legs)[1])))
 
 

@@ -65,10 +65,10 @@ def path(
 ) -> Objective:
     """Path generation: a point of a part is to pass through target points. Square of their distances.
 
-    `point` is where it is in the assembled pose, (x, y, z) or (x, y), or the name of an extra variable. With `timing` pose i is
-    to reach target i; without it each target is measured from the nearest place of the path, straight between poses.
-    `targets` have the world coordinates named by `components`, x and y by default. `placement` names an extra variable
-    (x, y, angle) by which the whole mechanism is moved in the plane x y before it is compared.
+    `point` is where it is in the assembled pose, (x, y, z) or (x, y), or the name of an extra variable. With `timing`
+    pose i is to reach target i; without it each target is measured from the nearest place of the path, straight between
+    poses. `targets` have the world coordinates named by `components`, x and y by default. `placement` names an extra
+    variable (x, y, angle) by which the whole mechanism is moved in the plane x y before it is compared.
     """
     wanted = as_rows(targets, "path targets", len(components))
 
