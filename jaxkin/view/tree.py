@@ -15,7 +15,7 @@ from jaxkin.view.sheet import GREY, Color, Place
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-HIGH, BESIDE, BETWEEN = 0.22, 0.36, 0.5
+HIGH, BESIDE, BETWEEN = 0.22, 0.36, 0.62
 """In inches: a name in its long circle, between elements of a level, and between levels."""
 LOOPS = 8
 """Loops that an element names at most."""
@@ -51,7 +51,8 @@ def boxes(structure: Structure) -> tuple[Box, ...]:
     span = [0.0] * len(elements)
     """What an element needs with all below it."""
     for number in reversed(range(len(elements))):
-        span[number] = max(widths[number] + BESIDE, sum(span[child] for child in below[number]))
+        own = max(widths[number] + BESIDE, _name_width(_tied(elements[number])) + BESIDE / 3)
+        span[number] = max(own, sum(span[child] for child in below[number]))
     middle, top = [0.0] * len(elements), [0.0] * (max(level) + 2)
     for number, depth in enumerate(level):
         top[depth + 1] = min(top[depth + 1], top[depth] - heights[number] - BETWEEN)
@@ -105,12 +106,15 @@ def _lower(box: Box, part: str) -> float:
 
 def _tie(axes: Axes, start: Place, box: Box, element: Element) -> None:
     """The line from the part above, with the joint node on it; the name of the part where they share one."""
-    end = (box.x, box.y)
-    axes.plot([start[0], end[0]], [start[1], end[1]], color=INK, linewidth=0.9, zorder=1)
-    middle = (0.35 * start[0] + 0.65 * end[0], end[1] + 0.24)
-    text = f"at {element.upper}" if element.joint is None else element.joint
+    middle = (box.x, box.y + 0.24)
+    axes.plot([start[0], middle[0], box.x], [start[1], middle[1], box.y], color=INK, linewidth=0.9, zorder=1)
     style = {"boxstyle": "square,pad=0.3", "facecolor": "white", "edgecolor": "white" if element.joint is None else INK}
-    write(axes, middle, text, size=7, bbox=style | {"linewidth": 0.8}, zorder=3)
+    write(axes, middle, _tied(element), size=7, bbox=style | {"linewidth": 0.8}, zorder=3)
+
+
+def _tied(element: Element) -> str:
+    """By what an element hangs on the one above."""
+    return element.joint or f"at {element.upper}"
 
 
 def _element(axes: Axes, box: Box, number: int, element: Element, palette: Sequence[Color]) -> None:
