@@ -26,6 +26,8 @@ PATIENCE = 30
 """Iterations before a start may be given up for its pace."""
 MET = 1e-6
 """Root of the sum of squares of all violations (they are without unit) below which a design counts as feasible."""
+NO_INFLUENCE = 1e-13
+"""Slopes so much smaller than the largest one, for every start, are rounding."""
 ROUNDS, STIFFER = 3, 100.0
 """If the best design violates something, the penalty is made so many times stiffer and the search goes on."""
 
@@ -198,12 +200,13 @@ def _rank(losses, violations) -> int:
 
 def _warn_of_idle(solver: Solver, vectors, weight: float, chosen: Variables) -> None:
     slopes = np.asarray(solver.slopes(solver.begin(vectors, weight)))
-    loose = chosen.upper > chosen.lower
-    idle = [name for name, slope in zip(chosen.names, slopes.T, strict=True) if not np.any(slope)]
-    idle = [name for name, free in zip(chosen.names, loose, strict=True) if free and name in idle]
+    influence = np.max(np.abs(slopes), axis=0)
+    # where terms cancel, as the mean does in a relative error, rounding is left of what is none
+    none = (influence <= NO_INFLUENCE * np.max(influence)) & (chosen.upper > chosen.lower)
+    idle = [name for name, without in zip(chosen.names, none, strict=True) if without]
     if idle:
         warnings.warn(
-            f"the loss does not depend on {', '.join(idle)}: the derivative is exactly zero for every start, and "
+            f"the loss does not depend on {', '.join(idle)}: the derivative is zero for every start, and "
             "nothing will change there; leave it out, or let the loss depend on it",
             stacklevel=3,
         )
