@@ -11,7 +11,7 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin.design.measures import joint_coordinate, transmission_angle
+from jaxkin.design.measures import joint_coordinate, length_now, transmission_angle
 from jaxkin.motion.motion import Motion
 
 Constraint = Callable[[Motion, Mapping[str, Any]], Any]
@@ -21,12 +21,12 @@ Key = tuple[str, ...]
 def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint:
     """The crank of a four-bar turns fully: it is the shortest bar, and with each other one no longer than the rest.
 
-    The four bars are named as in `mechanism.lengths`. For a rocker that turns fully too (a double crank), name the
+    The four bars are named as in `with_lengths`. For a rocker that turns fully too (a double crank), name the
     ground first and the crank in its place.
     """
 
     def margins(motion: Motion, extras: Mapping[str, Any]):
-        g, a, b, c = (motion.mechanism.lengths[key] for key in (ground, crank, coupler, rocker))
+        g, a, b, c = (length_now(motion.mechanism, key) for key in (ground, crank, coupler, rocker))
         total = g + a + b + c
         return jnp.stack([total - 2 * (a + other) for other in (g, b, c)]) / total
 
@@ -36,12 +36,10 @@ def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint
 def grashof(*bars: Key) -> Constraint:
     """Some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
     if len(bars) != 4:
-        raise ValueError(
-            f"grashof: name the four bars of a four-bar by their keys in mechanism.lengths, got {len(bars)}"
-        )
+        raise ValueError(f"grashof: name the four bars of a four-bar by their keys as in with_lengths, got {len(bars)}")
 
     def margins(motion: Motion, extras: Mapping[str, Any]):
-        lengths = jnp.sort(jnp.stack([jnp.asarray(motion.mechanism.lengths[key]) for key in bars]))
+        lengths = jnp.sort(jnp.stack([jnp.asarray(length_now(motion.mechanism, key)) for key in bars]))
         return (lengths[1] + lengths[2] - lengths[0] - lengths[3])[None] / jnp.sum(lengths)
 
     return margins

@@ -6,6 +6,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.motion.lengths import find_length
+from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.topology.names import nearest
 
@@ -32,6 +34,14 @@ def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
     values = joint_coordinate(motion, joint)
     inside = motion.closed
     return jnp.max(jnp.where(inside, values, -jnp.inf)) - jnp.min(jnp.where(inside, values, jnp.inf))
+
+
+def length_now(mechanism: Mechanism, key: tuple[str, ...]):
+    """The value of a length by any key that `with_lengths` knows; ValueError where there is none."""
+    find_length(mechanism, key)
+    row = mechanism.structure.row_of.get(key[0], key[0])
+    same = (row, *key[1:])
+    return mechanism.lengths[same if same in mechanism.lengths else (row, *key[1:3][::-1], *key[3:])]
 
 
 def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:

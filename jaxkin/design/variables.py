@@ -11,6 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.design.measures import length_now
 from jaxkin.motion.lengths import find_length
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.placing import locate
@@ -112,7 +113,7 @@ def variables(
     entries, fixed = [], {}
     for key, bounds in lengths.items():
         length = find_length(mechanism, key)
-        now = mechanism.lengths[_listed(mechanism, key)]
+        now = length_now(mechanism, key)
         least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
         entry = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
         if np.any(entry.lower < least) and not any(f.kind == "plane" for f in length.body):
@@ -135,13 +136,6 @@ def variables(
     if not entries:
         raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
     return Variables(_tied(mechanism, entries, ties), fixed)
-
-
-def _listed(mechanism: Mechanism, key: tuple[str, ...]) -> tuple[str, ...]:
-    """The key under which `mechanism.lengths` has a length that `find_length` knows."""
-    row = mechanism.structure.row_of.get(key[0], key[0])
-    same = (row, *key[1:])
-    return same if same in mechanism.lengths else (row, *key[1:3][::-1], *key[3:])
 
 
 def _free(what: str, bounds: Any, now: Any) -> Free:
