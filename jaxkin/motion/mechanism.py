@@ -13,6 +13,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.forms import forms
+from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.system import Form
 from jaxkin.topology.structure import Structure, structure
 
@@ -81,11 +82,13 @@ class Mechanism:
         """Names of the joints between two parts, in whichever order."""
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
-    def sweep(self, drive: Mapping[str, object]) -> Motion:
+    def sweep(
+        self, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+    ) -> Motion:
         """The motion for given displacements of some joints: see `jaxkin.motion.sweep.sweep`."""
         from jaxkin.motion.sweep import sweep
 
-        return sweep(self, drive)
+        return sweep(self, drive, tolerance=tolerance, method=method)
 
     @cached_property
     def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:

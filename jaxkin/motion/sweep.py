@@ -21,16 +21,21 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.compiled import solve
-from jaxkin.solve.status import Status
+from jaxkin.solve.methods import CONTINUATION, METHODS
+from jaxkin.solve.status import Status, Tolerance
+from jaxkin.solve.status import tolerance as default_tolerance
 from jaxkin.solve.sweep import Poses
 from jaxkin.solve.system import Form
+from jaxkin.topology.names import nearest
 from jaxkin.topology.structure import Block
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
 """Of several loop systems the worst decides the status of the pose."""
 
 
-def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
+def sweep(
+    mechanism: Mechanism, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+) -> Motion:
     """The motion of all parts while some joint coordinates run through given displacements.
 
     `drive` maps "joint" (if it has one coordinate) or "joint.coordinate" to an array of one value a pose: radians, or
@@ -38,12 +43,19 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     motion is followed from the assembled pose; a single input may come in any order, several are followed in the order
     given. Only loops that a driven joint moves are solved; coordinates that nothing drives stay at rest.
 
+    A pose is closed where its residual is at most `tolerance`, and improved no further; by default 1e-12 (2e-6 in
+    float32), and improved down to rounding. `method` names another way to find poses (`jaxkin.solve.methods.METHODS`):
+    for comparison, none is as fast or watches the branch. `jk.work_precision` shows what either costs.
+
     Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`, it is never
     an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that the
     loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
     """
     driven = resolve(mechanism, drive)
     _refuse_dead_ends(mechanism, driven)
+    asked = _tolerance(tolerance)
+    if method not in METHODS:
+        raise ValueError(f"there is no method {method!r}{nearest(method, METHODS)}; there are {', '.join(METHODS)}")
     _warn_of_float32()
     values = tuple(entry.values for entry in driven.values())
     poses = values[0].shape[0]
@@ -51,7 +63,7 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
     for block, form in zip(mechanism.structure.blocks, mechanism.forms, strict=True):
         inside = [entry for entry in driven.values() if entry.joint in block.joints]
         if poses and (inside or _edited([mechanism.all_joints[joint] for joint in block.joints])):
-            solutions.append(_solve_block(mechanism, block, form, inside))
+            solutions.append(_solve_block(mechanism, block, form, inside, method, asked))
             blocks.append(block.joints)
     layout = Layout(
         tuple(joint.freedoms for joint in mechanism.all_joints),
@@ -62,14 +74,23 @@ def sweep(mechanism: Mechanism, drive: Mapping[str, object]) -> Motion:
 
 
 def _solve_block(
-    mechanism: Mechanism, block: Block, form: Form, driven: list[Driven]
+    mechanism: Mechanism, block: Block, form: Form, driven: list[Driven], method: str, tolerance: Tolerance
 ) -> tuple[Float[Array, "columns padded"], Poses]:
     """Displacements and poses of one structure element. Without a drive: one pose for all."""
     driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
     system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), form)
     dtype = driven[0].values.dtype if driven else jnp.zeros(0).dtype
     inputs = _padded([entry.values for entry in driven], dtype)
-    return solve(system, block_joints(mechanism, block), inputs)
+    return solve(system, method, block_joints(mechanism, block), inputs, tolerance)
+
+
+def _tolerance(asked: float | None) -> Tolerance:
+    """The tolerance asked for; without one that of the precision, and poses down to rounding."""
+    if asked is None:
+        return Tolerance(jnp.asarray(default_tolerance(jnp.zeros(0).dtype)), jnp.zeros(()))
+    if not traced(asked) and not float(asked) > 0:
+        raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}")
+    return Tolerance(jnp.asarray(asked, float), jnp.asarray(asked, float))
 
 
 class Layout(NamedTuple):

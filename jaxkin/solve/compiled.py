@@ -7,6 +7,7 @@ poses by the same program as the plain sweep.
 from __future__ import annotations
 
 from functools import cache
+from inspect import signature
 from typing import Any
 
 import jax
@@ -15,7 +16,8 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
-from jaxkin.solve.sweep import MANY, Joints, Poses, displacements, find_poses
+from jaxkin.solve.status import Tolerance
+from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
 
 OPTIONS = {"xla_cpu_use_fusion_emitters": False}
@@ -23,22 +25,21 @@ OPTIONS = {"xla_cpu_use_fusion_emitters": False}
 
 
 def solve(
-    system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]
+    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
 ) -> tuple[Float[Array, "columns poses"], Poses]:
-    """Displacements of all joints, and the poses found: compiled once for a system and a number of poses."""
-    if not traced((joints, inputs)):
-        given, order = _in_order(np.asarray(inputs))
-        found = _program(_solve)(system, joints, given)
+    """Displacements of all joints, and the poses found: compiled once for a system, a method and a number of poses."""
+    if not traced((joints, inputs, tolerance)):
+        given, order = (inputs, None) if method != CONTINUATION else _in_order(np.asarray(inputs))
+        found = _program(_solve)(system, method, joints, given, tolerance)
         return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
-    numbers = lax.stop_gradient((joints, inputs))
+    numbers = lax.stop_gradient((joints, inputs, tolerance))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
-    inside = traced(numbers)
-    poses = (_plain(find_poses) if inside else _program(find_poses))(system, *numbers)
+    poses = (_plain(find_poses) if traced(numbers) else _program(find_poses))(system, method, *numbers)
     return _plain(displacements)(system, joints, inputs, poses), poses
 
 
-def _solve(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]):
-    poses = find_poses(system, joints, inputs)
+def _solve(system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance):
+    poses = find_poses(system, method, joints, inputs, tolerance)
     return displacements(system, joints, inputs, poses), poses
 
 
@@ -53,12 +54,16 @@ def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 
 @cache
 def _plain(function):
-    return jax.jit(function, static_argnums=0)
+    return jax.jit(function, static_argnames=_static(function))
 
 
 @cache
 def _program(function):
-    return jax.jit(function, static_argnums=0, **jit_options())
+    return jax.jit(function, static_argnames=_static(function), **jit_options())
+
+
+def _static(function) -> tuple[str, ...]:
+    return tuple(name for name in ("system", "method") if name in signature(function).parameters)
 
 
 @cache

@@ -50,8 +50,10 @@ def floor(dtype) -> float:
     return 1e-14 if jnp.finfo(dtype).bits == 64 else 1e-6
 
 
-def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int) -> Corrected:
-    """Poses brought as near to closure as the damped steps get; the loop ends when every pose is done."""
+def correct(
+    system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int, enough: Array | float = 0.0
+) -> Corrected:
+    """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
     dtype = state.x.dtype
     eps = float(jnp.finfo(dtype).eps)
 
@@ -76,7 +78,14 @@ def correct(system: LoopSystem, geometry: Geometry, state: State, iterations: Ar
         exhausted = ~taken & ((length < 4 * eps) | (chosen.merit < 0.5 * (64 * eps) ** 2))
         # a residual that nothing lessens any more, though no damping is in the way: the loops cannot close
         least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT) * iterate.closure.merit)
-        done = iterate.done | (chosen.merit < 32 * eps**2) | exhausted | least | ~jnp.isfinite(chosen.merit)
+        done = (
+            iterate.done
+            | (chosen.gap <= enough)
+            | (chosen.merit < 32 * eps**2)
+            | exhausted
+            | least
+            | ~jnp.isfinite(chosen.merit)
+        )
         return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
 
     poses = state.x.shape[-1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import IntEnum
+from typing import NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
@@ -40,11 +41,26 @@ def tolerance(dtype) -> float:
     return 1e-12 if jnp.finfo(dtype).bits == 64 else 2e-6
 
 
+class Tolerance(NamedTuple):
+    """What closure is asked for."""
+
+    closed: Float[Array, ""]
+    """Largest gap of a closed pose."""
+    enough: Float[Array, ""]
+    """A pose whose gap is not larger is not improved any more; zero: down to rounding."""
+
+
 def classify(
-    gap: Float[Array, " poses"], stationary: Bool[Array, " poses"], same_branch: Bool[Array, " poses"]
+    gap: Float[Array, " poses"],
+    stationary: Bool[Array, " poses"],
+    same_branch: Bool[Array, " poses"],
+    largest: Float[Array, ""] | float | None = None,
 ) -> Int[Array, " poses"]:
-    """The status of poses; the first cause in the order NONFINITE, CLOSED or JUMPED, UNREACHABLE, STALLED wins."""
-    closed = gap <= tolerance(gap.dtype)
+    """The status of poses; the first cause in the order NONFINITE, CLOSED or JUMPED, UNREACHABLE, STALLED wins.
+
+    `largest` is the gap of a closed pose, that of `tolerance` if not given.
+    """
+    closed = gap <= (tolerance(gap.dtype) if largest is None else largest)
     status = jnp.where(stationary, Status.UNREACHABLE.value, Status.STALLED.value)
     status = jnp.where(closed, jnp.where(same_branch, Status.CLOSED.value, Status.JUMPED.value), status)
     return jnp.where(jnp.isfinite(gap), status, Status.NONFINITE.value).astype(jnp.int32)

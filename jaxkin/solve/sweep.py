@@ -24,8 +24,9 @@ from jaxkin.solve.correct import choose, correct
 from jaxkin.solve.dense import Poses, interpolate
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
+from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.state import State, angles, assembled, difference, drive, driven
-from jaxkin.solve.status import Status, classify, is_closed
+from jaxkin.solve.status import Status, Tolerance, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
 FARTHEST_CORRECTION = 0.1
@@ -43,11 +44,16 @@ class Joints(NamedTuple):
     pitch: tuple[Float[Array, ""], ...]
 
 
-def find_poses(system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"]) -> Poses:
-    """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism."""
+def find_poses(
+    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+) -> Poses:
+    """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
+
+    `method` is CONTINUATION or one of `minimise.METHODS`.
+    """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
-    return _search(system, geometry, inputs / driven(system, lengths))
+    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance)
 
 
 def displacements(
@@ -69,38 +75,54 @@ def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 
-def _search(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"]) -> Poses:
-    """Closed poses, by continuation from the assembled pose."""
+def _search(
+    system: LoopSystem, method: str, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+) -> Poses:
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
     inputs = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
-        poses = Poses(state, classify(gap, finite, finite), gap)
+        poses = Poses(state, classify(gap, finite, finite, tolerance.closed), gap)
+    elif method != CONTINUATION:
+        from jaxkin.solve.minimise import minimised  # only here: jaxopt takes a third of a second to import
+
+        state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
+        poses = Poses(state, status, gap)
     elif len(system.driven) == 1:
-        poses = _of_one_input(system, geometry, inputs[0])
+        poses = _of_one_input(system, geometry, inputs[0], tolerance)
     elif system.driven:
-        poses = _of_several_inputs(system, geometry, inputs)
+        poses = _of_several_inputs(system, geometry, inputs, tolerance)
     else:
         poses = Poses(*reach(system, geometry, inputs))
     return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
 
 
-def _of_one_input(system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"]) -> Poses:
+def _of_one_input(
+    system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"], tolerance: Tolerance
+) -> Poses:
     """A few poses by themselves, the many between them by interpolation."""
     knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values)
+
+    def settled(values: Float[Array, " poses"]) -> Poses:
+        return _settle(system, geometry, knots, values, values[None], tolerance)
+
     if len(values) < MANY:
-        return _in_groups(lambda values: _settle(system, geometry, knots, values, values[None]), values)
+        return _in_groups(settled, values)
     found, trusted = interpolate(system, geometry, knots, values)
 
     def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
         values, trusted, found = group
-        return lax.cond(jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values, values[None]))
+        return lax.cond(
+            jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values, values[None], tolerance)
+        )
 
     return _in_groups(settle, (values, trusted, found))
 
 
-def _of_several_inputs(system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"]) -> Poses:
+def _of_several_inputs(
+    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+) -> Poses:
     """The poses along a polyline, and those that it does not reach."""
     corners = jnp.concatenate([jnp.zeros_like(inputs[:, :1]), inputs], axis=1)
     lengths = jnp.max(jnp.abs(jnp.diff(corners, axis=1)), axis=0)
@@ -116,7 +138,7 @@ def _of_several_inputs(system: LoopSystem, geometry: Geometry, inputs: Float[Arr
 
     def settle(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
-        found = _settle(system, geometry, knots, at, inputs)
+        found = _settle(system, geometry, knots, at, inputs, tolerance)
         failed = found.status != Status.CLOSED.value
 
         def otherwise() -> Poses:
@@ -153,13 +175,16 @@ def _settle(
     knots: Knots,
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
+    tolerance: Tolerance,
 ) -> Poses:
     """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
     begin = guess(system, knots, at)
     state = drive(system, begin.state, inputs)
-    found = correct(system, geometry, state, RESCUE_STEPS)
+    found = correct(system, geometry, state, RESCUE_STEPS, tolerance.enough)
     near = difference(found.state, state) <= FARTHEST_CORRECTION
-    status = classify(found.closure.gap, found.stationary, near & (begin.status == Status.CLOSED.value))
+    status = classify(
+        found.closure.gap, found.stationary, near & (begin.status == Status.CLOSED.value), tolerance.closed
+    )
     return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
 
 

@@ -1,0 +1,104 @@
+"""The paper's own minimisation: Davidon, Fletcher and Powell (Fletcher and Powell 1963).
+
+A quasi-Newton method whose estimate of the inverse Hessian starts as the unit matrix, with their cubic line search. The
+gradient is by central differences, as it has to be where a programme knows only how to evaluate Eq. 12, or by JAX.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Float
+
+Objective = Callable[[Array], Array]
+Point = Float[Array, " n"]
+ITERATIONS, LINE_STEPS = 200, 20
+
+
+class _Iterate(NamedTuple):
+    count: Array
+    x: Point
+    value: Array
+    gradient: Point
+    inverse: Float[Array, "n n"]
+    """Estimate of the inverse Hessian."""
+    done: Array
+
+
+def central_differences(objective: Objective) -> Callable[[Point], Point]:
+    """The gradient by central differences, with the step that balances rounding and truncation."""
+
+    def gradient(x: Point) -> Point:
+        step = float(jnp.finfo(x.dtype).eps) ** (1 / 3)
+        shifts = step * jnp.eye(x.shape[0], dtype=x.dtype)
+        values = lax.map(objective, jnp.concatenate([x + shifts, x - shifts]))
+        return (values[: x.shape[0]] - values[x.shape[0] :]) / (2 * step)
+
+    return gradient
+
+
+def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, enough: Array) -> Point:
+    """A point where the objective is least, or at most `enough`, near the start."""
+
+    def step(at: _Iterate) -> _Iterate:
+        direction = -at.inverse @ at.gradient
+        slope = direction @ at.gradient
+        downhill = slope < 0
+        direction = jnp.where(downhill, direction, -at.gradient)
+        slope = jnp.where(downhill, slope, -at.gradient @ at.gradient)
+        moved = _along(objective, gradient, at.x, direction, at.value, slope) * direction
+        x = at.x + moved
+        value, new = objective(x), gradient(x)
+        change = new - at.gradient
+        seen, curved = moved @ change, at.inverse @ change
+        safe = (seen > 0) & (change @ curved > 0)
+        update = jnp.outer(moved, moved) / jnp.where(safe, seen, 1.0)
+        update -= jnp.outer(curved, curved) / jnp.where(safe, change @ curved, 1.0)
+        unit = jnp.eye(x.shape[0], dtype=x.dtype)
+        inverse = jnp.where(safe, at.inverse + update, jnp.where(downhill, at.inverse, unit))
+        better = value < at.value
+        done = (value <= enough) | ~better
+        x, value, new = (jnp.where(better, a, b) for a, b in ((x, at.x), (value, at.value), (new, at.gradient)))
+        return _Iterate(at.count + 1, x, value, new, inverse, done)
+
+    value = objective(start)
+    unit = jnp.eye(start.shape[0], dtype=start.dtype)
+    first = _Iterate(jnp.asarray(0), start, value, gradient(start), unit, value <= enough)
+    return lax.while_loop(lambda at: (at.count < ITERATIONS) & ~at.done, step, first).x
+
+
+def _along(objective: Objective, gradient, x: Point, direction: Point, value: Array, slope: Array) -> Array:
+    """Where the objective is least along a direction: doubled steps until it rises, then a cubic through both ends.
+
+    The first step is the one that would bring the objective down to zero, its least value, were it a parabola.
+    """
+
+    def ends(length: Array) -> tuple[Array, Array]:
+        point = x + length * direction
+        return objective(point), gradient(point) @ direction
+
+    def rising(carry) -> Array:
+        count, _, (_, low, falling), (_, high, rise) = carry
+        return (count < LINE_STEPS) & (rise < 0) & (high < low) & (falling < 0)
+
+    def further(carry):
+        count, length, _, b = carry
+        length = 2 * length
+        return count + 1, length, b, (length, *ends(length))
+
+    first = jnp.minimum(1.0, -2 * value / jnp.where(slope < 0, slope, -1.0))
+    begin = (jnp.asarray(0), first, (jnp.zeros_like(first), value, slope), (first, *ends(first)))
+    _, _, (a, low, falling), (b, high, rise) = lax.while_loop(rising, further, begin)
+    width = jnp.where(b > a, b - a, 1.0)
+    z = 3 * (low - high) / width + falling + rise
+    w = jnp.sqrt(jnp.maximum(z * z - falling * rise, 0.0))
+    bottom = rise - falling + 2 * w
+    inside = b - width * (rise + w - z) / jnp.where(bottom != 0, bottom, 1.0)
+    inside = jnp.clip(jnp.where(jnp.isfinite(inside) & (bottom != 0), inside, b), a, b)
+    lengths = jnp.stack([inside, b, 0.5 * (a + b)])
+    values = jax.vmap(lambda length: objective(x + length * direction))(lengths)
+    return lengths[jnp.argmin(jnp.where(jnp.isfinite(values), values, jnp.inf))]
