@@ -7,13 +7,13 @@ another that is nearer to the start. Gauss-Newton, Levenberg-Marquardt and BFGS 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import jaxopt
 import numpy as np
 from jax import lax
-from jaxopt.base import IterativeSolver
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure import Closure, Geometry, closure
@@ -60,7 +60,7 @@ def minimised(
     return State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), gap, status
 
 
-def _stepping(make: Callable[[Function, Function], IterativeSolver]):
+def _stepping(make: Callable[[Function, Function], Any]):
     """A method of jaxopt, step by step until the objective is small enough or falls no more."""
 
     def search(residual: Function, objective: Function, start: Point, enough: Array) -> Point:
