@@ -8,6 +8,7 @@ motion.save("out/")
 
 from jaxkin import design as design
 from jaxkin.design.optimize import optimize as optimize
+from jaxkin.effects.accuracy import work_precision as work_precision
 from jaxkin.effects.rates import accelerations as accelerations
 from jaxkin.effects.rates import velocities as velocities
 from jaxkin.io import gltf as _gltf  # writers and drawings register themselves

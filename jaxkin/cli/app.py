@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -92,6 +92,12 @@ Drawing = Annotated[
 ]
 
 
+WorkPicture = Annotated[
+    Path | None,
+    typer.Option("--png", metavar="FILE", dir_okay=False, help="Draw time against error into this file."),
+]
+
+
 @app.command(epilog="Example:  jaxkin demo --out motion")
 def demo(out: Out = Path("jaxkin-demo")) -> None:
     """Sweep the four-bar linkage that comes with jaxkin through a full turn, and write its motion."""
@@ -167,6 +173,32 @@ def loops(
             report.say(f"\n{mechanism.plan(study.ranges)}")
 
 
+@app.command(epilog="Example:  jaxkin accuracy fourbar.step --fixed ground --drive ground-crank=0:360:361")
+def accuracy(
+    files: Files,
+    fixed: Fixed = [],
+    rigid: Rigid = [],
+    ignore: Ignore = [],
+    drive: Drive = [],
+    no_combine: PerContact = False,
+    unit: Unit = None,
+    png: WorkPicture = None,
+) -> None:
+    """Print what accuracy costs in time: the sweep at many tolerances, in both precisions and by several methods."""
+    with one_line_errors():
+        from jaxkin.cli import report
+        from jaxkin.effects.accuracy import combinations, work_precision
+
+        with _progress(2 + len(combinations())) as step:
+            step(f"reading {_named(files)}")
+            study = Options(fixed, rigid, ignore, drive, no_combine, unit).on(files)
+            step("finding contacts and joints")
+            work = work_precision(_checked(study).mechanism, _driven(study), step=step)
+        if png:
+            work.plot(png)
+        report.say(str(work))
+
+
 @app.command(
     epilog="Examples:  jaxkin sweep fourbar.step --fixed ground --drive ground-crank=0:360:361 --out motion, "
     "jaxkin sweep study.toml --out motion"
@@ -202,11 +234,7 @@ def _sweep(files: Sequence[Path], out: Path, options: Options) -> None:
         study = options.on(files)
         step("finding contacts and joints")
         mechanism = _checked(study).mechanism
-        if not study.ranges:
-            names = ", ".join(f"{joint.name}.{c}" for joint in mechanism.all_joints for c in joint.coordinates)
-            raise ValueError(
-                f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are {names}"
-            )
+        _driven(study)
         step("solving")
         motion = jax.block_until_ready(study.sweep())
         paths = []
@@ -230,6 +258,16 @@ def _checked(study: Study) -> Study:
         names = ", ".join(study.assembly.names)
         raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
     return study
+
+
+def _driven(study: Study) -> Mapping[str, object]:
+    """What the study drives, if anything."""
+    if not study.ranges:
+        names = ", ".join(f"{joint.name}.{c}" for joint in study.mechanism.all_joints for c in joint.coordinates)
+        raise ValueError(
+            f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are {names}"
+        )
+    return study.ranges
 
 
 @contextmanager

@@ -13,7 +13,7 @@ def one_line_errors() -> Iterator[None]:
     """Turn an error about the user's input into its message on stderr and exit code 2; others pass unchanged."""
     try:
         yield
-    except (ValueError, KeyError, OSError) as error:
+    except (ValueError, KeyError, OSError, ImportError) as error:
         if not _about_input(error):
             raise
         # the text of a KeyError is its argument in quotes
@@ -22,10 +22,11 @@ def one_line_errors() -> Iterator[None]:
 
 
 def _about_input(error: BaseException) -> bool:
-    """Files, and what jaxkin itself refuses; a ValueError out of numpy or JAX is a defect: it keeps its traceback."""
+    """Files, missing extras, and what jaxkin itself refuses; an error out of numpy or JAX is a defect: it keeps its
+    traceback."""
     if isinstance(error, OSError):
         return error.__cause__ is None or _about_input(error.__cause__)
-    if not isinstance(error, ValueError | KeyError) or (trace := error.__traceback__) is None:
+    if not isinstance(error, ValueError | KeyError | ImportError) or (trace := error.__traceback__) is None:
         return False
     while trace.tb_next:
         trace = trace.tb_next

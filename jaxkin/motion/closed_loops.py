@@ -30,8 +30,8 @@ class ClosedLoops:
         row_of = mechanism.structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
         origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints.values()])
-        centre = origins.mean(axis=0)
-        length = np.sqrt(((origins - centre) ** 2).sum(axis=1).mean()) or 1.0
+        centre = self.centre = origins.mean(axis=0)
+        length = self.length = float(np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())) or 1.0
 
         def scaled(frames) -> np.ndarray:
             frames = np.array(frames, float)
@@ -43,7 +43,14 @@ class ClosedLoops:
             for index, joint in joints.items()
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
+        names = [name for joint in joints.values() for name in joint.coordinates]
+        self.units = np.array([length if name.split(".")[-1] in ("x", "y", "z") else 1.0 for name in names])
+        """Of each column: what its scaled coordinate is multiplied by."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
+
+    def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
+        """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
+        return self._travel(q)[1]
 
     def closed(self, q: Row) -> tuple[Row, Screws, float]:
         """Newton steps of least norm, damped by the residual: the coordinates, the screws there and what remains."""

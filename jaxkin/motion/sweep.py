@@ -87,7 +87,7 @@ def _solve_block(
 def _tolerance(asked: float | None) -> Tolerance:
     """The tolerance asked for; without one that of the precision, and poses down to rounding."""
     if asked is None:
-        return Tolerance(jnp.asarray(default_tolerance(jnp.zeros(0).dtype)), jnp.zeros(()))
+        return Tolerance(jnp.asarray(default_tolerance(jnp.zeros(0).dtype), float), jnp.zeros(()))
     if not traced(asked) and not float(asked) > 0:
         raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}")
     return Tolerance(jnp.asarray(asked, float), jnp.asarray(asked, float))

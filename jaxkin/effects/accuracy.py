@@ -1,0 +1,183 @@
+"""What accuracy costs in time: the sweep of a user's own mechanism at many tolerances, precisions and methods."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import jax
+import numpy as np
+
+from jaxkin.effects.extended import Extended
+from jaxkin.motion.drive import coordinate
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.motion import Motion
+from jaxkin.solve.methods import CONTINUATION, METHODS
+
+TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)
+TIGHTEST_32 = 1e-6
+"""The tightest tolerance that float32 is asked for."""
+COMPARED, RUNS, SECONDS = 12, 7, 2.0
+"""Poses whose error is measured; runs at most, and seconds after which no more are begun."""
+
+
+class Point(NamedTuple):
+    """One sweep."""
+
+    method: str
+    precision: str
+    """float64 or float32."""
+    tolerance: float | None
+    """Closure residual asked for; None: down to rounding."""
+    seconds: float
+    """Of a sweep, compiled before, the median of several."""
+    error: float
+    """Largest error of a pose in radians and characteristic lengths, against the pose in extended precision."""
+    residual: float
+    """Largest closure residual of the closed poses."""
+    closed: float
+    """Share of the poses."""
+
+
+@dataclass(frozen=True)
+class WorkPrecision:
+    """Time against error of the sweeps of one mechanism. Prints itself as a table, and draws itself."""
+
+    points: tuple[Point, ...]
+    poses: int
+    compared: int
+    """Poses whose error was measured."""
+
+    @property
+    def advice(self) -> str:
+        """What to ask for, in one sentence."""
+        ours = [point for point in self.points if point.method == CONTINUATION and point.precision == "float64"]
+        best = min(ours, key=lambda point: point.error)
+        coarse = [point for point in ours if point.error <= 1e-4]
+        cheap = min(coarse or ours, key=lambda point: point.seconds)
+        more = best.seconds / cheap.seconds - 1
+        cost = f"costs {more:.0%} more than" if more >= 0.05 else "costs no more than"
+        single = [point.error for point in self.points if point.precision == "float32"]
+        end = f"; float32 stops at {min(single):.0e}" if single else ""
+        alike = [p for p in self.points if p.method != CONTINUATION and p.closed == 1 and p.error <= 10 * best.error]
+        if alike:
+            quick = min(alike, key=lambda point: point.seconds)
+            end += f"; {quick.method}, as accurate, takes {quick.seconds / best.seconds:.2g} times as long"
+        return f"An error of {best.error:.0e} {cost} one of {cheap.error:.0e} here{end}."
+
+    def __str__(self) -> str:
+        lines = [
+            f"{self.poses} poses, errors of {self.compared} of them against extended precision",
+            f"{'method':22}{'precision':>10}{'tolerance':>11}{'us a pose':>11}{'error':>9}{'residual':>10}  closed",
+        ]
+        for point in self.points:
+            asked = "rounding" if point.tolerance is None else f"{point.tolerance:.0e}"
+            micro = point.seconds / self.poses * 1e6
+            lines.append(
+                f"{point.method:22}{point.precision:>10}{asked:>11}{micro:>11.2f}{point.error:>9.0e}"
+                f"{point.residual:>10.0e}{point.closed:>8.0%}"
+            )
+        return "\n".join([*lines, self.advice])
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw time against error, both logarithmic, into a picture file."""
+        from jaxkin.effects.work_plot import draw
+
+        return draw(self, Path(path))
+
+
+def work_precision(
+    mechanism: Mechanism,
+    drive: Mapping[str, object],
+    *,
+    tolerances: Sequence[float] = TOLERANCES,
+    methods: Sequence[str] = METHODS,
+    step: Callable[[str], None] = lambda what: None,
+) -> WorkPrecision:
+    """Sweep a mechanism at many tolerances, in both precisions and by several methods, and measure time and error.
+
+    Errors are against poses in extended precision, near those that the sweep finds; coordinates of idle freedoms have
+    no exact value and are left out. `step` is told what is about to be swept. Needs mpmath. Raises ValueError as
+    `sweep` does, and where no pose closes.
+    """
+    reference = mechanism.sweep(drive)
+    closed = np.flatnonzero(np.asarray(reference.closed))
+    if not len(closed):
+        raise ValueError("no pose of this drive closes, so there is nothing to measure: see the status of its sweep")
+    chosen = np.unique(closed[np.linspace(0, len(closed) - 1, COMPARED).round().astype(int)])
+    exact = _Exact(mechanism, reference, chosen)
+    points = []
+    for method, precision, tolerance in combinations(tolerances, methods):
+        step(f"{method}, {precision}, {'rounding' if tolerance is None else f'{tolerance:.0e}'}")
+        with jax.enable_x64(precision == "float64"), warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "jaxkin computes in float32")  # that is what is asked for
+            points.append(_measured(mechanism, drive, method, precision, tolerance, exact))
+    return WorkPrecision(tuple(points), len(reference), len(chosen))
+
+
+def combinations(
+    tolerances: Sequence[float] = TOLERANCES, methods: Sequence[str] = METHODS
+) -> list[tuple[str, str, float | None]]:
+    """Method, precision and tolerance of every sweep; ours in both precisions, and down to rounding."""
+    found: list[tuple[str, str, float | None]] = []
+    for method in methods:
+        found += [(method, "float64", tolerance) for tolerance in tolerances]
+        if method == CONTINUATION:
+            found += [(method, "float64", None)]
+            found += [(method, "float32", tolerance) for tolerance in tolerances if tolerance >= TIGHTEST_32]
+            found += [(method, "float32", None)]
+    return found
+
+
+def _measured(
+    mechanism: Mechanism, drive, method: str, precision: str, tolerance: float | None, exact: _Exact
+) -> Point:
+    def run() -> Motion:
+        return jax.block_until_ready(mechanism.sweep(drive, tolerance=tolerance, method=method))
+
+    motion, times = run(), []
+    while len(times) < RUNS and (not times or sum(times) < SECONDS):
+        begin = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - begin)
+    closed = np.asarray(motion.closed)
+    residual = float(np.max(np.asarray(motion.residual)[closed], initial=0.0))
+    seconds = float(np.median(times))
+    return Point(method, precision, tolerance, seconds, exact.error(motion), residual, float(closed.mean()))
+
+
+class _Exact:
+    """Exact poses at some places of a motion, and the errors of other motions there."""
+
+    def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
+        self.chosen, self.blocks = chosen, []
+        driven = [coordinate(mechanism, name) for name in motion.inputs]
+        for block in mechanism.structure.blocks:
+            columns = [(joint, k) for joint in block.joints for k in range(mechanism.all_joints[joint].freedoms)]
+            free = [number for number, column in enumerate(columns) if column not in driven]
+            if len(free) == len(columns):
+                continue
+            loops = Extended(mechanism, block, free)
+            rows = self._rows(motion, block.joints)
+            poses = [loops.closed(row)[0] for row in rows]
+            self.blocks.append((block.joints, loops, poses, [np.eye(len(row)) - loops.idle(row) for row in poses]))
+
+    def error(self, motion: Motion) -> float:
+        """Largest over the chosen poses that are closed, in radians and characteristic lengths."""
+        closed, largest = np.asarray(motion.closed)[self.chosen], 0.0
+        for joints, loops, poses, seen in self.blocks:
+            for row, pose, kept, is_closed in zip(self._rows(motion, joints), poses, seen, closed, strict=True):
+                if is_closed:
+                    off = (row - pose) / loops.loops.units
+                    off -= np.where(loops.loops.units == 1.0, 2 * np.pi * np.round(off / (2 * np.pi)), 0.0)
+                    largest = max(largest, float(np.abs(kept @ off).max(initial=0.0)))
+        return largest
+
+    def _rows(self, motion: Motion, joints: Sequence[int]) -> np.ndarray:
+        """Displacements of the joints at the chosen poses (poses, columns), in float64."""
+        parts = [np.asarray(motion.displacements[joint], np.float64)[self.chosen] for joint in joints]
+        return np.concatenate(parts, axis=1)

@@ -1,0 +1,122 @@
+"""Closed poses in extended precision: what the errors of the solver are measured against.
+
+The loops of the mechanism's own numbers, as exact as those are written, are evaluated by mpmath in fifty digits; chord
+steps with the Jacobian in float64 gain some ten digits each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.joints.joint import Joint
+from jaxkin.motion.closed_loops import ClosedLoops
+from jaxkin.motion.mechanism import Mechanism
+from jaxkin.topology.structure import Block
+
+DIGITS, STEPS, STILL = 50, 12, 1e-22
+
+Row = Float[np.ndarray, " columns"]
+
+
+class Extended:
+    """The loops of a structure element in fifty digits. Raises ImportError where mpmath is not installed."""
+
+    def __init__(self, mechanism: Mechanism, block: Block, free: Sequence[int]) -> None:
+        try:
+            from mpmath.ctx_mp import MPContext
+        except ImportError:
+            raise ImportError(
+                "errors are measured in extended precision, which needs mpmath: pip install 'jaxkin[accuracy]'"
+            ) from None
+        self.mp: Any = MPContext()
+        self.mp.dps = DIGITS
+        self.block, self.free = block, list(free)
+        self.joints = {index: mechanism.all_joints[index] for index in block.joints}
+        self.loops = ClosedLoops(mechanism, block)
+
+    def closed(self, q: Row) -> tuple[Row, bool]:
+        """The exact pose near q with the same driven coordinates, rounded; and whether the steps came to an end.
+
+        `q` is in radians and lengths of the mechanism; where freedoms are idle, the nearest such pose. Frames are
+        rounded too: redundant equations close to that only, and what is exact is the pose of least residual.
+        """
+        exact = [self.mp.mpf(float(value)) for value in q]
+        for _ in range(STEPS):
+            misfit = self._misfit(exact)
+            size = max((abs(value) for value in misfit), default=self.mp.mpf(0))
+            rounded = np.array([float(value) for value in exact])
+            if size == 0:
+                return rounded, True
+            step = size * self.mp.matrix(self._step(rounded, np.array([float(value / size) for value in misfit])))
+            exact = [value - d for value, d in zip(exact, step, strict=True)]
+            if max(abs(d) for d in step) < STILL:
+                return np.array([float(value) for value in exact]), True
+        return np.array([float(value) for value in exact]), False
+
+    def idle(self, q: Row) -> Float[np.ndarray, "columns columns"]:
+        """Projector onto what no equation says anything about at a pose: idle freedoms have no exact value."""
+        jacobian = self._jacobian(q)
+        _, values, directions = np.linalg.svd(jacobian)
+        kept = directions[: int((values > 1e-9 * values[0]).sum())]
+        return np.eye(len(q)) - kept.T @ kept
+
+    def _step(self, q: Row, misfit: np.ndarray) -> Row:
+        return np.linalg.pinv(self._jacobian(q), rcond=1e-9) @ misfit
+
+    def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
+        jacobian = np.zeros((6 * len(self.block.loops), len(q)))
+        jacobian[:, self.free] = self.loops.jacobian(q / self.loops.units)[:, self.free]
+        return jacobian / self.loops.units
+
+    def _misfit(self, q: list) -> list:
+        """Rotation and translation, over the characteristic length, that the loops leave open."""
+        steps = {index: self._displacement(joint, q[self.loops.slices[index]]) for index, joint in self.joints.items()}
+        found, places = [], {}
+        centre = self.mp.matrix([float(value) for value in self.loops.centre])
+        for loop in self.block.loops:
+            ends = self.loops.ends
+            start = pose = places.setdefault(ends[loop[0][0]][0 if loop[0][1] > 0 else 1], self.mp.eye(4))
+            for joint, sign in loop:
+                pose = pose * (steps[joint] if sign > 0 else self._inverse(steps[joint]))
+                places.setdefault(ends[joint][1 if sign > 0 else 0], pose)
+            left = pose * self._inverse(start)
+            found += [(left[2, 1] - left[1, 2]) / 2, (left[0, 2] - left[2, 0]) / 2, (left[1, 0] - left[0, 1]) / 2]
+            moved = left[:3, :3] * centre + left[:3, 3] - centre
+            found += [value / self.mp.mpf(self.loops.length) for value in moved]
+        return found
+
+    def _displacement(self, joint: Joint, q: list) -> Any:
+        """J = product of `before T after^-1` (Table 2)."""
+        pose, first = self.mp.eye(4), 0
+        for frame, name in enumerate(joint.movements):
+            movement = MOVEMENTS[name]
+            pose = pose * self._matrix(joint.before[frame])
+            for element in movement.elements:
+                pose = pose * self._elementary(element, q[first + element.coordinate], float(joint.pitch))
+            pose = pose * self._inverse(self._matrix(joint.after[frame]))
+            first += len(movement.coordinates)
+        return pose
+
+    def _elementary(self, element, value, pitch: float) -> Any:
+        pose, axis = self.mp.eye(4), element.axis
+        if element.kind in ("rotate", "screw"):
+            i, j = (axis + 1) % 3, (axis + 2) % 3
+            cos, sin = self.mp.cos(value), self.mp.sin(value)
+            pose[i, i], pose[i, j], pose[j, i], pose[j, j] = cos, -sin, sin, cos
+        if element.kind == "translate":
+            pose[axis, 3] = value
+        elif element.kind == "screw":
+            pose[axis, 3] = self.mp.mpf(pitch) * value / (2 * self.mp.pi)
+        return pose
+
+    def _matrix(self, pose) -> Any:
+        return self.mp.matrix(np.asarray(pose, float).tolist())
+
+    def _inverse(self, pose) -> Any:
+        """Of a pose that is rigid to rounding only: exactly."""
+        return pose**-1
