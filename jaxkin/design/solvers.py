@@ -1,12 +1,10 @@
 """Outer solvers, from jaxopt: Levenberg-Marquardt for sums of squares, else bounded L-BFGS; many starts at once.
 
-The one place that knows jaxopt, which is imported when it is used: it takes half a second, and warns that it is no
-longer maintained. Only that warning is silenced, and only here.
+jaxopt is imported when it is used: see `jaxkin.solve.outside`.
 """
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
@@ -19,6 +17,7 @@ from jaxtyping import Array, Float
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.variables import from_angles, to_angles
 from jaxkin.solve.compiled import jit_options
+from jaxkin.solve.outside import jaxopt
 
 CHUNK = 10
 """Iterations between two looks at the losses."""
@@ -43,13 +42,6 @@ class Solver(NamedTuple):
     """The state with the lanes of a mask (second) overwritten by one lane (third)."""
     judge: Callable[[Any], tuple[np.ndarray, np.ndarray]]
     """Losses, nan where not finite, and roots of the sums of squares of violations, of some vectors."""
-
-
-def _jaxopt():
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message="JAXopt is no longer maintained", category=DeprecationWarning)
-        import jaxopt
-    return jaxopt
 
 
 class _Once:
@@ -83,7 +75,7 @@ def least_squares(problem: Problem) -> Solver:
     One program does all: it evaluates residuals and Jacobian once, at the new point, and takes or refuses the step.
     """
     once = _Once(lambda angles, weight: problem.residuals(from_angles(problem.variables, angles), weight))
-    solver = _jaxopt().LevenbergMarquardt(
+    solver = jaxopt().LevenbergMarquardt(
         once.residuals,
         materialize_jac=True,
         solver="cholesky",
@@ -166,15 +158,18 @@ def bounded(problem: Problem) -> Solver:
         value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
-    jaxopt = _jaxopt()
-    solver = jaxopt.LBFGSB(
+    solver = jaxopt().LBFGSB(
         value_and_grad, value_and_grad=True, history_size=MEMORY, linesearch_init="max", implicit_diff=False
     )
     # its own line search holds the program of loss and gradient three times over; this one once. It asks for less loss
     # only: `c2` switches the condition on the slope off, and L-BFGS skips steps of negative curvature by itself
-    solver.run_ls = jaxopt.BacktrackingLineSearch(
-        value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
-    ).run
+    solver.run_ls = (
+        jaxopt()
+        .BacktrackingLineSearch(
+            value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
+        )
+        .run
+    )
     bounds = (jnp.zeros_like(lower), (upper - lower) / width)
 
     def begin(vectors, weight):

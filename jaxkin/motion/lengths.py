@@ -121,9 +121,8 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
             raise ValueError(f"the lengths {named[same]!r} and {key!r} are the same: give it once")
         named[same] = key
         if length.quantity == "pitch":
-            pitches[length.first] = (jnp if traced(wanted) else np).asarray(
-                wanted, dtype=float
-            ) + 0.0  # an array, no literal
+            plain = not traced(wanted)
+            pitches[length.first] = np.array(wanted, float) if plain else jnp.asarray(wanted, float) + 0.0
         else:
             bodies.setdefault(length.body, []).append((length, wanted))
     xp = jnp if traced(mechanism, *(wanted for group in bodies.values() for _, wanted in group)) else np

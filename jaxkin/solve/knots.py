@@ -22,9 +22,9 @@ from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-ROOM, MOST_ROOM = 8192, 65536
-"""Knots to either side of the assembled pose. A full turn takes about fifty, several inputs in any order some eight a
-pose; what they do not reach is STALLED."""
+ROOM, MOST_ROOM = 512, 8192
+"""Knots to either side of the assembled pose; what they do not reach is STALLED. A full turn takes about fifty, several
+inputs in any order some eight a pose. Under `vmap` every step copies them: no more than needed."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 AT_LIMIT = 2 * SHORTEST_STEP
@@ -74,7 +74,8 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
     a full turn may come back, behind a gap, to poses on the other side of the assembled one.
     """
-    dtype, room = values.dtype, min(max(ROOM, 8 * values.shape[0]), MOST_ROOM)
+    dtype, each = values.dtype, 2 if len(system.driven) == 1 else 8
+    room = min(max(ROOM, each * values.shape[0]), each // 2 * MOST_ROOM)
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([-TURN, TURN], dtype)
     front = start(system, 2, dtype)

@@ -11,7 +11,6 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-import jaxopt
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
@@ -19,6 +18,7 @@ from jaxtyping import Array, Float
 from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.correct import choose
 from jaxkin.solve.dfp import central_differences, dfp
+from jaxkin.solve.outside import jaxopt
 from jaxkin.solve.state import State, assembled, drive, retract
 from jaxkin.solve.status import Status
 from jaxkin.solve.system import LoopSystem
@@ -86,17 +86,17 @@ def _stepping(make: Callable[[Function, Function], Any]):
 
 def _gauss_newton(residual: Function, objective: Function):
     del objective
-    return jaxopt.GaussNewton(residual, implicit_diff=False)
+    return jaxopt().GaussNewton(residual, implicit_diff=False)
 
 
 def _levenberg_marquardt(residual: Function, objective: Function):
     del objective
-    return jaxopt.LevenbergMarquardt(residual, materialize_jac=True, solver="cholesky", implicit_diff=False)
+    return jaxopt().LevenbergMarquardt(residual, materialize_jac=True, solver="cholesky", implicit_diff=False)
 
 
 def _bfgs(residual: Function, objective: Function):
     del residual
-    return jaxopt.BFGS(objective, implicit_diff=False)
+    return jaxopt().BFGS(objective, implicit_diff=False)
 
 
 _SEARCHES = {

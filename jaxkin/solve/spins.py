@@ -28,10 +28,10 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
         of_ball += [first + frame for _, frame, column, _ in chain if column in system.balls]
         first += len(chain)
     balls, signs = _pairs(system)
-    ends = frames[np.array(of_ball, int)[balls]]
+    ends = frames[np.array(of_ball, np.int32)[balls]]
     line = ends[:, 1, :3, 3] - ends[:, 0, :3, 3]
     line = line / jnp.sqrt(jnp.sum(line * line, axis=1, keepdims=True))
-    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * signs
+    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(signs, frames.dtype)
 
 
 def spin_equations(
@@ -51,7 +51,7 @@ def spin_equations(
 @lru_cache(maxsize=256)
 def _pairs(system: LoopSystem) -> tuple[Int[np.ndarray, "spins 2"], Float[np.ndarray, "spins 2 1"]]:
     """The two balls of each spin, and the signs of their turns."""
-    table = np.array(system.spins, int).reshape(-1, 3)
+    table = np.array(system.spins, np.int32).reshape(-1, 3)
     return table[:, :2], np.stack([np.ones(len(table)), table[:, 2]], axis=1)[..., None]
 
 
@@ -59,7 +59,7 @@ def _pairs(system: LoopSystem) -> tuple[Int[np.ndarray, "spins 2"], Float[np.nda
 def _places(system: LoopSystem) -> Int[np.ndarray, "spins columns"]:
     """For each entry of the Jacobian its number among the turns of the pairs, three a ball; behind them is a zero."""
     balls, _ = _pairs(system)
-    places = np.full((len(balls), system.columns), 6 * len(balls))
+    places = np.full((len(balls), system.columns), 6 * len(balls), np.int32)
     for spin, pair in enumerate(balls):
         for end, ball in enumerate(pair):
             first = system.balls[ball]

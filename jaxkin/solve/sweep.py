@@ -25,6 +25,7 @@ from jaxkin.solve.dense import Poses, interpolate
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
 from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.minimise import minimised
 from jaxkin.solve.state import State, angles, assembled, difference, drive, driven
 from jaxkin.solve.status import Status, Tolerance, classify, is_closed
 from jaxkin.solve.system import LoopSystem
@@ -85,8 +86,6 @@ def _search(
         gap = closure(system, geometry, state).gap
         poses = Poses(state, classify(gap, finite, finite, tolerance.closed), gap)
     elif method != CONTINUATION:
-        from jaxkin.solve.minimise import minimised  # only here: jaxopt takes a third of a second to import
-
         state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
         poses = Poses(state, status, gap)
     elif len(system.driven) == 1:
