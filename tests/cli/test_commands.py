@@ -145,6 +145,7 @@ def test_inspect_tells_everything_once(tmp_path):
     assert done.output.count("torus") == 1
 
 
+@pytest.mark.long
 def test_inspect_draws_what_it_found(tmp_path):
     done = invoke("inspect", FOURBAR, "--fixed", "ground", "--png", tmp_path / "found.png")
     assert done.exit_code == 0, done.output

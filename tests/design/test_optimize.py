@@ -25,6 +25,7 @@ def recovered():
     return jk.optimize(design.path("coupler", POINT, path), START, drive={"A": TURN}, lengths=BOUNDS, starts=8)
 
 
+@pytest.mark.long
 def test_a_synthetic_target_is_recovered(recovered):
     """To 1e-6 relative, as asked for; a sum of squares that falls to none converges quadratically, to rounding."""
     found = [recovered.values[f"({', '.join(key)})"] for key in BOUNDS]

@@ -61,7 +61,9 @@ def test_a_tolerance_is_kept_and_compiles_nothing():
     assert _program(_solve)._cache_size() == programs
 
 
-@pytest.mark.parametrize("make, joint", [(planar_fourbar, "A"), (rssr_linkage, "A")])
+@pytest.mark.parametrize(
+    "make, joint", [(planar_fourbar, "A"), pytest.param(rssr_linkage, "A", marks=pytest.mark.long)]
+)
 def test_work_precision_measures_errors_within_what_was_asked(make, joint):
     work = jk.work_precision(make(), {joint: TURN}, tolerances=(1e-4, 1e-9), methods=["continuation"])
     assert [(p.method, p.precision, p.tolerance) for p in work.points] == combinations((1e-4, 1e-9), ["continuation"])

@@ -213,6 +213,7 @@ def test_planes_slides_and_pins(turn):
     assert not any("glue" in key for key in mechanism.lengths)
 
 
+@pytest.mark.long
 def test_lengths_inside_jit_vmap_and_grad():
     """The law of cosines: moving C about B and E by the side B C, first and second derivatives, a thousand at once."""
     mechanism = six_bar()

@@ -36,6 +36,7 @@ def test_a_fourbar_in_any_order(order):
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], displacement(*rocker), atol=1e-12)
 
 
+@pytest.mark.long
 def test_a_cam_and_an_rssr_linkage():
     """Line contact, and balls with an idle spin between them."""
     motion = cam(0.5).sweep({"shaft": TURN})

@@ -144,6 +144,7 @@ def test_other_names_order_and_direction_give_the_same_mobility(name, seed):
     assert set(after.idle) == {f"new {name}" for name in before.idle}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("mechanism", "drive", "seed"),
     [
