@@ -43,7 +43,8 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
     for name, file in source.items():
         found, units[f"{name} ({Path(file).name})"] = _read(Path(file), name)
         parts += found
-    return Assembly(_apart(tuple(parts)), _agreed(units, unit), ", ".join(Path(file).name for file in source.values()))
+    agreed = _agreed(units, unit)  # first: numbers in different units tell nothing about the same place
+    return Assembly(_apart(tuple(parts)), agreed, ", ".join(Path(file).name for file in source.values()))
 
 
 def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
