@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -193,7 +193,8 @@ def accuracy(
             step(f"reading {_named(files)}")
             study = Options(fixed, rigid, ignore, drive, no_combine, unit).on(files)
             step("finding contacts and joints")
-            work = work_precision(_checked(study).mechanism, _driven(study), step=step)
+            study = _driven(_checked(study))
+            work = work_precision(study.mechanism, study.drive, step=step)
         if png:
             work.plot(png)
         report.say(str(work))
@@ -260,14 +261,14 @@ def _checked(study: Study) -> Study:
     return study
 
 
-def _driven(study: Study) -> Mapping[str, object]:
-    """What the study drives, if anything."""
+def _driven(study: Study) -> Study:
+    """The study, if something is driven."""
     if not study.ranges:
         names = ", ".join(f"{joint.name}.{c}" for joint in study.mechanism.all_joints for c in joint.coordinates)
         raise ValueError(
             f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are {names}"
         )
-    return study.ranges
+    return study
 
 
 @contextmanager

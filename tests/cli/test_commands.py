@@ -227,3 +227,17 @@ def test_a_process_ends_with_code_2_and_no_traceback(tmp_path):
     assert done.stdout == ""
     assert "missing.step" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.long
+def test_accuracy_prints_and_draws_what_it_costs(tmp_path):
+    picture = tmp_path / "cost.png"
+    done = invoke("accuracy", FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0:90:13", "--png", picture)
+    assert done.exit_code == 0, done.output
+    assert "dfp-autodiff" in done.output and "An error of" in done.output
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_accuracy_needs_a_drive():
+    done = invoke("accuracy", FOURBAR, "--fixed", "ground")
+    assert done.exit_code == 2 and "nothing is driven" in done.stderr
