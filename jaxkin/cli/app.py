@@ -160,17 +160,14 @@ def loops(
         from jaxkin.cli import report
 
         with _progress(2) as step:
-            step(f"reading {_named(files)}")
-            study = Options(fixed, rigid, ignore, drive, no_combine, unit).on(files)
-            step("finding contacts and joints")
-            mechanism = _checked(study).mechanism
+            study = _found(files, Options(fixed, rigid, ignore, drive, no_combine, unit), step)
         if png:
             from jaxkin.view.structure import draw_structure
 
-            draw_structure(mechanism.structure, png)
-        report.print_structure(mechanism)
+            draw_structure(study.mechanism.structure, png)
+        report.print_structure(study.mechanism)
         if study.ranges:
-            report.say(f"\n{mechanism.plan(study.ranges)}")
+            report.say(f"\n{study.mechanism.plan(study.ranges)}")
 
 
 @app.command(epilog="Example:  jaxkin accuracy fourbar.step --fixed ground --drive ground-crank=0:360:361")
@@ -190,10 +187,7 @@ def accuracy(
         from jaxkin.effects.accuracy import combinations, work_precision
 
         with _progress(2 + len(combinations())) as step:
-            step(f"reading {_named(files)}")
-            study = Options(fixed, rigid, ignore, drive, no_combine, unit).on(files)
-            step("finding contacts and joints")
-            study = _driven(_checked(study))
+            study = _found(files, Options(fixed, rigid, ignore, drive, no_combine, unit), step)
             work = work_precision(study.mechanism, study.drive, step=step)
         if png:
             work.plot(png)
@@ -231,18 +225,14 @@ def _sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     from jaxkin.motion.writers import filenames
 
     with _progress(3 + len(filenames())) as step:
-        step(f"reading {_named(files)}")
-        study = options.on(files)
-        step("finding contacts and joints")
-        mechanism = _checked(study).mechanism
-        _driven(study)
+        study = _found(files, options, step)
         step("solving")
         motion = jax.block_until_ready(study.sweep())
         paths = []
         for filename in filenames():
             step(f"writing {filename}")
             paths += motion.save(out, only=filename)
-    report.say(f"{_named(files)}: {mechanism.mobility()}")
+    report.say(f"{_named(files)}: {study.mechanism.mobility()}")
     report.print_motion(motion)
     report.say()
     report.print_files(paths)
@@ -253,21 +243,20 @@ def _named(files: Sequence[Path]) -> str:
     return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
 
 
+def _found(files: Sequence[Path], options: Options, step: Callable[[str], None]) -> Study:
+    """The study that files and options make, its mechanism found: two steps of the progress."""
+    step(f"reading {_named(files)}")
+    study = options.on(files)
+    step("finding contacts and joints")
+    _ = _checked(study).mechanism  # found once, here, where its step is shown
+    return study
+
+
 def _checked(study: Study) -> Study:
     """The study, if a part is fixed."""
     if study.assembly and not study.fixed:
         names = ", ".join(study.assembly.names)
         raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
-    return study
-
-
-def _driven(study: Study) -> Study:
-    """The study, if something is driven."""
-    if not study.ranges:
-        names = ", ".join(f"{joint.name}.{c}" for joint in study.mechanism.all_joints for c in joint.coordinates)
-        raise ValueError(
-            f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are {names}"
-        )
     return study
 
 

@@ -14,6 +14,7 @@ from jaxkin.design.objectives import Objective
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
+from jaxkin.motion.writers import whole
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
@@ -140,15 +141,14 @@ class Optimum:
             "joints": [[j.name, list(j.parts), j.kind, list(j.movements)] for j in joints],
             "structure": {name: getattr(structure, name) for name in structure.__dataclass_fields__},
         }
-        arrays = {"history": self.history, "losses": self.losses, "violations": self.violations}
+        arrays: dict[str, Any] = {"text": np.array(json.dumps(text))}
+        arrays |= {"history": self.history, "losses": self.losses, "violations": self.violations}
         for number, joint in enumerate(joints):
             arrays |= {f"{number} {leaf}": np.asarray(getattr(joint, leaf)) for leaf in ("before", "after", "pitch")}
         arrays |= {f"drive {name}": value for name, value in self.drive.items()}
         arrays |= {f"extra {name}": value for name, value in self.extras.items()}
-        draft = target.with_name(f".{target.name}")
-        with open(draft, "wb") as file:
-            np.savez_compressed(file, **{"text": np.array(json.dumps(text)), **arrays})  # type: ignore[arg-type]
-        os.replace(draft, target)
+        with whole(target) as draft, open(draft, "wb") as file:
+            np.savez_compressed(file, **arrays)
         return target
 
 

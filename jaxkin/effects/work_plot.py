@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from jaxkin.motion.writers import whole
+
 if TYPE_CHECKING:
     from jaxkin.effects.accuracy import WorkPrecision
 
@@ -13,9 +15,6 @@ MARKERS = "osD^vP"
 
 def draw(work: WorkPrecision, path: Path) -> Path:
     """Draw the points, one line a method and precision, into a picture file; returns its path."""
-    import matplotlib
-
-    matplotlib.use("Agg", force=False)
     from matplotlib.figure import Figure
     from matplotlib.ticker import FuncFormatter
 
@@ -43,7 +42,6 @@ def draw(work: WorkPrecision, path: Path) -> Path:
     axes.grid(which="major", alpha=0.3)
     axes.legend(fontsize="small", frameon=False)
     axes.set_title(f"{work.poses} poses: farther right is more accurate, lower is faster", fontsize="medium")
-    beside = path.with_name(f".{path.name}.part")
-    figure.savefig(beside, dpi=150, format=path.suffix.lstrip(".") or "png")
-    beside.replace(path)
+    with whole(path) as draft:
+        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
     return path

@@ -64,7 +64,10 @@ class Study:
         if not self.ranges:
             joints = self.mechanism.all_joints
             names = ", ".join(f"{joint.name}.{c}" for joint in joints for c in joint.coordinates)
-            raise ValueError(f"nothing is driven; there are {names or 'no coordinates at all'}")
+            raise ValueError(
+                "nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are "
+                f"{names or 'no coordinates at all'}"
+            )
         return in_radians(self.mechanism, self.ranges)
 
     def sweep(self) -> Motion:

@@ -26,9 +26,8 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     driven = [coordinate(mechanism, name) for name in motion.inputs]
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
     for number, (block, form) in enumerate(zip(mechanism.structure.blocks, mechanism.forms, strict=True)):
-        inside = [entry for entry in driven if entry[0] in block.joints]
-        inside.sort(key=lambda entry: (block.joints.index(entry[0]), entry[1]))
-        system = block_system(mechanism, block, tuple(inside), form)
+        inside = tuple(entry for entry in driven if entry[0] in block.joints)
+        system = block_system(mechanism, block, inside, form)
         if inside and (rank := _rank(mechanism, number, system)):
             columns = jnp.concatenate([motion.displacements[joint] for joint in block.joints], axis=1).T
             least = jnp.minimum(least, least_singular_value(system, rank, block_joints(mechanism, block), columns))

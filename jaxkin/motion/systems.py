@@ -9,7 +9,7 @@ from jaxkin.topology.structure import Block
 
 
 def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], form: Form) -> LoopSystem:
-    """The loops of a structure element; `driven` are (joint, coordinate) in rising order of the block's columns.
+    """The loops of a structure element; `driven` are (joint, coordinate), in any order.
 
     An element of planar `form` is solved in its plane, unless something is driven along the normal.
     """
@@ -19,7 +19,7 @@ def block_system(mechanism: Mechanism, block: Block, driven: tuple[tuple[int, in
         firsts[index] = column
         column += joint.freedoms
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
-    columns = tuple(firsts[joint] + coordinate for joint, coordinate in driven)
+    columns = tuple(sorted(firsts[joint] + coordinate for joint, coordinate in driven))
     if form.plane is not None and not set(columns) <= set(form.plane):
         form = form._replace(plane=None)
     return LoopSystem(tuple(joint.movements for joint in joints), loops, columns, form)

@@ -22,9 +22,10 @@ from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-ROOM, MOST_ROOM = 512, 8192
-"""Knots to either side of the assembled pose; what they do not reach is STALLED. A full turn takes about fifty, several
-inputs in any order some eight a pose. Under `vmap` every step copies them: no more than needed."""
+ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 512, 4096, 2, 8
+"""Knots to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
+reach is STALLED. A full turn takes about fifty, several inputs in any order some eight a pose. Under `vmap` every step
+copies them: no more than needed."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 AT_LIMIT = 2 * SHORTEST_STEP
@@ -40,7 +41,6 @@ class Knot(NamedTuple):
     at: Float[Array, " knots"]
     state: State
     slope: State
-    closed: Bool[Array, " knots"]
     status: Int[Array, " knots"]
 
 
@@ -74,8 +74,8 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
     a full turn may come back, behind a gap, to poses on the other side of the assembled one.
     """
-    dtype, each = values.dtype, 2 if len(system.driven) == 1 else 8
-    room = min(max(ROOM, each * values.shape[0]), each // 2 * MOST_ROOM)
+    dtype, each = values.dtype, ONE_INPUT if len(system.driven) == 1 else SEVERAL_INPUTS
+    room = max(ROOM, each * min(values.shape[0], MOST_POSES))
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([-TURN, TURN], dtype)
     front = start(system, 2, dtype)
@@ -142,8 +142,7 @@ def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Kno
         State(part[:coordinates], part[coordinates:half].reshape(balls, 4, number.shape[0]))
         for part in (column, column[half:])
     )
-    status = column[-1].astype(jnp.int32)
-    return Knot(at[0], state, slope, is_closed(status), status)
+    return Knot(at[0], state, slope, column[-1].astype(jnp.int32))
 
 
 def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> Guess:
@@ -155,14 +154,15 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
         values = jnp.where(turns > 0, values - jnp.sign(values) * TURN * turns, values)
     number = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.first, knots.last - 1)
     left, right = _knot(system, knots, number), _knot(system, knots, number + 1)
-    between = left.closed & (left.status == right.status)
+    left_closed, right_closed = is_closed(left.status), is_closed(right.status)
+    between = left_closed & (left.status == right.status)
     # elsewhere there is a limit: up to the inner knot the motion was followed, at the outer one the loops close again
     rising = values >= 0
-    outer_closed = jnp.where(rising, right.closed, left.closed)
+    outer_closed = jnp.where(rising, right_closed, left_closed)
     near_inner = jnp.abs(values - jnp.where(rising, left.at, right.at)) <= AT_LIMIT
     at_limit = near_inner | ~outer_closed
     from_left = at_limit == rising
-    nearest_closed = jnp.where(from_left, left.closed, right.closed)
+    nearest_closed = jnp.where(from_left, left_closed, right_closed)
     trusted = between | (near_inner | ~at_limit) & nearest_closed
     state = choose(between, _hermite(system, left, right, values), choose(from_left, left.state, right.state))
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)

@@ -33,14 +33,14 @@ def minimised(
     system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, enough: Array
 ) -> tuple[State, Float[Array, " poses"], Array]:
     """States and status and closure gap, the pose before each as its start; a pose is done when its gap is `enough`."""
-    place = np.eye(system.columns)[:, list(system.free)]
+    place = jnp.asarray(np.eye(system.columns)[:, list(system.free)], inputs.dtype)
     search = _SEARCHES[method]
 
     def one(before: State, given: Float[Array, " driven"]):
         start = drive(system, before, given[:, None])
 
         def at(free: Point) -> tuple[State, Closure]:
-            state = drive(system, retract(system, start, jnp.asarray(place @ free)[:, None]), given[:, None])
+            state = drive(system, retract(system, start, (place @ free)[:, None]), given[:, None])
             return state, closure(system, geometry, state)
 
         # Eq. 12 with the entries of rotation weighted by one half: what the residual is the root of nearby

@@ -50,7 +50,7 @@ def find_poses(
 ) -> Poses:
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
-    `method` is CONTINUATION or one of `minimise.METHODS`.
+    `method` is one of `methods.METHODS`.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
@@ -79,6 +79,7 @@ def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "
 def _search(
     system: LoopSystem, method: str, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
 ) -> Poses:
+    """The same in lengths over the characteristic length; NONFINITE where an input is."""
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
     inputs = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
     if not system.free:
@@ -112,9 +113,7 @@ def _of_one_input(
 
     def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
         values, trusted, found = group
-        return lax.cond(
-            jnp.all(trusted), lambda: found, lambda: _settle(system, geometry, knots, values, values[None], tolerance)
-        )
+        return lax.cond(jnp.all(trusted), lambda: found, lambda: settled(values))
 
     return _in_groups(settle, (values, trusted, found))
 
@@ -181,9 +180,8 @@ def _settle(
     state = drive(system, begin.state, inputs)
     found = correct(system, geometry, state, RESCUE_STEPS, tolerance.enough)
     near = difference(found.state, state) <= FARTHEST_CORRECTION
-    status = classify(
-        found.closure.gap, found.stationary, near & (begin.status == Status.CLOSED.value), tolerance.closed
-    )
+    same = near & (begin.status == Status.CLOSED.value)
+    status = classify(found.closure.gap, found.stationary, same, tolerance.closed)
     return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
 
 
