@@ -14,7 +14,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure import closure
 from jaxkin.solve.correct import free_jacobian
-from jaxkin.solve.state import State, from_angles
+from jaxkin.solve.reading import as_state
 from jaxkin.solve.sweep import Joints, scaled
 from jaxkin.solve.system import LoopSystem
 
@@ -28,8 +28,7 @@ def least_singular_value(
     Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
     """
     geometry, lengths = scaled(system, joints)
-    x = displacements / lengths
-    turns = [from_angles(x[first : first + 3]) for first in system.balls]
-    state = State(x, jnp.stack(turns) if turns else jnp.zeros((0, 4, x.shape[1]), x.dtype))
+    state = as_state(system, joints.before, joints.after, displacements)
+    state = state._replace(x=state.x / lengths)
     jacobian = free_jacobian(system, closure(system, geometry, state))
     return jnp.linalg.svd(jnp.moveaxis(jacobian, -1, 0), compute_uv=False)[:, rank - 1]

@@ -71,8 +71,9 @@ def _travel(
 ) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
     """Displacement of the ends of the loops, and the twists that the steps give to them, four a step and a zero."""
     table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
-    turn, slide, screw, sign = (
-        jnp.asarray(entry, dtype)[..., None] for entry in (table.turn, table.slide, table.screw, table.sign)
+    turn, slide, screw, sign, side = (
+        jnp.asarray(entry, dtype)[..., None]
+        for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
     )
     advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
@@ -80,18 +81,18 @@ def _travel(
     balls = _ball_turns(system, state, table) if system.balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
-        pose, cos, sin, travel, sign, ball = given
+        pose, cos, sin, travel, first_side, ball = given
         rotation, point = _compose(*carry, pose)
         turned = jnp.stack([cos * rotation[0] + sin * rotation[1], cos * rotation[1] - sin * rotation[0], rotation[2]])
         if ball is not None:
             turned = _product(turned, ball)
-        # a ball's turn is perturbed on its left, on the side of part 1
-        axes = rotation[2][None] if ball is None else jnp.where(sign > 0, rotation, turned)
+        # a ball's turn is perturbed on its left, on the side of part 1; a line of centres on its right
+        axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
     first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((len(system.loops), poses), dtype)
     start = first, jnp.zeros((3, len(system.loops), poses), dtype)
-    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, sign, balls))
+    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
     rotation, translation = _compose(*last, geometry.end)
 
     lever = translation - points

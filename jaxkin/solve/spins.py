@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.solve.state import State
 from jaxkin.solve.system import LoopSystem
 
@@ -25,7 +26,7 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
     """The lines from the frames of the joints; those on their first parts come first, joint by joint."""
     of_ball, first = [], 0
     for chain in system.chains:
-        of_ball += [first + frame for _, frame, column, _ in chain if column in system.balls]
+        of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
         first += len(chain)
     balls, signs = _pairs(system)
     ends = frames[np.array(of_ball, np.int32)[balls]]
@@ -62,6 +63,5 @@ def _places(system: LoopSystem) -> Int[np.ndarray, "spins columns"]:
     places = np.full((len(balls), system.columns), 6 * len(balls), np.int32)
     for spin, pair in enumerate(balls):
         for end, ball in enumerate(pair):
-            first = system.balls[ball]
-            places[spin, first : first + 3] = 6 * spin + 3 * end + np.arange(3)
+            places[spin, list(system.balls[ball])] = 6 * spin + 3 * end + np.arange(3)
     return places

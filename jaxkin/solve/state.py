@@ -1,7 +1,9 @@
 """The configuration of a loop system: its coordinates, with the turn of every ball pair as a unit quaternion.
 
 The three angles of a ball lock at phi = 90 deg, so the solver never uses them: a ball turns by `exp(delta)` applied on
-the left of its present turn, and its angles are only read off at the end. Structure of arrays: poses stand last.
+the left of its present turn, and its angles are only read off at the end (`read_off`). The line between the centres of
+two balls, state (p), turns about the two axes at right angles to it, wherever it points: `exp(delta)` on the right, no
+turn about the line itself. Structure of arrays: poses stand last.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The state moved by `delta`: added to coordinates, a rotation vector on the left of each ball's turn."""
     if not system.balls:
         return State(state.x + delta, state.turns)
-    turns = multiply(exponential(_of_balls(system, delta)), jnp.moveaxis(state.turns, 0, 1))
+    turns = multiply(exponential(_of_balls(system, state, delta)), jnp.moveaxis(state.turns, 0, 1))
     turns = turns / jnp.sqrt(jnp.sum(turns * turns, axis=0))
     return State(jnp.where(_turning(system), 0.0, state.x + delta), jnp.moveaxis(turns, 0, 1))
 
@@ -45,7 +47,7 @@ def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The derivative of `retract(state, t delta)` at t = 0, as a tangent of the state's arrays."""
     if not system.balls:
         return State(delta, jnp.zeros_like(state.turns))
-    spin = _of_balls(system, delta)
+    spin = _of_balls(system, state, delta)
     turns = 0.5 * multiply(jnp.concatenate([jnp.zeros_like(spin[:1]), spin]), jnp.moveaxis(state.turns, 0, 1))
     return State(jnp.where(_turning(system), 0.0, delta), jnp.moveaxis(turns, 0, 1))
 
@@ -61,9 +63,9 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
     if not system.driven:
         return state
     state = State(jnp.where(is_driven(system), _spread(system, inputs), state.x), state.turns)
-    for ball, first in enumerate(system.balls):
-        if first in system.driven:
-            turn = from_angles(state.x[first : first + 3])
+    for ball, columns in enumerate(system.balls):
+        if columns[0] in system.driven:
+            turn = from_angles(state.x[columns[0] : columns[0] + 3])
             state = State(state.x, state.turns.at[ball].set(turn))
     return state
 
@@ -77,7 +79,7 @@ def driven_rate(
     """
     change = jnp.where(is_driven(system), _spread(system, direction), 0.0)
     columns = change
-    for first in system.balls:
+    for first, *_ in system.balls:
         if first in system.driven:
             _, phi, psi = state.x[first : first + 3]
             d_theta, d_phi, d_psi = change[first : first + 3]
@@ -109,14 +111,21 @@ def is_driven(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
 
 def _turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
     """The columns of balls that are solved for: their turns hold what they did."""
-    first = [first for first in system.balls if first not in system.driven]
-    return np.isin(np.arange(system.columns), np.add.outer(first, range(3)))[:, None]
+    turning = [column for columns in system.balls for column in columns if column not in system.driven]
+    return np.isin(np.arange(system.columns), turning)[:, None]
 
 
-def _of_balls(system: LoopSystem, delta: Coordinates) -> Float[Array, "3 balls poses"]:
-    """Rotation vectors of the balls; none for those that are driven."""
-    still = jnp.zeros_like(delta[:3])
-    vectors = [still if first in system.driven else delta[first : first + 3] for first in system.balls]
+def _of_balls(system: LoopSystem, state: State, delta: Coordinates) -> Float[Array, "3 balls poses"]:
+    """Rotation vectors of the balls, applied on the left; none for those that are driven."""
+    vectors = []
+    for ball, columns in enumerate(system.balls):
+        if columns[0] in system.driven:
+            vectors.append(jnp.zeros_like(delta[:3]))
+        elif len(columns) == 2:
+            x, y, _ = map(jnp.stack, rotation_matrix(state.turns[ball]))
+            vectors.append(delta[columns[0]] * x + delta[columns[1]] * y)
+        else:
+            vectors.append(jnp.stack([delta[column] for column in columns]))
     return jnp.stack(vectors, axis=1)
 
 
@@ -168,17 +177,14 @@ def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
     ]
 
 
-def angles(turn: Float[Array, "4 poses"]) -> Float[Array, "3 poses"]:
-    """The paper's theta, phi, psi of a unit quaternion; at phi = +-90 deg, where they lock, theta is taken as zero."""
-    columns = rotation_matrix(turn)
-    sin_phi = jnp.clip(-columns[0][2], -1.0, 1.0)
-    locked = jnp.abs(sin_phi) > 1.0 - 1e-14
-    one = jnp.ones_like(sin_phi)
-    theta = jnp.where(
-        locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, columns[1][2]), jnp.where(locked, one, columns[2][2]))
-    )
-    psi_sin = jnp.where(locked, -columns[1][0], columns[0][1])
-    psi_cos = jnp.where(locked, columns[1][1], columns[0][0])
-    cos_phi = jnp.sqrt(jnp.where(locked, 1.0, columns[0][0] ** 2 + columns[0][1] ** 2))
-    phi = jnp.where(locked, jnp.sign(sin_phi) * (0.5 * jnp.pi), jnp.arctan2(sin_phi, cos_phi))
-    return jnp.stack([theta, phi, jnp.arctan2(psi_sin, psi_cos)])
+def angles(rotation: Float[Array, "3 3 poses"]) -> Float[Array, "3 poses"]:
+    """The paper's theta, phi, psi of rotation matrices; at phi = +-90 deg, where they lock, theta is taken as zero.
+
+    However near to the lock, together they give the turn to rounding: psi and phi are read from what theta leaves.
+    """
+    (_, xy, xz), (_, yy, yz), (zx, zy, zz) = rotation
+    locked = zy * zy + zz * zz < 1e-30  # entries of rotation matrices are right to 1e-16
+    theta = jnp.where(locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, zy), jnp.where(locked, 1.0, zz)))
+    cos, sin = jnp.cos(theta), jnp.sin(theta)
+    psi = jnp.arctan2(sin * xz - cos * xy, cos * yy - sin * yz)
+    return jnp.stack([theta, jnp.arctan2(-zx, sin * zy + cos * zz), psi])

@@ -34,6 +34,8 @@ class Steps(NamedTuple):
     """1 where the coordinate slides by the pitch of the joint as well, else 0."""
     ball: np.ndarray
     """Index of the quaternion of a ball; the number of balls, which holds no turn, where there is none."""
+    side: np.ndarray
+    """+1, or -1 where the axes that its columns turn a ball about turn with it: a line of centres."""
     axis: np.ndarray
     enter: np.ndarray
     """Index of the frame in which the step begins: frames before, frames after, no frame."""
@@ -50,7 +52,7 @@ def steps(system: LoopSystem) -> Steps:
     loops = [_loop(system, loop) for loop in system.loops]
     length = max(map(len, loops))
     frames = sum(map(len, system.movements))
-    idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 2, 2 * frames, 2 * frames)
+    idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 1, 2, 2 * frames, 2 * frames)
     filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops], np.int32)
     tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
     source = np.full((system.columns, len(loops)), 4 * length, np.int32)
@@ -59,8 +61,8 @@ def steps(system: LoopSystem) -> Steps:
             source[column, loop] = 4 * step
     for (step, loop), ball in np.ndenumerate(tables[6]):
         if ball < len(system.balls):
-            first = system.balls[ball]
-            source[first : first + 3, loop] = 4 * step + 1 + np.arange(3)
+            columns = system.balls[ball]
+            source[list(columns), loop] = 4 * step + 1 + np.arange(len(columns))
     return Steps._make([*tables, source])
 
 
@@ -68,6 +70,7 @@ def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[i
     """The rows of one loop, entries in the order of `Steps`."""
     frames = sum(map(len, system.movements))
     first_frame = np.cumsum([0, *map(len, system.movements)])
+    turning = {column for columns in system.balls for column in columns}
     rows = []
     for joint, sign in loop:
         chain = system.chains[joint]
@@ -75,15 +78,17 @@ def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[i
             before = int(first_frame[joint]) + frame
             enter, leave = (before, frames + before) if sign > 0 else (frames + before, before)
             movement = MOVEMENTS[name]
-            whole = movement.ball or not movement.elements
-            elements = (None,) if whole else movement.elements if sign > 0 else movement.elements[::-1]
-            for number, element in enumerate(elements):
+            elements = [element for element in movement.elements if column + element.coordinate not in turning]
+            if ball is not None or not elements:
+                elements = [None]
+            for number, element in enumerate(elements if sign > 0 else elements[::-1]):
                 at = enter if number == 0 else 2 * frames, leave if number == len(elements) - 1 else 2 * frames
                 if element is None:
-                    which = ball if movement.ball else len(system.balls)
-                    rows.append((system.columns, joint, sign, 0, 0, 0, which, 2, *at))
+                    which = len(system.balls) if ball is None else ball
+                    side = -1 if ball is not None and len(system.balls[ball]) == 2 else 1
+                    rows.append((system.columns, joint, sign, 0, 0, 0, which, side, 2, *at))
                 else:
                     kind = (element.kind != "translate", element.kind == "translate", element.kind == "screw")
                     index = column + element.coordinate
-                    rows.append((index, joint, sign, *map(int, kind), len(system.balls), element.axis, *at))
+                    rows.append((index, joint, sign, *map(int, kind), len(system.balls), 1, element.axis, *at))
     return rows

@@ -26,7 +26,8 @@ from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
-from jaxkin.solve.state import State, angles, assembled, difference, drive, driven
+from jaxkin.solve.reading import read_off
+from jaxkin.solve.state import assembled, difference, drive, driven
 from jaxkin.solve.status import Status, Tolerance, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
@@ -67,7 +68,7 @@ def displacements(
     geometry, lengths = scaled(system, joints)
     poses = lax.stop_gradient(poses)
     state = attach(system, geometry, inputs / driven(system, lengths), poses.state, is_closed(poses.status))
-    return _coordinates(system, state) * lengths
+    return read_off(system, joints.before, joints.after, state._replace(x=state.x * lengths))
 
 
 def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
@@ -183,12 +184,3 @@ def _settle(
     same = near & (begin.status == Status.CLOSED.value)
     status = classify(found.closure.gap, found.stationary, same, tolerance.closed)
     return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
-
-
-def _coordinates(system: LoopSystem, state: State) -> Float[Array, "columns poses"]:
-    """The paper's coordinates: those of balls read off as theta, phi, psi and unwrapped along the poses."""
-    x = state.x
-    for ball, first in enumerate(system.balls):
-        if first not in system.driven:
-            x = x.at[first : first + 3].set(jnp.unwrap(angles(state.turns[ball]), axis=-1))
-    return x

@@ -8,13 +8,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import accumulate
 from typing import NamedTuple
 
 from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.joints.screws import freedoms
 
 EQUATIONS, IN_PLANE = 6, 3
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
 one and two."""
+
+
+LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
+"""Pairs of movements whose angles lock where a ball has rolled a quarter turn, (d) and (p): the one in whose frame a
+ball turns instead, and the columns that turn it about x, y, z, counted from the first of the pair. What (p) gives its
+second angle about z does is left to the movement behind it."""
 
 
 class Form(NamedTuple):
@@ -40,17 +48,44 @@ class LoopSystem:
     form: Form
 
     @cached_property
-    def chains(self) -> tuple[tuple[tuple[str, int, int, int], ...], ...]:
-        """For each joint its movements: key of `MOVEMENTS`, frame, first column, number of balls before it."""
-        column, balls, chains = 0, 0, []
-        for movements in self.movements:
-            chain = []
+    def chains(self) -> tuple[tuple[tuple[str, int, int, int | None], ...], ...]:
+        """For each joint its movements: key of `MOVEMENTS`, frame, first column, number of its ball if it is one."""
+        chains = []
+        for joint, movements in enumerate(self.movements):
+            column, chain = self._first_columns[joint], []
             for frame, name in enumerate(movements):
-                chain.append((name, frame, column, balls))
+                chain.append((name, frame, column, self.places.get((joint, frame), (None,))[0]))
                 column += len(MOVEMENTS[name].coordinates)
-                balls += MOVEMENTS[name].ball
             chains.append(tuple(chain))
         return tuple(chains)
+
+    @cached_property
+    def balls(self) -> tuple[tuple[int, ...], ...]:
+        """The columns that turn each ball about the axes of its frame: three, or the first two of a line of centres.
+
+        Ball pairs come first, then what would lock if it were solved by its angles.
+        """
+        return tuple(columns for _, columns in self.places.values())
+
+    @cached_property
+    def _first_columns(self) -> tuple[int, ...]:
+        return tuple(accumulate(map(freedoms, self.movements), initial=0))
+
+    @cached_property
+    def places(self) -> dict[tuple[int, int], tuple[int, tuple[int, ...]]]:
+        """Joint and frame of each ball -> its number and its columns, by rising number."""
+        pairs, locking = {}, {}
+        for joint, movements in enumerate(self.movements):
+            first = column = self._first_columns[joint]
+            given = not set(self.driven).isdisjoint(range(first, first + freedoms(movements)))
+            for frame, name in enumerate(movements):
+                if MOVEMENTS[name].ball:
+                    pairs[joint, frame] = (column, column + 1, column + 2)
+                pair = LOCKING.get((name, movements[frame + 1] if frame + 1 < len(movements) else "I"))
+                if pair and not given:  # a single angle can be driven only where it is one
+                    locking[joint, frame + pair[0]] = tuple(column + k for k in pair[1])
+                column += len(MOVEMENTS[name].coordinates)
+        return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
 
     @cached_property
     def is_length(self) -> tuple[bool, ...]:
@@ -75,18 +110,13 @@ class LoopSystem:
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int], ...]:
         """See `Form`; without those of balls that are driven."""
-        free = [first not in self.driven for first in self.balls]
+        free = [columns[0] not in self.driven for columns in self.balls]
         return tuple(spin for spin in self.form.spins if free[spin[0]] and free[spin[1]])
 
     @property
     def equations(self) -> int:
         """Number of rows of the Jacobian: those of the loops, then one a spin."""
         return (EQUATIONS if self.plane is None else IN_PLANE) * len(self.loops) + len(self.spins)
-
-    @cached_property
-    def balls(self) -> tuple[int, ...]:
-        """First columns of the coordinates of ball pairs."""
-        return tuple(column for chain in self.chains for name, _, column, _ in chain if MOVEMENTS[name].ball)
 
     @cached_property
     def free(self) -> tuple[int, ...]:

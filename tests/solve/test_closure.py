@@ -6,16 +6,27 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
+from jaxkin.geometry.pose import rotation
 from jaxkin.solve import closure as module
 from jaxkin.solve import spatial
-from jaxkin.solve.state import angles, assembled, drive, from_angles, multiply, retract, rotation_matrix
+from jaxkin.solve.reading import as_state, read_off
+from jaxkin.solve.state import angles, assembled, from_angles, multiply, retract, rotation_matrix
 from jaxkin.solve.system import Form, LoopSystem
 
 closure = jax.jit(module.closure, static_argnums=0)
 loop_geometry = jax.jit(module.loop_geometry, static_argnums=0)
 travel = jax.jit(spatial._travel, static_argnums=0)
 
-CHAINS = (("T_z_phi",), ("T_xy_phi", "T_phi"), ("T_theta_phi_psi",), ("T_screw",), ("T_theta_phi",), ("I",))
+CHAINS = (
+    ("T_z_phi",),
+    ("T_xy_phi", "T_phi"),
+    ("T_theta_phi_psi",),
+    ("T_screw",),
+    ("T_theta_phi",),
+    ("I",),
+    ("T_xy_phi", "T_theta_phi"),
+    ("T_theta_phi", "T_theta_phi_psi"),
+)
 
 
 def random_pose(rng):
@@ -31,7 +42,13 @@ def loop():
     """A loop through every kind of movement, both ways round, with frames that differ on the two parts."""
     rng = np.random.default_rng(4)
     system = LoopSystem(
-        CHAINS, (((0, 1), (1, -1), (2, 1), (3, -1), (4, 1), (5, 1)), ((2, -1), (0, 1), (4, -1))), (0,), Form()
+        CHAINS,
+        (
+            ((0, 1), (1, -1), (2, 1), (3, -1), (4, 1), (5, 1), (6, 1), (7, -1)),
+            ((2, -1), (0, 1), (6, -1), (4, -1), (7, 1)),
+        ),
+        (0,),
+        Form(),
     )
     before = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
     after = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
@@ -39,25 +56,25 @@ def loop():
     return system, before, after, pitch, jnp.asarray(rng.normal(size=(system.columns, 5)))
 
 
-def as_state(system, q):
-    state = drive(system, assembled(system, q.shape[1], q.dtype), q[jnp.array(system.driven)])
-    turns = jnp.stack([from_angles(q[first : first + 3]) for first in system.balls])
-    return state._replace(x=q, turns=turns)
+def displacement(system, before, after, pitch, q, index):
+    """Of a joint: the product of the paper's matrices."""
+    matrix = jnp.eye(4)
+    for name, frame, column, _ in system.chains[index]:
+        count = len(MOVEMENTS[name].coordinates)
+        turn = movement_matrix(name, q[column : column + count].T, pitch[index])
+        matrix = matrix @ before[index][frame] @ turn @ jnp.linalg.inv(after[index][frame])
+    return matrix
 
 
 def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
     system, before, after, pitch, q = loop
     geometry, length = loop_geometry(system, before, after, pitch)
-    scaled = q / jnp.where(jnp.array(system.is_length), length, 1.0)[:, None]
-    found = closure(system, geometry, as_state(system, scaled)).gap
+    lengths = jnp.where(jnp.array(system.is_length), length, 1.0)[:, None]
+    state = as_state(system, before, after, q)
+    found = closure(system, geometry, state._replace(x=state.x / lengths)).gap
 
     def joint(index):
-        matrix = jnp.eye(4)
-        for name, frame, column, _ in system.chains[index]:
-            count = len(MOVEMENTS[name].coordinates)
-            turn = movement_matrix(name, q[column : column + count].T, pitch[index])
-            matrix = matrix @ before[index][frame] @ turn @ jnp.linalg.inv(after[index][frame])
-        return matrix
+        return displacement(system, before, after, pitch, q, index)
 
     centre = jnp.mean(jnp.concatenate([frames[:, :3, 3] for frames in before]), axis=0)
     to_centre = jnp.eye(4).at[:3, 3].set(centre)
@@ -76,7 +93,7 @@ def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     system, before, after, pitch, q = loop
     system = LoopSystem(system.movements, system.loops[:1], system.driven, Form())
     geometry, _ = loop_geometry(system, before, after, pitch)
-    state = as_state(system, q[:, :1])
+    state = as_state(system, before, after, q[:, :1])
 
     def end(delta):
         """The displacement of the end of the loop relative to where it is at delta = 0, as rotation and translation."""
@@ -99,21 +116,59 @@ def close_behind(system, geometry, state):
     return geometry._replace(end=geometry.end @ np.linalg.inv(end))
 
 
+def test_what_is_read_off_is_what_was_put_in(loop):
+    """However the frames of a chain lie to each other."""
+    system, before, after, pitch, q = loop
+    given = 0.3 * q  # farther away frames at random can lie so that two angles do not reach
+    read = read_off(system, before, after, as_state(system, before, after, given))
+    for index in range(len(CHAINS)):
+        one, other = (displacement(system, before, after, pitch, x, index) for x in (read, given))
+        np.testing.assert_allclose(one, other, atol=1e-13)  # of lengths of order one, some products
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-4])
+def test_balls_roll_anywhere_and_are_read_off_right(off):
+    """Long random ways of (d) and (p), frames as in Table 1 or a little off: lines of centres turn about themselves."""
+    rng = np.random.default_rng(5)
+    system = LoopSystem(CHAINS[-2:], (((0, 1), (1, 1)),), (), Form())
+    above = np.eye(4)
+    above[2, 3] = 1.3
+    before = tuple(
+        jnp.array([place, place @ above @ nudge(rng, off)]) for place in (random_pose(rng), random_pose(rng))
+    )
+    state = assembled(system, 50, jnp.float64)
+    step = jax.jit(retract, static_argnums=0)
+    for _ in range(60):
+        state = step(system, state, jnp.asarray(0.3 * rng.normal(size=(system.columns, 50))))
+    again = as_state(system, before, before, read_off(system, before, before, state))
+    geometry, _ = loop_geometry(system, before, before, (jnp.zeros(()),) * 2)
+    one, other = (closure(system, geometry, each).gap for each in (state, again))
+    np.testing.assert_allclose(one, other, rtol=1e-13)
+
+
+def nudge(rng, size):
+    """A displacement by about that much."""
+    axis = rng.normal(size=3)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation(axis / np.linalg.norm(axis), size)
+    pose[:3, 3] = size * rng.normal(size=3)
+    return pose
+
+
 def test_angles_are_the_inverse_of_from_angles():
     rng = np.random.default_rng(1)
     given = jnp.asarray(rng.uniform([[-3.1], [-1.5], [-3.1]], [[3.1], [1.5], [3.1]], size=(3, 200)))
-    np.testing.assert_allclose(angles(from_angles(given)), given, atol=1e-13)  # cos(phi) is at least 0.07
+    np.testing.assert_allclose(angles(matrices(given)), given, atol=1e-13)  # cos(phi) is at least 0.07
 
 
 def test_angles_at_the_lock_give_the_same_rotation():
-    given = jnp.array([[0.3, -0.4], [np.pi / 2, -np.pi / 2], [0.5, 1.2]])
-    read = angles(from_angles(given))
-    for one, other in zip(rotation_columns(given), rotation_columns(read), strict=True):
-        np.testing.assert_allclose(one, other, atol=2e-8)  # near the lock phi is known to the square root of rounding
+    off = np.array([0.0, 1e-16, 3e-15, 1e-12, -1e-9, 1e-7, -1e-4])
+    given = jnp.stack([0.3 + off, np.sign(off - 1e-8) * np.pi / 2 + off, 0.5 - 7 * off])
+    np.testing.assert_allclose(matrices(angles(matrices(given))), matrices(given), atol=2e-15)  # some roundings
 
 
-def rotation_columns(given):
-    return [jnp.stack(column) for column in rotation_matrix(from_angles(given))]
+def matrices(given):
+    return jnp.stack([jnp.stack(column) for column in rotation_matrix(from_angles(given))], axis=1)
 
 
 def test_a_ball_turns_half_a_turn_about_any_axis():
