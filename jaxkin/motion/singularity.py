@@ -38,5 +38,8 @@ def _rank(mechanism: Mechanism, number: int, system: LoopSystem) -> int:
     """Independent equations for the free coordinates where nothing is singular; as many as may be where JAX traces."""
     if traced(mechanism.all_joints):
         return min(system.equations, len(system.free))
-    freedoms = mechanism.loop_freedoms[number]
-    return null_space(freedoms.jacobian[:, np.array(system.free, int)], freedoms.noise)[0] + len(system.spins)
+    freedoms, plane = mechanism.loop_freedoms[number], mechanism.forms[number].plane
+    free = [
+        column for column in system.free if plane is None or column in plane
+    ]  # what leaves the plane is not solved for
+    return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0] + len(system.spins)

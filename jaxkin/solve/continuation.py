@@ -28,6 +28,9 @@ from jaxkin.solve.system import LoopSystem
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.05
 """Radians, or characteristic lengths. A limit of the motion is approached to the shortest step; the damped corrector
 settles what lies beyond it."""
+AT_LIMIT = 12 * SHORTEST_STEP
+"""As near as this to a limit the motion is followed. The pose moves there with the root of the distance `m`; a step `d`
+behind one as long as 1.07 m, the longest that is still good, misses its prediction by a quarter where d > m / 10.4."""
 CORRECTOR_STEPS, RESCUE_STEPS = 8, 200
 
 START, FOLLOW, GAP = range(3)
@@ -101,7 +104,7 @@ def substep(
     hard = jnp.any(starting | in_gap)
     found = correct(system, geometry, predicted, jnp.where(hard, RESCUE_STEPS, CORRECTOR_STEPS))
     # a target so near that no step was short enough, just inside a limit
-    beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= SHORTEST_STEP)
+    beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)
     closed = is_closed(status)
 

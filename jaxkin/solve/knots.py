@@ -16,7 +16,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Geometry
-from jaxkin.solve.continuation import SHORTEST_STEP, Front, Way, arrived, start, substep
+from jaxkin.solve.continuation import AT_LIMIT, Front, Way, arrived, start, substep
 from jaxkin.solve.correct import choose
 from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
@@ -28,8 +28,6 @@ reach is STALLED. A full turn takes about fifty, several inputs in any order som
 copies them: no more than needed."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
-AT_LIMIT = 2 * SHORTEST_STEP
-"""Farther than this from the last knot before a limit nothing closes on the branch that was followed."""
 SAME = 1e-9
 """Coordinates that differ by less after a full turn have come back (1e-4 in float32)."""
 TURN = 2 * np.pi

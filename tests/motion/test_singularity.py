@@ -7,6 +7,7 @@ import pytest
 from reference import planar
 from reference.catalogue import parallelogram
 from reference.mechanisms import bennett_linkage, planar_fourbar, rssr_linkage, slider_crank
+from reference.overconstrained import shaft_in_contacts
 
 
 def test_zero_at_change_points_only():
@@ -40,9 +41,15 @@ def test_it_depends_on_no_unit(scale):
     np.testing.assert_allclose(one, other, rtol=1e-12)
 
 
-@pytest.mark.parametrize("mechanism", [bennett_linkage(), rssr_linkage()], ids=["overconstrained", "idle"])
+@pytest.mark.parametrize(
+    "mechanism",
+    [bennett_linkage(), rssr_linkage(), shaft_in_contacts(3)],
+    ids=["overconstrained", "idle", "slides that leave the plane"],
+)
 def test_redundant_equations_and_idle_freedoms_are_not_singular(mechanism):
-    found = np.asarray(mechanism.sweep({"A": np.linspace(0.0, 1.0, 10)}).sigma_min)
+    first = mechanism.all_joints[0]
+    drive = f"{first.name}.{first.coordinates[-1]}"
+    found = np.asarray(mechanism.sweep({drive: np.linspace(0.0, 1.0, 10)}).sigma_min)
     assert np.all(found > 0.01) and np.all(found < 10)
 
 

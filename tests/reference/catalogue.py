@@ -17,26 +17,28 @@ from reference.mechanisms import Z, flat
 GROUND = "ground"
 
 
-def pinned(points: Mapping[str, object], bars: Mapping[str, str], extra: tuple[Joint, ...] = ()) -> Mechanism:
+def pinned(
+    points: Mapping[str, object], bars: Mapping[str, str], extra: tuple[Joint, ...] = (), pin=revolute
+) -> Mechanism:
     """Bars pinned at points: `bars["crank"] = "OA"` says which. A point of several bars is a hinge from the first to
     each other; bars of the ground come first."""
     joints = []
     for point, place in points.items():
         first, *others = [bar for bar, at in bars.items() if point in at]
         joints += [
-            revolute(f"{point}{i}" if len(others) > 1 else point, first, other, point=flat(place), axis=Z)
+            pin(f"{point}{i}" if len(others) > 1 else point, first, other, point=flat(place), axis=Z)
             for i, other in enumerate(others)
         ]
     return Mechanism.build(fixed=[GROUND], joints=[*joints, *extra])
 
 
-def parallelogram(bars=2, angle=1.0) -> Mechanism:
+def parallelogram(bars=2, angle=1.0, pin=revolute) -> Mechanism:
     """Cranks side by side under one coupler: each above two is redundant."""
     up = np.array([50 * np.cos(angle), 50 * np.sin(angle)])
     points = {f"{name}": np.array([40.0 * i, 0]) for i, name in enumerate("ABCDE"[:bars])}
     points |= {name.lower(): place + up for name, place in points.items()}
     cranks = {f"crank {name}": name + name.lower() for name in "ABCDE"[:bars]}
-    return pinned(points, {GROUND: "ABCDE"[:bars], "coupler": "abcde"[:bars], **cranks})
+    return pinned(points, {GROUND: "ABCDE"[:bars], "coupler": "abcde"[:bars], **cranks}, pin=pin)
 
 
 def antiparallelogram(theta=0.8) -> Mechanism:

@@ -60,6 +60,35 @@ def antiparallelogram(theta: Array, crank=50.0, ground=120.0) -> Array:
     return 2 * np.arctan2((crank + ground) * np.sin(theta / 2), (crank - ground) * np.cos(theta / 2))
 
 
+def fourbar_crank(rocker: Array, lengths=(100.0, 40.0, 120.0, 80.0), side=1) -> Array:
+    """The crank of `fourbar`, lengths in the same order, by the angle of its rocker; side 1 has the crank pin left of
+    the line from the crank's pivot to the rocker's pin."""
+    ground, crank, coupler, out = lengths
+    pin = np.array([ground, 0.0]) + polar(out, rocker)
+    reach = np.hypot(*np.moveaxis(pin, -1, 0))
+    cosine = (crank**2 + reach**2 - coupler**2) / (2 * crank * reach)
+    return direction(np.zeros(2), pin) + side * np.arccos(np.where(np.abs(cosine) > 1, np.nan, cosine))
+
+
+def kite(theta: Array, crank=50.0, coupler=120.0) -> Array:
+    """Angle of the rocker of a four-bar whose ground is as long as the crank, its rocker as the coupler.
+
+    The rocker's pin lies on the line that halves the crank angle: two turns of the crank bring it back. At theta = 0,
+    where crank pin and rocker pivot meet, coupler and rocker could turn together.
+    """
+    reach = crank * np.cos(theta / 2) + np.sqrt(coupler**2 - (crank * np.sin(theta / 2)) ** 2)
+    return np.arctan2(reach * np.sin(theta / 2), reach * np.cos(theta / 2) - crank)
+
+
+def upright_kite(theta: Array, crank=50.0, ground=120.0) -> Array:
+    """Angle of the rocker of a four-bar whose coupler is as long as the crank, its rocker as the ground.
+
+    The rocker's pin mirrors the crank's pivot in the line of the other two; it meets that pivot at theta = 0 and pi,
+    where crank and coupler could turn together.
+    """
+    return 2 * np.arctan2(crank * np.sin(theta), crank * np.cos(theta) - ground) - np.pi
+
+
 class SliderCrank(NamedTuple):
     rod: Array
     slider: Array

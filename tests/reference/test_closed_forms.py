@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference import higher_pairs, parallel, planar, spatial
+from reference import higher_pairs, overconstrained, parallel, planar, spatial
+from reference.mechanisms import denavit_hartenberg
 
 THETA = np.linspace(0.0, 2 * np.pi, 361)
 ROUNDING = 1e-12
@@ -168,6 +169,39 @@ def test_bennett_closes():
         shift[:3, :3], shift[0, 3] = spatial.about_x(alpha), a
         product = product @ turn @ shift
     np.testing.assert_allclose(product, np.broadcast_to(np.eye(4), product.shape), atol=100 * ROUNDING)
+
+
+def test_bricard_closes():
+    """The Denavit-Hartenberg transforms of the six links multiply to the identity."""
+    for theta in THETA[(THETA < 1.8) | (THETA > 4.5)][::20]:
+        other, product = overconstrained.bricard(theta), np.eye(4)
+        for angle, twist in zip((theta, other) * 3, (1.2, -1.2) * 3, strict=True):
+            product = product @ denavit_hartenberg(angle, 50.0, twist)
+        np.testing.assert_allclose(product, np.eye(4), atol=100 * ROUNDING)
+
+
+def test_goldberg_closes():
+    """The screw displacements of its five joints, turned as the closed form says, multiply to the identity."""
+    joints = overconstrained.goldberg_linkage(0.8).joints
+    start = overconstrained.goldberg(np.array(0.8))
+    for phi in np.linspace(-0.5, 1.8, 12):
+        now, product = overconstrained.goldberg(np.array(phi)), np.eye(4)
+        for name, joint in joints.items():
+            turn, frame = now[name] - start[name], joint.before[0]
+            # the ring runs RS, SP, PU, UT, TR: against the direction of U and T
+            turned = denavit_hartenberg(-turn if name in "UT" else turn, 0.0, 0.0)
+            product = product @ frame @ turned @ np.linalg.inv(frame)
+        np.testing.assert_allclose(product, np.eye(4), atol=100 * ROUNDING)
+
+
+def test_kites_keep_their_links_and_fourbars_turn_back():
+    theta = 2 * THETA  # two turns, after which a kite is back
+    for ground, crank, coupler, closed in ((50.0, 50.0, 120.0, planar.kite), (120.0, 50.0, 50.0, planar.upright_kite)):
+        rocker = closed(theta, 50.0, 120.0)
+        pin = np.array([ground, 0.0]) + planar.polar(120.0, rocker)
+        np.testing.assert_allclose(distance(pin, planar.polar(crank, theta)), coupler, atol=100 * ROUNDING)
+    crank = np.linspace(0.6, 3.0, 50)
+    np.testing.assert_allclose(planar.fourbar_crank(planar.fourbar(crank).rocker), crank, rtol=1e-12)
 
 
 def test_sarrus_is_two_links_high():
