@@ -8,6 +8,7 @@ whatever their tessellation.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -71,15 +72,25 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     return _sum(areas, lifted(middles[:, None])[:, 0], lifted(corners), shared)
 
 
-def _intersections(a: Flat, b: Flat, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """What pairs of triangles share: areas, centroids, 15 candidates for its corners, and which of them are corners.
+class _Shared(NamedTuple):
+    """What pairs of triangles share. The corners of it are those of either triangle that lie in the other, and the
+    points where edges cross."""
 
-    The corners are those of either triangle that lie in the other, and the points where edges cross.
-    """
+    areas: np.ndarray
+    middles: np.ndarray
+    """Centroids."""
+    corners: np.ndarray
+    """15 candidates for its corners."""
+    chosen: np.ndarray
+    """Which of them are corners."""
+
+
+def _intersections(a: Flat, b: Flat, tolerance: float) -> _Shared:
+    """What pairs of triangles share, pair by pair."""
     if len(a) > 50_000:  # bounds the memory
         halves = zip(np.array_split(a, 2), np.array_split(b, 2), strict=True)
         results = [_intersections(half_a, half_b, tolerance) for half_a, half_b in halves]
-        return tuple(np.concatenate(parts) for parts in zip(*results, strict=True))  # type: ignore[return-value]
+        return _Shared(*(np.concatenate(parts) for parts in zip(*results, strict=True)))
     a, b = _anticlockwise(a), _anticlockwise(b)
     edges_a, edges_b = np.roll(a, -1, axis=1) - a, np.roll(b, -1, axis=1) - b
     start = b[:, None] - a[:, :, None]  # pair, edge of a, edge of b
@@ -102,7 +113,7 @@ def _intersections(a: Flat, b: Flat, tolerance: float) -> tuple[np.ndarray, np.n
     areas = sectors.sum(axis=1)
     moments = np.einsum("nk,nki->ni", sectors, rim + following) / 3
     safe = np.where(areas > 0, areas, 1.0)[:, None]
-    return areas, middle + np.where(areas[:, None] > 0, moments / safe, 0.0), corners, shared
+    return _Shared(areas, middle + np.where(areas[:, None] > 0, moments / safe, 0.0), corners, shared)
 
 
 def _rims(corners: np.ndarray, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -93,11 +93,11 @@ def find_state(letter: str, region: str | None = None) -> ContactState:
 
     ValueError if there is no such state, or not with this region.
     """
-    rows = {state.region: state for state in STATES if state.letter == letter}
+    rows: dict[str, ContactState] = {state.region: state for state in STATES if state.letter == letter}
     if not rows:
         raise ValueError(f"a contact state is a letter from 'a' to 'p', got {letter!r}")
     if region is None:
         return rows.get("point") or next(iter(rows.values()))
     if region not in rows:
         raise ValueError(f"contact state ({letter}) has the region {' or '.join(map(repr, rows))}, got {region!r}")
-    return rows[region]  # type: ignore[index]
+    return rows[region]

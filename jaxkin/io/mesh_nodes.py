@@ -6,8 +6,6 @@ With bounds on its time and memory, and nothing printed, whatever the file makes
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +14,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
+from jaxkin.io.apart import run_apart
 from jaxkin.io.mesh_check import MOST, PARTS, check, is_binary_stl, too_many
 
 SECONDS = 120
@@ -72,19 +71,12 @@ def _by_trimesh(path: Path) -> list[Node]:
     kind = path.suffix.lower().removeprefix(".")
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "nodes.npz"
-        worker = Path(__file__).with_name("mesh_worker.py")
-        command = [sys.executable, "-P", str(worker), kind, str(MOST), str(PARTS), str(MEMORY), str(target), str(path)]
-        try:
-            done = subprocess.run(
-                command, capture_output=True, text=True, errors="replace", check=False, timeout=SECONDS
-            )
-        except subprocess.TimeoutExpired:
-            raise ValueError(
-                f"{path.name} was not read within {SECONDS} seconds: it is damaged, or larger than can be used"
-            ) from None
-        if done.returncode:
-            said = (done.stderr.strip().splitlines() or ["the reader crashed on it"])[-1]
-            raise ValueError(f"{path.name} cannot be read as {kind.upper()}: {said}; export it again")
+        status, said = run_apart(
+            "mesh_worker.py", kind, MOST, PARTS, target, path.resolve(), name=path.name, seconds=SECONDS, memory=MEMORY
+        )
+        if status:
+            why = (said.strip().splitlines() or ["the reader crashed on it"])[-1]
+            raise ValueError(f"{path.name} cannot be read as {kind.upper()}: {why}; export it again")
         with np.load(target) as data:
             return [
                 _node(entry["name"], entry["color"], data[f"corners{k}"], data[f"pose{k}"], path.name)

@@ -1,10 +1,9 @@
-"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST PARTS BYTES TARGET FILE`.
+"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST PARTS TARGET FILE`.
 
 What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
 so that it starts at once. TARGET becomes a .npz of the triangles of every node, and their names.
 """
 
-import contextlib
 import json
 import sys
 from functools import partial
@@ -17,12 +16,8 @@ class Refused(Exception):
     """What the reader would take, but is too much or makes no sense."""
 
 
-def main(kind: str, most: int, parts: int, memory: int, target: str, source: str) -> None:
+def main(kind: str, most: int, parts: int, target: str, source: str) -> None:
     """Write the nodes of a file, or the reason why there are none, as one line on standard error."""
-    with contextlib.suppress(ImportError, ValueError):  # not on every system
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     try:
         with open(source, "rb") as file:
             nodes = read(file, kind, most, parts)
@@ -32,7 +27,7 @@ def main(kind: str, most: int, parts: int, memory: int, target: str, source: str
         sys.exit("its nodes are nested without end")
     except Refused as error:
         sys.exit(str(error))
-    except Exception as error:
+    except Exception as error:  # the loaders raise whatever a damaged file makes them stumble over: one line for all
         sys.exit(f"{type(error).__name__}: {error}".splitlines()[0][:200])
     arrays = {f"{key}{k}": node[key] for k, node in enumerate(nodes) for key in ("corners", "pose")}
     about = [{"name": node["name"], "color": node["color"]} for node in nodes]
@@ -96,5 +91,5 @@ def color(mesh) -> list[float] | None:
 
 
 if __name__ == "__main__":
-    kind, most, parts, memory, target, source = sys.argv[1:]
-    main(kind, int(most), int(parts), int(memory), target, source)
+    kind, most, parts, target, source = sys.argv[1:]
+    main(kind, int(most), int(parts), target, source)

@@ -14,14 +14,22 @@ from jaxkin.geometry.fit import fit_surface, flipped, rounding
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, apply, unit
+from jaxkin.geometry.shells import wrong_side
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.io.names import unique
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
+from jaxkin.io.step_tree import check_parts
 from jaxkin.io.step_unit import length_unit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
+
+_SAMPLES = 40
+"""Triangles of a part at which it is looked whether it cuts itself."""
+
+LARGEST = 500_000_000
+"""Bytes of a file; a large assembly has some fifty million."""
 
 Rows = Int[np.ndarray, "rows"]
 
@@ -40,8 +48,10 @@ def read_step(path: str | Path) -> tuple[tuple[Part, ...], str]:
     """
     path = Path(path)
     data = _checked(path)
+    text = data.decode("latin-1")
+    unit_name, metres = length_unit(text, path.name)
+    check_parts(text, path.name)
     found = list(instances(convert(data, path.name)))
-    unit_name, metres = length_unit(data.decode("latin-1"), path.name)
     if not all(instance.complete for instance in found):
         plain = instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), path.name))
         found = [replace(bare, color=it.color) for bare, it in zip(plain, found, strict=True)]
@@ -55,6 +65,8 @@ def _checked(path: Path) -> bytes:
         raise ValueError(f"{path} is a folder: give the STEP file itself")
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: give the path of a STEP file")
+    if (size := path.stat().st_size) > LARGEST:
+        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it part by part")
     data = path.read_bytes()
     if not data.strip():
         raise ValueError(f"{path.name} is empty: expected a STEP file")
@@ -71,7 +83,7 @@ def _part(name: str, instance: Instance, metres: float) -> Part:
     triangles, pose = instance.triangles / metres, instance.pose.copy()
     pose[:3, 3] /= metres
     tolerance = rounding(triangles)
-    faces, notes = [], []
+    faces, notes, doubtful = [], [], False
     for index, described in enumerate(instance.faces):
         label, rows = f"face {index + 1}", np.flatnonzero(instance.face_of == index)
         if len(rows) == 0:
@@ -90,7 +102,12 @@ def _part(name: str, instance: Instance, metres: float) -> Part:
             notes.append(f"{label}: its triangles lie up to {off:.2g} off its {surface.kind}")
         if note:
             notes.append(f"{label}: {note}")
+            doubtful = True
         faces.append(Face(label, surface.moved(pose), apply(pose, corners)))
+    # no reason to refuse it: its faces are known exactly, and overlapping bodies are common in real assemblies
+    if not doubtful and len(triangles) and (place := wrong_side(triangles, tolerance, _SAMPLES)) is not None:
+        near = ", ".join(f"{x:.4g}" for x in apply(pose, place))
+        notes.append(f"it cuts itself, or bodies touch or overlap in it, near ({near}): unite them if they move apart")
     return Part(name, merge_faces(faces, tolerance), apply(pose, triangles), instance.color, tuple(notes))
 
 

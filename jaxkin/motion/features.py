@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
 
 Side = Literal["before", "after"]
+Kind = Literal["point", "axis", "plane"]
 Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
 Key = tuple[str, ...]
 
@@ -27,7 +28,7 @@ class Feature(NamedTuple):
     """Its column in the mechanism."""
     side: Side
     frame: int
-    kind: Literal["point", "axis", "plane"]
+    kind: Kind
     axis: int
     """Which axis of the frame is the axis, or the normal of the plane."""
     marked: bool
@@ -46,7 +47,7 @@ class Length(NamedTuple):
 
 
 # Movement -> what it is to the part on either side: (kind, axis of the frame, marked).
-_FEATURES = {
+_FEATURES: dict[str, tuple[Kind, int, bool]] = {
     "T_z": ("axis", 2, False),
     "T_phi": ("axis", 2, True),
     "T_screw": ("axis", 2, True),
@@ -103,7 +104,7 @@ def length_table(mechanism: Mechanism) -> dict[Key, Length]:
             if name is None or i + 1 >= len(joint.movements) or filled:
                 continue
             body = (_feature(column, joint, "after", i), _feature(column, joint, "before", i + 1))
-            quantity = "distance" if name == "distance" else "radius"
+            quantity: Quantity = "distance" if name == "distance" else "radius"
             table[joint.name, name] = Length(body, 0, 1, quantity)
         if "T_screw" in joint.movements:
             table[joint.name, "pitch"] = Length((), column, column, "pitch")
@@ -114,7 +115,7 @@ def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
     if joint.kind == "universal":  # Ry(phi) Rx(theta): part 1 holds the y axis of the cross, part 2 its x axis
         return Feature(column, side, frame, "axis", 1 if side == "before" else 0, True)
     kind, axis, marked = _FEATURES[joint.movements[frame]]
-    return Feature(column, side, frame, kind, axis, marked)  # type: ignore[arg-type]
+    return Feature(column, side, frame, kind, axis, marked)
 
 
 def _has_offset(along: Feature, of: Feature) -> bool:

@@ -71,7 +71,7 @@ def _write(motion: Motion, directory: Path, filename: str) -> Path:
     try:
         with whole(target) as draft:
             (_tables | _others)[filename](motion, draft)
-    except Exception as error:
+    except Exception as error:  # writers are registered from outside: whatever fails in one, the user asked for a file
         raise OSError(f"could not write {str(target)!r}: {error}") from error
     return target
 

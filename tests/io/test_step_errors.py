@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
+import time
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from jaxkin.examples import path
+from jaxkin.io import step, step_convert
 from jaxkin.io.load import load
 from jaxkin.io.step import read_step
+from jaxkin.io.step_tree import PARTS
 
 DATA = Path(__file__).parent / "data"
 CAM = path("cam").read_bytes()
@@ -82,3 +86,135 @@ def test_load_gives_an_assembly(tmp_path):
     assert [part.name for part in assembly.parts] == ["cam", "follower", "frame"]
     assert assembly.unit == "mm"
     assert assembly.source == "CAM.STP"
+
+
+FILLET = (DATA / "fillet.step").read_text()
+MILLIMETRE = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) );"
+
+
+def doubled(levels: int) -> str:
+    """A part, as an assembly of two of it, of two of these, and so on: 2^levels of it, all in one place."""
+
+    def number(pattern: str) -> str:
+        return re.search(rf"#(\d+) *= *{pattern}", FILLET)[1]
+
+    shape, context = re.search(r"#(\d+) *= *ADVANCED_BREP_SHAPE_REPRESENTATION\([^;]*#(\d+)\);", FILLET).groups()
+    described = re.search(rf"SHAPE_DEFINITION_REPRESENTATION\(#(\d+),#{shape}\)", FILLET)[1]
+    definition = re.search(rf"#{described} *= *PRODUCT_DEFINITION_SHAPE\('','',#(\d+)\)", FILLET)[1]
+    place = number("AXIS2_PLACEMENT_3D")
+    first = 1 + max(map(int, re.findall(r"^#(\d+)", FILLET, re.M)))
+    lines = []
+    for level in range(levels):
+        n = first + 16 * level
+        lines.append(
+            f"#{n} = PRODUCT('level {level}','','',(#{number('PRODUCT_CONTEXT')}));"
+            f"#{n + 1} = PRODUCT_DEFINITION_FORMATION('','',#{n});"
+            f"#{n + 2} = PRODUCT_DEFINITION('','',#{n + 1},#{number('PRODUCT_DEFINITION_CONTEXT')});"
+            f"#{n + 3} = PRODUCT_DEFINITION_SHAPE('','',#{n + 2});"
+            f"#{n + 4} = SHAPE_REPRESENTATION('',(#{place}),#{context});"
+            f"#{n + 5} = SHAPE_DEFINITION_REPRESENTATION(#{n + 3},#{n + 4});"
+        )
+        for m in (n + 6, n + 11):
+            lines.append(
+                f"#{m} = NEXT_ASSEMBLY_USAGE_OCCURRENCE('{m}','one of two','',#{n + 2},#{definition},$);"
+                f"#{m + 1} = PRODUCT_DEFINITION_SHAPE('','',#{m});"
+                f"#{m + 2} = ITEM_DEFINED_TRANSFORMATION('','',#{place},#{place});"
+                f"#{m + 3} = ( REPRESENTATION_RELATIONSHIP('','',#{shape},#{n + 4})"
+                f" REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#{m + 2}) SHAPE_REPRESENTATION_RELATIONSHIP() );"
+                f"#{m + 4} = CONTEXT_DEPENDENT_SHAPE_REPRESENTATION(#{m + 3},#{m + 1});"
+            )
+        definition, shape = n + 2, n + 4
+    return with_lines(FILLET, *lines)
+
+
+def with_lines(text: str, *lines: str) -> str:
+    """The file with some lines more at the end of its data."""
+    end = text.rindex("ENDSEC;")
+    return text[:end] + "\n".join((*lines, text[end:]))
+
+
+def with_unit(unit: str, *lines: str) -> str:
+    return with_lines(FILLET.replace(MILLIMETRE, unit), *lines)
+
+
+CONVERTED = "( CONVERSION_BASED_UNIT('X',#90001) LENGTH_UNIT() NAMED_UNIT(*) );"
+HOSTILE = {
+    "more parts than there are atoms": (doubled(300), f"bad.step holds more than {PARTS} parts"),
+    "a part of itself": (
+        with_lines(FILLET, "#90000 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('','','',#90001,#90001,$);"),
+        "bad.step is damaged: an assembly in it is a part of itself",
+    ),
+    "the same solid twice": (doubled(1), "are the same solid in the same place: leave one out"),
+    "light years": (
+        with_unit(CONVERTED, "#90001 = LENGTH_MEASURE_WITH_UNIT(9.46E15,#90002);", f"#90002 = {MILLIMETRE}"),
+        r"bad.step is in the length unit \( CONVERSION_BASED_UNIT\('X'.*: export it in um, mm",
+    ),
+    "a unit of itself": (
+        with_unit(CONVERTED, "#90001 = LENGTH_MEASURE_WITH_UNIT(2.,#90002);", f"#90002 = {CONVERTED}"),
+        "bad.step is in the length unit .*: export it in um, mm",
+    ),
+    "exametres": (with_unit(MILLIMETRE.replace("MILLI", "EXA")), r"bad.step is in the length unit .*\.EXA\."),
+    "points": (
+        with_unit(CONVERTED, f"#90001 = LENGTH_MEASURE_WITH_UNIT(1{'.' * 200},#90002);", f"#90002 = {MILLIMETRE}"),
+        "bad.step is in the length unit",
+    ),
+    # what takes a pattern that looks ahead the square of its length
+    "numbers": (with_unit(CONVERTED, "/* LENGTH_UNIT " + "#1=" * 300_000 + " */"), "bad.step is in the length unit"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_files_are_refused_in_one_line_and_at_once(tmp_path, capfd, name):
+    content, message = HOSTILE[name]
+    file = tmp_path / "bad.step"
+    file.write_text(content)
+    begin = time.process_time()
+    with pytest.raises(ValueError, match=message) as caught:
+        load(file)
+    assert time.process_time() - begin < 3.0  # a few hundredths, but for the import of what reads
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < 500
+    assert capfd.readouterr() == ("", "")
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
+    """The kernel follows a thousand million parts; here nothing keeps it from that but the time."""
+    monkeypatch.setattr(step, "check_parts", lambda *_: None)
+    monkeypatch.setattr(step_convert, "SECONDS", 2)
+    file = tmp_path / "bad.step"
+    file.write_text(doubled(40))
+    begin = time.monotonic()
+    with pytest.raises(ValueError, match=r"bad\.step was not read within 2 seconds: it is damaged, or larger than can"):
+        read_step(file)
+    assert time.monotonic() - begin < 30.0  # the machine may be busy
+    assert capfd.readouterr() == ("", "")
+
+
+def test_memory_is_bounded(tmp_path, capfd, monkeypatch):
+    """Some 250 MB of address space for the program, as much again for the points: a limit between the two."""
+    monkeypatch.setattr(step_convert, "MEMORY", 400 << 20)
+    file = tmp_path / "bad.step"
+    file.write_text(with_lines(FILLET, *(f"#{100000 + k} = CARTESIAN_POINT('',(0.,0.,0.));" for k in range(600_000))))
+    with pytest.raises(ValueError, match=r"bad\.step: .* it is damaged, or asks for more than 0.391 GB of memory"):
+        read_step(file)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_file_of_a_gigabyte_is_refused_unread(tmp_path):
+    file = tmp_path / "bad.step"
+    with file.open("wb") as target:
+        target.write(CAM)
+        target.truncate(10**9)  # a sparse file
+    with pytest.raises(ValueError, match=r"bad\.step is 1000 MB, more than 500: export it part by part"):
+        read_step(file)
+
+
+def test_a_part_that_cuts_itself_is_named_with_the_place(tmp_path):
+    """Its faces are known, so it can be used. Here: the same body twice in one part."""
+    assert not any("cuts itself" in note for note in load(DATA / "fillet.step").parts[0].notes)
+    text = re.sub(r"(ADVANCED_BREP_SHAPE_REPRESENTATION\('',\()", r"\1#90000,", FILLET)
+    shell = re.search(r"MANIFOLD_SOLID_BREP\('',#(\d+)\)", FILLET)[1]
+    file = tmp_path / "twice.step"
+    file.write_text(with_lines(text, f"#90000 = MANIFOLD_SOLID_BREP('',#{shell});"))
+    (part,) = load(file).parts
+    assert any("it cuts itself, or bodies touch or overlap in it, near" in note for note in part.notes)
