@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
+    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.all_joints):
+        return None
     joints = jax.lax.stop_gradient(mechanism.all_joints)
-    for joint in joints:
-        if traced(joint) or not isinstance(joint.before, np.ndarray | jax.Array) or joint.before.ndim != 3:
-            return None
+    if any(traced(joint) or joint.before.ndim != 3 for joint in joints):
+        return None
     row_of = mechanism.structure.row_of
     fixed = row_of[mechanism.fixed[0]]
     bodies = {part: fixed if part in mechanism.fixed else row for part, row in row_of.items()}

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
+from jax import dtypes, lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
@@ -79,18 +79,20 @@ def _solve_block(
     """Displacements and poses of one structure element. Without a drive: one pose for all."""
     driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
     system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), form)
-    dtype = driven[0].values.dtype if driven else jnp.zeros(0).dtype
+    dtype = driven[0].values.dtype if driven else dtypes.canonicalize_dtype(float)
     inputs = _padded([entry.values for entry in driven], dtype)
     return solve(system, method, block_joints(mechanism, block), inputs, tolerance)
 
 
 def _tolerance(asked: float | None) -> Tolerance:
     """The tolerance asked for; without one that of the precision, and poses down to rounding."""
+    dtype = dtypes.canonicalize_dtype(float)  # numbers of the host: to make arrays of the device takes longer
     if asked is None:
-        return Tolerance(jnp.asarray(default_tolerance(jnp.zeros(0).dtype), float), jnp.zeros(()))
+        return Tolerance(np.asarray(default_tolerance(dtype), dtype), np.zeros((), dtype))
     if not traced(asked) and not float(asked) > 0:
         raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}")
-    return Tolerance(jnp.asarray(asked, float), jnp.asarray(asked, float))
+    given = jnp.asarray(asked, dtype) if traced(asked) else np.asarray(asked, dtype)
+    return Tolerance(given, given)
 
 
 class Layout(NamedTuple):
@@ -165,7 +167,7 @@ _warned = False
 
 def _warn_of_float32() -> None:
     global _warned  # noqa: PLW0603
-    if _warned or jnp.zeros(()).dtype == jnp.float64:
+    if _warned or dtypes.canonicalize_dtype(float) == jnp.float64:
         return
     _warned = True
     warnings.warn(

@@ -6,7 +6,7 @@ poses by the same program as the plain sweep.
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from inspect import signature
 from typing import Any
 
@@ -16,6 +16,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
+from jaxkin.solve.lanes import all_designs
 from jaxkin.solve.status import Tolerance
 from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
@@ -34,7 +35,12 @@ def solve(
         return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
-    poses = (_plain(find_poses) if traced(numbers) else _program(find_poses))(system, method, *numbers)
+    find = (
+        all_designs(partial(find_poses, system, method))
+        if traced(numbers)
+        else partial(_program(find_poses), system, method)
+    )
+    poses = find(*numbers)
     return _plain(displacements)(system, joints, inputs, poses), poses
 
 

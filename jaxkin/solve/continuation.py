@@ -20,6 +20,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Closure, Geometry
 from jaxkin.solve.correct import choose, correct, floor, free_jacobian
+from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import least_norm, scale
 from jaxkin.solve.state import State, assembled, difference, drive, driven_rate, rate, retract
 from jaxkin.solve.status import Status, classify, is_closed
@@ -101,7 +102,7 @@ def substep(
     )
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
-    hard = jnp.any(starting | in_gap)
+    hard = any_lane(starting | in_gap)
     found = correct(system, geometry, predicted, jnp.where(hard, RESCUE_STEPS, CORRECTOR_STEPS))
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
@@ -155,7 +156,7 @@ def reach(
         return jnp.where(at == distance, targets, at * direction), direction
 
     front = lax.while_loop(
-        lambda front: jnp.any(~arrived(front, distance)),
+        lambda front: any_lane(~arrived(front, distance)),
         lambda front: substep(system, geometry, way, front, distance)[0],
         start(system, targets.shape[-1], targets.dtype),
     )

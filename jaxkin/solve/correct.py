@@ -14,8 +14,10 @@ from jax import lax, tree
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure import Closure, Geometry, closure
+from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import least_norm, scale
 from jaxkin.solve.state import State, is_driven, retract
+from jaxkin.solve.status import Scalar
 from jaxkin.solve.system import LoopSystem
 
 LONGEST_STEP = 0.5
@@ -51,14 +53,14 @@ def floor(dtype) -> float:
 
 
 def correct(
-    system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int, enough: Array | float = 0.0
+    system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int, enough: Scalar | float = 0.0
 ) -> Corrected:
     """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
     dtype = state.x.dtype
     eps = float(jnp.finfo(dtype).eps)
 
     def running(iterate: _Iterate) -> Array:
-        return (iterate.count <= iterations) & jnp.any(~iterate.done)
+        return any_lane((iterate.count <= iterations) & ~iterate.done)
 
     def step(iterate: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
@@ -85,6 +87,7 @@ def correct(
             | exhausted
             | least
             | ~jnp.isfinite(chosen.merit)
+            | (iterate.count == iterations)
         )
         return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
 

@@ -18,11 +18,12 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.solve.closure import Geometry
 from jaxkin.solve.continuation import AT_LIMIT, Front, Way, arrived, start, substep
 from jaxkin.solve.correct import choose
+from jaxkin.solve.lanes import any_lane, write_row
 from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 512, 4096, 2, 8
+ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 512, 4096, 2, 12
 """Knots to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
 reach is STALLED. A full turn takes about fifty, several inputs in any order some eight a pose. Under `vmap` every step
 copies them: no more than needed."""
@@ -47,8 +48,8 @@ class Knots(NamedTuple):
 
     at: Float[Array, " knots"]
     """Values of the input; those before the first knot and behind the last are infinite."""
-    table: Float[Array, "entries knots"]
-    """All of a knot in one column, so that it is written, and read, at one stroke."""
+    table: Float[Array, "knots entries"]
+    """All of a knot in one row, so that it is written, and read, at one stroke."""
     first: Int[Array, ""]
     last: Int[Array, ""]
     repeats: Bool[Array, "2"]
@@ -77,7 +78,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([-TURN, TURN], dtype)
     front = start(system, 2, dtype)
-    table = jnp.zeros((_column(system, front).shape[0], 2 * room + 2), dtype)
+    table = jnp.zeros((2 * room + 2, _row(system, front).shape[1]), dtype)
     nowhere, unknown = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.ones(2, bool)
 
     def target(limits: Float[Array, "2"], repeats: Bool[Array, "2"]) -> Float[Array, "2"]:
@@ -89,25 +90,25 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
 
     def running(carry) -> Array:
         front, count, limits, repeats, _ = carry
-        return jnp.any(~arrived(front, target(limits, repeats)) & (count < room))
+        return (count < room) & any_lane(~arrived(front, target(limits, repeats)))
 
     def step(carry):
         front, count, limits, repeats, table = carry
-        front, final = substep(system, geometry, way, front, target(limits, repeats))
-        # falling knots to the left of the middle, rising ones to the right; what is not final is written over
-        column = _column(system, front)
-        table = lax.dynamic_update_slice(table, column[:, :1], (0, room - count[0]))
-        table = lax.dynamic_update_slice(table, column[:, 1:], (0, room + 1 + count[1]))
+        front, _ = substep(system, geometry, way, front, target(limits, repeats))
+        # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
+        # so that all lanes, those of other designs too, write at one place
+        row = _row(system, front)
+        table = write_row(write_row(table, row[0], room - count), row[1], room + 1 + count)
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
         if system.periodic:
             repeats &= (front.at != turn) | _came_back(system, front.state)
-        return front, jnp.minimum(count + final, room), jnp.where(ended, front.at, limits), repeats, table
+        return front, count + 1, jnp.where(ended, front.at, limits), repeats, table
 
     front, count, limits, repeats, table = lax.while_loop(
-        running, step, (front, jnp.zeros(2, int), nowhere, unknown, table)
+        running, step, (front, jnp.asarray(0), nowhere, unknown, table)
     )
-    number, first, last = jnp.arange(2 * room + 2), room + 1 - count[0], room + count[1]
-    at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[0]))
+    number, first, last = jnp.arange(2 * room + 2), room + 1 - count, room + count
+    at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[:, 0]))
     repeats &= (front.at == turn) & ~jnp.isfinite(limits)
     return Knots(at, table, first, last, repeats, jnp.where(repeats, _wound(system, front.state), 0.0))
 
@@ -124,16 +125,16 @@ def _came_back(system: LoopSystem, state: State) -> Bool[Array, " lanes"]:
     return jnp.maximum(rest, jnp.max(jnp.abs(state.turns[:, 1:]), axis=(0, 1), initial=0.0)) <= same
 
 
-def _column(system: LoopSystem, front: Front) -> Float[Array, "entries lanes"]:
+def _row(system: LoopSystem, front: Front) -> Float[Array, "lanes entries"]:
     """All numbers of a knot: where it is, coordinates, turns of the balls, the slopes of both, and the status."""
     slope = rate(system, front.state, front.slope)
     entries = [part.reshape(-1, part.shape[-1]) for part in (front.at, *front.state, *slope)]
-    return jnp.concatenate([*entries, front.status[None].astype(front.gap.dtype)])
+    return jnp.concatenate([*entries, front.status[None].astype(front.gap.dtype)]).T
 
 
 def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Knot:
     """The knots of these numbers, which are within bounds."""
-    at, column = jnp.split(knots.table.at[:, number].get(mode="promise_in_bounds"), [1])
+    at, column = jnp.split(knots.table.at[number].get(mode="promise_in_bounds").T, [1])
     coordinates, balls = system.columns, len(system.balls)
     half = coordinates + 4 * balls
     state, slope = (
@@ -150,7 +151,7 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
         side = (values > 0).astype(jnp.int32)
         turns = jnp.where(knots.repeats[side], jnp.floor(jnp.abs(values) / TURN), 0.0)
         values = jnp.where(turns > 0, values - jnp.sign(values) * TURN * turns, values)
-    number = jnp.clip(jnp.searchsorted(knots.at, values, side="right") - 1, knots.first, knots.last - 1)
+    number = jnp.clip(jnp.searchsorted(knots.at, values, side="left") - 1, knots.first, knots.last - 1)
     left, right = _knot(system, knots, number), _knot(system, knots, number + 1)
     left_closed, right_closed = is_closed(left.status), is_closed(right.status)
     between = left_closed & (left.status == right.status)
@@ -172,7 +173,7 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
 
 def _unturned(knots: Knots, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
     """Values less as many full turns as bring them to where the motion got without a gap; others as they are."""
-    reached = (knots.table[-1] == Status.CLOSED.value) & jnp.isfinite(knots.at)
+    reached = (knots.table[:, -1] == Status.CLOSED.value) & jnp.isfinite(knots.at)
     least = jnp.min(jnp.where(reached, knots.at, jnp.inf))
     most = jnp.max(jnp.where(reached, knots.at, -jnp.inf))
     # an end of the range that was reached is no limit

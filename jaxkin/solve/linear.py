@@ -25,7 +25,7 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
     With `refine` one step of iterative refinement takes the bias of the damping out.
     """
     rows, _, poses = jacobian.shape
-    solve = (_unrolled if rows <= UNROLLED and poses >= MANY else _looped)(jacobian, damping)
+    solve = (_unrolled if rows <= 3 or (rows <= UNROLLED and poses >= MANY) else _looped)(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(jacobian * y[:, None], axis=0)

@@ -20,7 +20,7 @@ from jaxkin.solve.correct import choose
 from jaxkin.solve.dfp import central_differences, dfp
 from jaxkin.solve.outside import jaxopt
 from jaxkin.solve.state import State, assembled, drive, retract
-from jaxkin.solve.status import Status
+from jaxkin.solve.status import Scalar, Status
 from jaxkin.solve.system import LoopSystem
 
 Point = Float[Array, " free"]
@@ -30,7 +30,7 @@ ITERATIONS, STALE = 100, 3
 
 
 def minimised(
-    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, enough: Array
+    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, enough: Scalar
 ) -> tuple[State, Float[Array, " poses"], Array]:
     """States and status and closure gap, the pose before each as its start; a pose is done when its gap is `enough`."""
     place = jnp.asarray(np.eye(system.columns)[:, list(system.free)], inputs.dtype)

@@ -6,6 +6,7 @@ from enum import IntEnum
 from typing import NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 
@@ -41,12 +42,15 @@ def tolerance(dtype) -> float:
     return 1e-12 if jnp.finfo(dtype).bits == 64 else 2e-6
 
 
+Scalar = Float[Array, ""] | Float[np.ndarray, ""]
+
+
 class Tolerance(NamedTuple):
     """What closure is asked for."""
 
-    closed: Float[Array, ""]
+    closed: Scalar
     """Largest gap of a closed pose."""
-    enough: Float[Array, ""]
+    enough: Scalar
     """A pose whose gap is not larger is not improved any more; zero: down to rounding."""
 
 
@@ -54,7 +58,7 @@ def classify(
     gap: Float[Array, " poses"],
     stationary: Bool[Array, " poses"],
     same_branch: Bool[Array, " poses"],
-    largest: Float[Array, ""] | float | None = None,
+    largest: Scalar | float | None = None,
 ) -> Int[Array, " poses"]:
     """The status of poses; the first cause in the order NONFINITE, CLOSED or JUMPED, UNREACHABLE, STALLED wins.
 

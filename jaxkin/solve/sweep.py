@@ -24,6 +24,7 @@ from jaxkin.solve.correct import choose, correct
 from jaxkin.solve.dense import Poses, interpolate
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
+from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
 from jaxkin.solve.reading import read_off
@@ -114,7 +115,7 @@ def _of_one_input(
 
     def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
         values, trusted, found = group
-        return lax.cond(jnp.all(trusted), lambda: found, lambda: settled(values))
+        return lax.cond(any_lane(~trusted), lambda: settled(values), lambda: found)
 
     return _in_groups(settle, (values, trusted, found))
 
@@ -145,7 +146,7 @@ def _of_several_inputs(
             better = failed & ((straight.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
             return choose(better, straight, found)
 
-        return lax.cond(jnp.any(failed), otherwise, lambda: found)
+        return lax.cond(any_lane(failed), otherwise, lambda: found)
 
     return _in_groups(settle, (at[1:], inputs))
 
