@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ from jaxkin.io.step_unit import length_unit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
 
-_SAMPLES = 40
+_SAMPLES = 24
 """Triangles of a part at which it is looked whether it cuts itself."""
 
 LARGEST = 500_000_000
@@ -56,7 +57,8 @@ def read_step(path: str | Path) -> tuple[tuple[Part, ...], str]:
         plain = instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), path.name))
         found = [replace(bare, color=it.color) for bare, it in zip(plain, found, strict=True)]
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
-    return tuple(_part(name, instance, metres) for name, instance in zip(names, found, strict=True)), unit_name
+    seen: dict[bytes, Points | None] = {}
+    return tuple(_part(name, instance, metres, seen) for name, instance in zip(names, found, strict=True)), unit_name
 
 
 def _checked(path: Path) -> bytes:
@@ -79,7 +81,8 @@ def _checked(path: Path) -> bytes:
     return data
 
 
-def _part(name: str, instance: Instance, metres: float) -> Part:
+def _part(name: str, instance: Instance, metres: float, seen: dict[bytes, Points | None]) -> Part:
+    """`seen` holds where meshes cut themselves, in their own frames: many instances are of one solid."""
     triangles, pose = instance.triangles / metres, instance.pose.copy()
     pose[:3, 3] /= metres
     tolerance = rounding(triangles)
@@ -104,8 +107,11 @@ def _part(name: str, instance: Instance, metres: float) -> Part:
             notes.append(f"{label}: {note}")
             doubtful = True
         faces.append(Face(label, surface.moved(pose), apply(pose, corners)))
+    key = sha256(instance.triangles.tobytes()).digest()
+    if key not in seen:
+        seen[key] = None if doubtful or not len(triangles) else wrong_side(triangles, tolerance, _SAMPLES)
     # no reason to refuse it: its faces are known exactly, and overlapping bodies are common in real assemblies
-    if not doubtful and len(triangles) and (place := wrong_side(triangles, tolerance, _SAMPLES)) is not None:
+    if (place := seen[key]) is not None:
         near = ", ".join(f"{x:.4g}" for x in apply(pose, place))
         notes.append(f"it cuts itself, or bodies touch or overlap in it, near ({near}): unite them if they move apart")
     return Part(name, merge_faces(faces, tolerance), apply(pose, triangles), instance.color, tuple(notes))
