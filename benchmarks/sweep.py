@@ -11,55 +11,20 @@ from __future__ import annotations
 
 import sys
 import time
-from pathlib import Path
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from timing import closed_fourbar, closed_points, hexapod_curve, median_time
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-from reference import catalogue, mechanisms, parallel, planar
+from reference import catalogue, mechanisms, planar  # on the path by `timing`
 
-SECONDS, RUNS = 1.0, 15
-"""Each figure is the median of so many runs, or of those that fit into this time, at least of three."""
 SIZES = (1, 360, 10_000, 100_000)
-
-
-def median_time(function, *args) -> float:
-    """Seconds of a call whose first run is not counted."""
-    jax.block_until_ready(function(*args))
-    times: list[float] = []
-    while len(times) < 3 or (len(times) < RUNS and sum(times) < SECONDS):
-        begin = time.perf_counter()
-        jax.block_until_ready(function(*args))
-        times.append(time.perf_counter() - begin)
-    return float(np.median(times))
-
-
-@jax.jit
-def closed_points(theta):
-    """Where crank pin and rocker pin of the four-bar are: the intersection of two circles, no angle."""
-    x, y = 40.0 * jnp.cos(theta), 40.0 * jnp.sin(theta)
-    across, up = 100.0 - x, -y
-    square = across * across + up * up
-    along = (120.0**2 - 80.0**2 + square) / (2.0 * square)
-    beside = jnp.sqrt(120.0**2 / square - along * along)
-    return x, y, x + along * across - beside * up, y + along * up + beside * across
-
-
-@jax.jit
-def closed_fourbar(theta):
-    """The same with coupler and rocker angles."""
-    x, y, rocker_x, rocker_y = closed_points(theta)
-    return jnp.arctan2(rocker_y - y, rocker_x - x), jnp.arctan2(rocker_y, rocker_x - 100.0)
 
 
 def hexapod_legs(poses: int) -> dict[str, np.ndarray]:
     """Legs of the catalogue's hexapod while its platform runs through a closed curve."""
-    mechanism = catalogue.hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
-    legs = parallel.curve(parallel.hexapod().base, home, poses).legs
-    return {f"leg {i}": legs[:, i] for i in range(6)}
+    return {f"leg {i}": leg for i, leg in enumerate(hexapod_curve(poses).legs.T)}
 
 
 def turn_of(joint: str, upto: float = 2 * np.pi):

@@ -10,7 +10,7 @@ from jaxkin.motion.writers import whole
 if TYPE_CHECKING:
     from jaxkin.effects.accuracy import WorkPrecision
 
-MARKERS = "osD^vP"
+MARKERS = "osD^vPX"
 
 
 def draw(work: WorkPrecision, path: Path) -> Path:
@@ -40,7 +40,7 @@ def draw(work: WorkPrecision, path: Path) -> Path:
         formatted(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.invert_xaxis()
     axes.grid(which="major", alpha=0.3)
-    axes.legend(fontsize="small", frameon=False)
+    figure.legend(fontsize="small", frameon=False, loc="outside right center")  # lines may end in any corner
     axes.set_title(f"{work.poses} poses: farther right is more accurate, lower is faster", fontsize="medium")
     with whole(path) as draft:
         figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
