@@ -18,6 +18,7 @@ from reference.hard_case import HardCase
 
 SECTIONS = {
     "Change points": hard_cases.CHANGE_POINTS,
+    "Nearly change points": hard_cases.NEAR_CHANGE_POINTS,
     "Limits and dead points": hard_cases.LIMITS,
     "Overconstrained and redundant": hard_cases.OVERCONSTRAINED,
     "Idle freedoms and balls": hard_cases.IDLE,

@@ -1,11 +1,13 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
-A secant carries the motion of a single input through change points, where a plain warm start leaves the branch; that of
-several inputs goes along the tangent, since their way has corners. A step is taken only if the corrector stays near the
-prediction. Where the motion ends (a limit of the range) the damped corrector goes on alone, towards the least residual.
-Where the loops close again behind such a gap the pose has jumped: no motion of the input led there. (The sign of the
-determinant of the Jacobian would not tell: two circuits can share it.) Several lanes march side by side; each substep
-evaluates the closure at one place, which keeps the compiled code small.
+A secant carries the motion of a single input through change points, where a plain warm start leaves the branch, and no
+tangent is unique; where it fails, as it does near a limit behind a long step, the tangent is tried, by turns with it.
+The motion of several inputs goes along the tangent only, since their way has corners. A step is taken only if the
+corrector stays near the prediction, and if the Jacobian keeps its orientation: where two branches nearly meet, a long
+step would go straight on to the other one. Where the motion ends (a limit of the range) the damped corrector goes on
+alone, towards the least residual. Where the loops close again behind such a gap the pose has jumped: no motion of the
+input led there. (The orientation would not tell: two circuits can share it.) Several lanes march side by side; each
+substep evaluates the closure at one place, which keeps the compiled code small.
 """
 
 from __future__ import annotations
@@ -29,9 +31,13 @@ from jaxkin.solve.system import LoopSystem
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.05
 """Radians, or characteristic lengths. A limit of the motion is approached to the shortest step; the damped corrector
 settles what lies beyond it."""
-AT_LIMIT = 12 * SHORTEST_STEP
-"""As near as this to a limit the motion is followed. The pose moves there with the root of the distance `m`; a step `d`
-behind one as long as 1.07 m, the longest that is still good, misses its prediction by a quarter where d > m / 10.4."""
+SHORTEST_FIRST_STEP = 1e-10
+"""Of a mechanism that is assembled so near to a limit."""
+AT_LIMIT = 4 * SHORTEST_STEP
+"""As near as this to a limit the motion is followed at least."""
+CROSSING = 1e-3
+"""A step that is no longer may pass from one branch to another that crosses it: at a change point, or where two
+branches miss each other by less than this, as they do for lengths that are off by 1e-6."""
 CORRECTOR_STEPS, RESCUE_STEPS = 8, 200
 
 START, FOLLOW, GAP = range(3)
@@ -48,6 +54,8 @@ class Front(NamedTuple):
     state: State
     status: Int[Array, " lanes"]
     gap: Float[Array, " lanes"]
+    jacobian: Float[Array, "equations columns lanes"]
+    """That of the free coordinates."""
     at: Float[Array, " lanes"]
     """How far along the way: the input itself if it is a single one."""
     slope: Float[Array, "columns lanes"]
@@ -55,6 +63,8 @@ class Front(NamedTuple):
     secant: State
     """Change of the state per unit of it that the next step is predicted with."""
     has_secant: Bool[Array, " lanes"]
+    tangent: Bool[Array, " lanes"]
+    """Whether the next step is predicted with the slope instead: where the secant failed."""
     step: Float[Array, " lanes"]
     stage: Int[Array, " lanes"]
     anchored: Bool[Array, " lanes"]
@@ -69,9 +79,11 @@ def start(system: LoopSystem, lanes: int, dtype) -> Front:
         state,
         jnp.full(lanes, Status.STALLED.value, jnp.int32),
         jnp.full(lanes, jnp.inf, dtype),
+        jnp.zeros((system.equations, system.columns, lanes), dtype),
         jnp.zeros(lanes, dtype),
         nothing.x,
         nothing,
+        jnp.zeros(lanes, bool),
         jnp.zeros(lanes, bool),
         jnp.full(lanes, FIRST_STEP, dtype),
         jnp.full(lanes, START, jnp.int32),
@@ -97,9 +109,9 @@ def substep(
     at = jnp.where((jnp.abs(moved) >= left) & (following | in_gap), target, front.at + moved)
     inputs, direction = way(at)
 
-    predicted = jax.tree.map(
-        lambda x, d: x + jnp.where(following & front.has_secant, moved, 0.0) * d, front.state, front.secant
-    )
+    sloped = front.has_secant | front.tangent
+    along = choose(front.tangent, rate(system, front.state, front.slope), front.secant)
+    predicted = jax.tree.map(lambda x, d: x + jnp.where(following & sloped, moved, 0.0) * d, front.state, along)
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     hard = any_lane(starting | in_gap)
@@ -109,15 +121,18 @@ def substep(
     status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)
     closed = is_closed(status)
 
-    # following: near the prediction, or, without a secant, within a tiny step
+    # following: near the prediction, or, without one, within a tiny step
     deviation = difference(found.state, predicted)
-    travel = jnp.where(front.has_secant, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
+    travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
     slack = 50 * float(jnp.finfo(dtype).eps)
-    good = following & closed & (deviation <= 0.25 * travel + slack)
-    easy = good & (~front.has_secant | (deviation <= 0.02 * travel + slack))
+    jacobian = free_jacobian(system, found.closure)
+    crossed = _turned_over(front.jacobian, jacobian) & (distance > CROSSING)
+    good = following & closed & (deviation <= 0.25 * travel + slack) & ~crossed
+    easy = good & (~sloped | (deviation <= 0.02 * travel + slack))
     step = jnp.where(easy, jnp.minimum(2.0 * front.step, LONGEST_STEP), front.step)
     step = jnp.where(following & ~good, 0.35 * distance, step)
-    lost = following & ~good & (distance <= SHORTEST_STEP)
+    shortest = jnp.where(front.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
+    lost = following & ~good & front.tangent & (distance <= shortest)
 
     entered = (starting | in_gap) & closed
     final = good | starting | in_gap
@@ -133,16 +148,31 @@ def substep(
             state=choose(final, found.state, front.state),
             status=jnp.where(starting | in_gap, status, front.status),  # a branch is kept while it is followed
             gap=jnp.where(final, found.closure.gap, front.gap),
+            jacobian=jnp.where(final, jacobian, front.jacobian),
             at=jnp.where(final, at, front.at),
             slope=jnp.where(final, slope, front.slope),
             secant=choose(good, secant, front.secant),
             has_secant=(front.has_secant | good) & (next_stage == FOLLOW) & ~entered,
+            tangent=following & ~good & ~front.tangent,
             step=jnp.where(entered, FIRST_STEP, step),
             stage=next_stage.astype(jnp.int32),
             anchored=front.anchored | entered,
         ),
         final,
     )
+
+
+def _turned_over(
+    before: Float[Array, "equations columns lanes"], after: Float[Array, "equations columns lanes"]
+) -> Bool[Array, " lanes"]:
+    """Whether the determinant of the Jacobian has changed its sign, or what takes its place where it is not square.
+
+    That is `det(J0^T J1)`; a little on the diagonal makes columns count for which the Jacobian lacks rank.
+    """
+    product = jnp.einsum("eil,ejl->lij", before, after)
+    eps = float(jnp.finfo(before.dtype).eps)
+    little = 0.1 * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
+    return jnp.linalg.det(product + little[:, None, None] * jnp.eye(before.shape[1], dtype=before.dtype)) < 0
 
 
 def reach(

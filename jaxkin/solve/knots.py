@@ -23,10 +23,10 @@ from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 
-ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 512, 4096, 2, 12
-"""Knots to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
-reach is STALLED. A full turn takes about fifty, several inputs in any order some eight a pose. Under `vmap` every step
-copies them: no more than needed."""
+ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 1024, 4096, 2, 12
+"""Steps to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
+reach is STALLED. A full turn takes about fifty, and some fifty for each of its limits, several inputs in any order some
+eight a pose."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9

@@ -170,6 +170,18 @@ CHANGE_POINTS = (
     ),
 )
 
+NEAR_CHANGE_POINTS = tuple(
+    HardCase(
+        f"parallelogram, crank shorter by {short:.0e}",
+        "two branches miss each other narrowly",
+        partial(FOURBAR, ground=120.0, crank=50.0 * (1 - short), coupler=120.0, rocker=50.0),
+        {"A": turn(25)},
+        angles("D", rocker(ground=120.0, crank=50.0 * (1 - short), coupler=120.0, rocker=50.0), 1.0),
+        "closed form",
+    )
+    for short in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
+)
+
 LIMITS = (
     *(
         HardCase(
@@ -410,6 +422,7 @@ SINGLE_PRECISION = (
 
 CASES: tuple[HardCase, ...] = (
     *CHANGE_POINTS,
+    *NEAR_CHANGE_POINTS,
     *LIMITS,
     *OVERCONSTRAINED,
     *IDLE,

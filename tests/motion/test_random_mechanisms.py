@@ -1,0 +1,49 @@
+"""Random linkages against closed forms, and those among them that were once followed wrongly."""
+
+import numpy as np
+import pytest
+
+from reference.hard_case import off_turns
+from reference.random_linkages import LINKAGES
+from reference.random_sweeps import checked, limits, sweeps
+
+FOURBAR = LINKAGES[0]
+
+
+def fourbar(*points):
+    """Points of A, P0, C0, Q0 as one design, and its mechanism."""
+    place = np.array([[(x, y, 0.0) for x, y in points]])
+    axes = np.broadcast_to([0.0, 0.0, 1.0], place.shape)
+    return place, axes, FOURBAR.build(place[0], axes[0])
+
+
+@pytest.mark.parametrize(
+    "points",
+    [
+        ((0.461574, -0.159969), (0.450344, -0.332038), (-0.723593, 0.325277), (0.851904, -0.848022)),
+        ((-0.554331, 0.390942), (-0.113259, 0.405396), (-0.370569, -0.687368), (-0.925114, -0.513042)),
+        ((-0.241635, 0.974066), (-0.311935, 0.666179), (-0.503624, -0.409533), (-0.274264, 0.878949)),
+    ],
+    ids=["a gap shorter than a step", "a long step before a limit", "assembled beside a limit"],
+)
+def test_limits_are_found_however_the_steps_fall(points):
+    place, axes, mechanism = fourbar(*points)
+    low, high = (float(limit[0, 0]) for limit in limits(FOURBAR, place, axes))
+    inputs = np.concatenate([np.linspace(low, high, 20)[1:-1], [low - 0.02, high + 0.02]])
+    motion = mechanism.sweep({"A": inputs})
+    np.testing.assert_array_equal(motion.closed, [True] * 18 + [False] * 2)
+    solved = FOURBAR.solve(FOURBAR.stages, place, axes, inputs[None])
+    off = off_turns(np.asarray(motion.coordinates["Q0"][:, 0]) - solved.angles["Q0"][0])
+    # rounding grows as the inverse root of the margin, which is that of the branches' distance
+    assert np.all((off * np.sqrt(np.maximum(solved.margin[0], 0.0)))[:18] < 1e-12)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["four-bar", "Watt six-bar", "RSSR", "spherical four-bar"])
+def test_every_pose_is_closed_on_its_branch_or_says_why_not(name):
+    """The committed figures of 100 times as many are in `benchmarks/README.md`."""
+    linkage = next(one for one in LINKAGES if one.name == name)
+    count = checked(linkage, sweeps(linkage), np.random.default_rng(7), 500)
+    assert count.residual == count.branch == count.behind == 0
+    assert count.closed >= 0.999 * count.reachable and count.reachable > 0.4 * count.poses
+    assert count.error < 1e-11  # times the margin
