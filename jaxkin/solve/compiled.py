@@ -35,13 +35,12 @@ def solve(
         return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
-    find = (
-        all_designs(partial(find_poses, system, method))
-        if traced(numbers)
-        else partial(_program(find_poses), system, method)
-    )
-    poses = find(*numbers)
+    poses = (_plain if traced(numbers) else _program)(_of_all_designs)(system, method, *numbers)
     return _plain(displacements)(system, joints, inputs, poses), poses
+
+
+def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Array, tolerance: Tolerance) -> Poses:
+    return all_designs(partial(find_poses, system, method))(joints, inputs, tolerance)
 
 
 def _solve(system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance):
