@@ -28,7 +28,7 @@ from jaxkin.solve.state import State, assembled, difference, drive, driven_rate,
 from jaxkin.solve.status import Status, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
-FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.05
+FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.15
 """Radians, or characteristic lengths. A limit of the motion is approached to the shortest step; the damped corrector
 settles what lies beyond it."""
 SHORTEST_FIRST_STEP = 1e-10
@@ -38,7 +38,7 @@ AT_LIMIT = 4 * SHORTEST_STEP
 CROSSING = 1e-3
 """A step that is no longer may pass from one branch to another that crosses it: at a change point, or where two
 branches miss each other by less than this, as they do for lengths that are off by 1e-6."""
-CORRECTOR_STEPS, RESCUE_STEPS = 8, 200
+CORRECTOR_STEPS, GAP_STEPS, RESCUE_STEPS = 8, 16, 200
 
 START, FOLLOW, GAP = range(3)
 """Stages of a lane: closing the assembled pose, following the motion, beyond its limit."""
@@ -114,8 +114,8 @@ def substep(
     predicted = jax.tree.map(lambda x, d: x + jnp.where(following & sloped, moved, 0.0) * d, front.state, along)
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
-    hard = any_lane(starting | in_gap)
-    found = correct(system, geometry, predicted, jnp.where(hard, RESCUE_STEPS, CORRECTOR_STEPS))
+    most = jnp.where(starting, RESCUE_STEPS, jnp.where(in_gap, GAP_STEPS, CORRECTOR_STEPS))
+    found = correct(system, geometry, predicted, most)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax, tree
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.lanes import any_lane
@@ -53,7 +53,7 @@ def floor(dtype) -> float:
 
 
 def correct(
-    system: LoopSystem, geometry: Geometry, state: State, iterations: Array | int, enough: Scalar | float = 0.0
+    system: LoopSystem, geometry: Geometry, state: State, iterations: Int[Array, " poses"] | int, enough: Scalar | float = 0.0
 ) -> Corrected:
     """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
     dtype = state.x.dtype

@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 Result = TypeVar("Result")
 _DESIGNS = "designs of jaxkin"
-TOGETHER = 128
+TOGETHER = 32
 """Designs that go through the loops at once: their knots stay in the cache, and hard ones hold up few others."""
 
 
