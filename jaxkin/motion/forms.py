@@ -20,7 +20,9 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
     if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.all_joints):
         return None
-    joints = jax.lax.stop_gradient(mechanism.all_joints)
+    joints = mechanism.all_joints
+    if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
+        joints = jax.lax.stop_gradient(joints)
     if any(traced(joint) or joint.before.ndim != 3 for joint in joints):
         return None
     row_of = mechanism.structure.row_of

@@ -53,7 +53,11 @@ def floor(dtype) -> float:
 
 
 def correct(
-    system: LoopSystem, geometry: Geometry, state: State, iterations: Int[Array, " poses"] | int, enough: Scalar | float = 0.0
+    system: LoopSystem,
+    geometry: Geometry,
+    state: State,
+    iterations: Int[Array, " poses"] | int,
+    enough: Scalar | float = 0.0,
 ) -> Corrected:
     """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
     dtype = state.x.dtype
