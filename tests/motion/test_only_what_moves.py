@@ -68,7 +68,7 @@ def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None)
 
 def test_equations_that_a_planar_loop_lacks_are_absent(solved):
     """The same four-bar in its plane and in space, where the travel along the loop counts as one step."""
-    assert closures(planar_fourbar(), solved, "A") < 0.75 * closures(planar_fourbar(), solved, "A", Form())
+    assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", Form())
 
 
 def test_turns_of_balls_are_absent_where_there_is_none(solved):
