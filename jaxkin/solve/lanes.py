@@ -7,6 +7,7 @@ each of its iterations, to undo it for those that are done. The loops of the sol
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from typing import TypeVar
 
 import jax
@@ -16,6 +17,8 @@ from jaxtyping import Array, Bool, Float, Int
 
 Result = TypeVar("Result")
 _DESIGNS = "designs of jaxkin"
+_together: ContextVar[bool] = ContextVar("_together", default=False)
+"""Whether what is being traced is a batch of designs."""
 TOGETHER = 32
 """Designs that go through the loops at once: their knots stay in the cache, and hard ones hold up few others."""
 
@@ -23,10 +26,7 @@ TOGETHER = 32
 def any_lane(mask: Bool[Array, "..."]) -> Array:
     """Whether the mask holds anywhere, in any design of a batch that `all_designs` runs."""
     found = jnp.any(mask)
-    try:
-        return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0
-    except NameError:  # no batch
-        return found
+    return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0 if _together.get() else found
 
 
 @jax.custom_batching.custom_vmap
@@ -61,7 +61,13 @@ def all_designs(function: Callable[..., Result]) -> Callable[..., Result]:
 
         def one(own: list[Array]):
             mapped = iter(own)
-            return function(*tree.unflatten([next(mapped) if each else leaves[i] for i, each in enumerate(is_mapped)]))
+            token = _together.set(True)
+            try:
+                return function(
+                    *tree.unflatten([next(mapped) if each else leaves[i] for i, each in enumerate(is_mapped)])
+                )
+            finally:
+                _together.reset(token)
 
         def cut(array: Array) -> Array:
             padded = jnp.pad(array, [(0, groups * length - size)] + [(0, 0)] * (array.ndim - 1), mode="edge")
