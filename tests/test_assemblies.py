@@ -38,7 +38,10 @@ def axis_sign(mechanism, joint, direction):
     return np.sign(float(np.asarray(mechanism.joints[joint].before)[0][:3, 2] @ direction))
 
 
-@pytest.mark.parametrize("name", HINGES)
+LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize("name", ["fourbar", *(pytest.param(name, marks=LONG) for name in ("slider_crank", "cam"))])
 def test_closed_form_and_both_ways_of_taking_contacts(name):
     example = EXAMPLES[name]
     assembly = jk.load(path(name))
@@ -70,6 +73,7 @@ def test_closed_form_and_both_ways_of_taking_contacts(name):
         np.testing.assert_allclose(difference, 0.0, atol=1e-10 * 100)  # mm; both ways start from the same frames
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("prefix, unit", [("$", "m"), (".MICRO.", "um")])
 def test_the_same_file_in_other_units_gives_the_same_angles(tmp_path, prefix, unit):
     """The numbers of the file taken as metres or micrometres: a mechanism a thousand times larger or smaller."""

@@ -35,6 +35,7 @@ def run(*arguments, **environment):
     )
 
 
+@pytest.mark.long
 def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
     done = run("demo", "--out", tmp_path / "out", XDG_CACHE_HOME=str(tmp_path / "cache"))
     assert done.returncode == 0, done.stderr
@@ -115,6 +116,7 @@ base-crank = "0:360:5"
 """
 
 
+@pytest.mark.long
 def test_a_study_is_swept_and_inspected_like_the_options_that_it_stands_for(tmp_path):
     (tmp_path / "fourbar.step").write_bytes(path("fourbar").read_bytes())
     study = tmp_path / "study.toml"

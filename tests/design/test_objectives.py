@@ -121,6 +121,7 @@ def test_every_objective_is_drawn(motion):
         assert axes.has_data()
 
 
+@pytest.mark.long
 def test_the_penalty_is_the_closure_residual_and_its_derivative():
     """Where a four-bar cannot close, least residuals fall as the coupler grows: the slope against differences."""
     mechanism = planar_fourbar(START, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0)

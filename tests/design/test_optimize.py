@@ -38,6 +38,7 @@ def test_a_synthetic_target_is_recovered(recovered):
     assert recovered.history.shape[1] == 8 and least[-1] < 1e-15 * least[0]
 
 
+@pytest.mark.long
 def test_a_result_is_saved_and_read_back(recovered, tmp_path):
     again = design.read_optimum(recovered.save(tmp_path / "best.npz"))
     assert str(again) == str(recovered)

@@ -35,7 +35,10 @@ def test_extended_precision_finds_the_closed_form():
         np.testing.assert_allclose(np.sin(pose[3] - float(expected)), 0.0, atol=2e-15)
 
 
-@pytest.mark.parametrize("method", [name for name in METHODS if name != "continuation"])
+OTHERS = [name for name in METHODS if name != "continuation"]
+
+
+@pytest.mark.parametrize("method", [OTHERS[0], *(pytest.param(name, marks=pytest.mark.long) for name in OTHERS[1:])])
 def test_other_methods_find_the_same_poses(method):
     """Held to what is asked for, over the smallest singular value (0.3); BFGS and DFP may give up at some poses."""
     motion = planar_fourbar(1.0).sweep({"A": TURN}, method=method, tolerance=1e-9)
@@ -49,6 +52,7 @@ def test_other_methods_find_the_same_poses(method):
     )
 
 
+@pytest.mark.long
 def test_a_tolerance_is_kept_and_compiles_nothing():
     from jaxkin.solve.compiled import _program, _solve
 
@@ -62,7 +66,7 @@ def test_a_tolerance_is_kept_and_compiles_nothing():
 
 
 @pytest.mark.parametrize(
-    "make, joint", [(planar_fourbar, "A"), pytest.param(rssr_linkage, "A", marks=pytest.mark.long)]
+    "make, joint", [pytest.param(make, "A", marks=pytest.mark.long) for make in (planar_fourbar, rssr_linkage)]
 )
 def test_work_precision_measures_errors_within_what_was_asked(make, joint):
     work = jk.work_precision(make(), {joint: TURN}, tolerances=(1e-4, 1e-9), methods=["continuation"])

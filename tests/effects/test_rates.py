@@ -14,6 +14,7 @@ from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage, sl
 INPUTS = np.linspace(0.0, 2 * np.pi, 30)
 
 
+@pytest.mark.long
 def test_slider_crank_against_its_formula():
     """x = r cos(theta) + sqrt(l^2 - (e - r sin(theta))^2) differentiated twice, at a rate that changes with time."""
     start, rate, growth = 1.0, 2.0, 0.7

@@ -173,6 +173,7 @@ def closed(pins, crank, rocker, joint, pivot_crank, pivot_rocker):
     return planar.meet(crank, np.linalg.norm(c - p), rocker, np.linalg.norm(c - q), side)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fixed", [("p1", "p9"), ("p1",)])
 def test_figure_5_moves_as_a_chain_of_circles(fixed):
     """j1, j3, j14 and j17 driven as in Section 6; every other pin is where two circles meet."""

@@ -31,6 +31,7 @@ def from_stl(step, angle, folder):
     return tuple(replace(part, name=there.name) for part, there in zip(parts, drawn, strict=True)), drawn
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_the_same_joints_and_the_same_motion(name, tmp_path):
     """To 1e-5 of the size, on a range in which every one of them moves."""
@@ -62,6 +63,7 @@ def test_the_same_joints_and_the_same_motion(name, tmp_path):
         np.testing.assert_allclose(moved, there, atol=1e-5 * length, err_msg=part)
 
 
+@pytest.mark.long
 def test_every_state_is_found_between_meshes(tmp_path):
     """All 25 variants of the gallery, with the faces that were drawn: planes, cylinders, cones, spheres."""
     parts, drawn = from_stl(STATES, 0.35, tmp_path)

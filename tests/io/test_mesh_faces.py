@@ -63,6 +63,7 @@ def solids(request, tmp_path_factory):
     return away, parts
 
 
+@pytest.mark.long
 def test_the_faces_are_those_that_were_drawn(solids):
     for name, part in solids[1].items():
         assert Counter(face.surface.kind for face in part.faces) == SOLIDS[name][0], name

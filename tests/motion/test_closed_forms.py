@@ -42,6 +42,7 @@ def test_fourbar():
     np.testing.assert_allclose(path[:, :2], expected.rocker_pin, atol=1e-10)  # 1e-12 of the size
 
 
+@pytest.mark.long
 def test_fourbar_of_cylindrical_joints_moves_as_one_of_hinges_and_does_not_slide():
     """The paper's own Example 1 takes all joints as contacts (e): the axial freedoms are idle and stay at rest."""
     motion = planar_fourbar(1.0, pin=cylindrical).sweep({"A.phi": TURN, "A.z": np.zeros_like(TURN)})
@@ -68,6 +69,7 @@ def test_cam_of_figure_6():
     np.testing.assert_allclose(lift, height - height[0], atol=1e-12)  # the two routes to the closed form agree
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("start", [0.3, 2.0])
 def test_rssr_while_its_rod_does_not_spin(start):
     motion = rssr_linkage(start).sweep({"A": TURN})
@@ -76,6 +78,7 @@ def test_rssr_while_its_rod_does_not_spin(start):
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], expected, atol=1e-12)
 
 
+@pytest.mark.long
 def test_bennett():
     start = 0.9
     range_ = np.linspace(0.0, 2.0, 900)
@@ -94,6 +97,7 @@ def test_spherical_fourbar():
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], expected, atol=1e-12)
 
 
+@pytest.mark.long
 def test_cardan():
     motion = cardan_shafts(0.5).sweep({"in": TURN})
     expected = displacement(spatial.cardan(TURN, 0.5))
@@ -101,6 +105,7 @@ def test_cardan():
     np.testing.assert_allclose(motion.coordinates["out"][:, 0], expected, atol=1e-12)
 
 
+@pytest.mark.long
 def test_ball_in_bore_slides_and_turns():
     start = 0.3
     motion = ball_in_bore(start).sweep({"A": TURN})

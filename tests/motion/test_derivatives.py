@@ -3,6 +3,7 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 
 from reference.mechanisms import planar_fourbar
 
@@ -19,6 +20,7 @@ def rocker_angle(theta, ground, crank, coupler, rocker):
     return to_crank - jnp.arccos((rocker**2 + square - coupler**2) / (2 * rocker * jnp.sqrt(square)))
 
 
+@pytest.mark.long
 def test_velocity_and_acceleration_along_the_drive():
     """Nested forward derivatives: the second one needs the first as a function of the pose."""
     mechanism = planar_fourbar(START)
@@ -56,6 +58,7 @@ def test_reverse_mode_with_respect_to_every_frame_of_a_mechanism():
     np.testing.assert_allclose(found, jax.grad(closed)(120.0), rtol=1e-9)
 
 
+@pytest.mark.long
 def test_gradient_of_a_built_mechanism_inside_jit():
     """Numbers that are traced go through `build`: the derivative with respect to a point of a joint."""
     base = planar_fourbar(START)
@@ -77,6 +80,7 @@ def test_gradient_of_a_built_mechanism_inside_jit():
     assert abs(gradient[2]) < 1e-12  # along the axis nothing changes
 
 
+@pytest.mark.long
 def test_unreachable_poses_have_no_derivative_and_spoil_no_other():
     mechanism = planar_fourbar(START, **NON_GRASHOF)
     inputs = jnp.linspace(0.0, 3.0, 40)

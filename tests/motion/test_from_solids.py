@@ -92,6 +92,7 @@ def test_ignored_contacts_leave_what_the_others_allow(fourbar):
     assert len(mechanism.structure.loops) == 0
 
 
+@pytest.mark.long
 def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
     hinge = motion.mechanism.joints["ground-crank"]
     place = {"point": hinge.before[0, :3, 3], "axis": hinge.before[0, :3, 2]}

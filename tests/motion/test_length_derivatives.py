@@ -23,6 +23,7 @@ from reference.mechanisms import (
     spherical_linkage,
 )
 
+pytestmark = pytest.mark.long
 INPUTS = jnp.linspace(0.1, 5.9, 12)
 START = 1.0
 WEIGHTS = jnp.cos(jnp.arange(12.0))
@@ -75,10 +76,7 @@ CASES = {
 }
 
 
-LONG = ("spherical four-bar", "RSSR")
-
-
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.long) if n in LONG else n for n in CASES])
+@pytest.mark.parametrize("name", CASES)
 def test_with_respect_to_lengths(name):
     build, keys, now, output, closed = CASES[name]
     mechanism, now = build(), jnp.array(now)
@@ -106,7 +104,6 @@ def test_first_derivatives_of_a_fourbar():
     np.testing.assert_allclose(jnp.cos(error - error[0]), 1.0, atol=1e-12)  # both turn fully; the zeros differ
 
 
-@pytest.mark.long
 def test_all_kinds_of_derivatives_of_a_fourbar():
     """jvp, Hessian both ways round, and the Jacobian in either mode."""
     mechanism = planar_fourbar(START)
@@ -125,7 +122,6 @@ def fourbar_rocker(mechanism):
     return lambda x: mechanism.with_lengths(dict(zip(BARS, x, strict=True))).sweep({"A": INPUTS}).coordinates["D"][:, 0]
 
 
-@pytest.mark.long
 def test_with_respect_to_a_shaft_angle_and_inputs_at_once():
     mechanism = cardan_shafts(0.5)
 
@@ -164,7 +160,6 @@ def test_with_respect_to_pitch_and_points():
     agree(jax.grad(lambda x: WEIGHTS @ ours(x))(100.0), jax.grad(lambda x: WEIGHTS @ closed(x))(100.0))
 
 
-@pytest.mark.long
 def test_gradient_over_a_whole_mechanism_predicts_every_small_change():
     """Moving any frame a little changes the loss by gradient times movement: all leaves, along a random line."""
     mechanism = slider_crank(START)
@@ -229,7 +224,6 @@ def test_one_batch_of_designs():
     np.testing.assert_allclose(np.cos(rockers(couplers) + base - expected), 1.0, atol=1e-13)
 
 
-@pytest.mark.long
 def test_an_unused_joint_has_no_derivative():
     """Of a mechanism with a part that hangs on it freely, lengths of that part do not matter: exactly zero."""
     base = planar_fourbar(START)

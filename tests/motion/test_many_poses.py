@@ -20,6 +20,7 @@ def displacement(angles, first):
     return np.remainder(angles - first + np.pi, 2 * np.pi) - np.pi
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", ["rising", "falling", "shuffled", "repeated", "both ways"])
 def test_a_fourbar_in_any_order(order):
     turn = {
@@ -48,6 +49,7 @@ def test_a_cam_and_an_rssr_linkage():
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], expected, atol=1e-12)
 
 
+@pytest.mark.long
 def test_limits_inside_the_range_are_found_among_many_poses():
     """Against the reach of a double rocker: the coupler and the rocker in line."""
     mechanism = planar_fourbar(1.0, crank=95.0, coupler=60.0)

@@ -218,6 +218,7 @@ def test_a_drive_at_its_dead_centre_is_not_refused():
     assert dead_end(mechanism, [coordinate(mechanism, "S")]) is None
 
 
+@pytest.mark.long
 def test_freedoms_without_a_drive_are_told():
     five = Mechanism.build(
         fixed=["ground"],

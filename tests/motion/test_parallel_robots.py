@@ -12,6 +12,7 @@ from reference.mechanisms import rssr_linkage, spherical_linkage
 LEGS = [f"leg {i}" for i in range(6)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shuffled", [False, True])
 def test_a_hexapod_follows_its_legs(shuffled):
     mechanism = hexapod()

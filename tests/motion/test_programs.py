@@ -21,6 +21,7 @@ def test_nothing_is_recompiled_for_new_numbers():
     assert compiled._cache_size() == traces
 
 
+@pytest.mark.long
 def test_float32_warns_once_and_reaches_what_it_says():
     import jaxkin.motion.sweep as module
 
@@ -37,6 +38,7 @@ def test_float32_warns_once_and_reaches_what_it_says():
         np.testing.assert_allclose(motion.coordinates["D"], expected, atol=1e-5)
 
 
+@pytest.mark.long
 def test_a_sweep_works_inside_jit_and_vmap():
     range_ = jnp.linspace(0.0, 1.0, 20)
 
@@ -54,6 +56,7 @@ def test_a_sweep_works_inside_jit_and_vmap():
     np.testing.assert_allclose(found[0], other, atol=1e-13)
 
 
+@pytest.mark.long
 def test_nan_in_a_traced_input_is_a_status_and_spoils_no_other_pose():
     mechanism = cardan_shafts()
     inputs = jnp.linspace(0.0, 1.0, 5)

@@ -41,6 +41,7 @@ def test_it_depends_on_no_unit(scale):
     np.testing.assert_allclose(one, other, rtol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "mechanism",
     [bennett_linkage(), rssr_linkage(), shaft_in_contacts(3)],

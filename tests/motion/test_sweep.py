@@ -100,6 +100,7 @@ def test_units_do_not_matter(scale):
     np.testing.assert_allclose(other.residual, 0.0, atol=1e-13)
 
 
+@pytest.mark.long
 def test_driving_the_other_end_gives_the_same_poses():
     """The slider driven by the distances that the crank gave it: the crank turns as before."""
     range_ = np.linspace(0.0, 1.5, 40)
@@ -108,6 +109,7 @@ def test_driving_the_other_end_gives_the_same_poses():
     np.testing.assert_allclose(back.coordinates["A"][:, 0], range_, atol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("order", ["along a curve", "shuffled"])
 def test_two_inputs_of_a_five_bar(order):
     """Two cranks place the tip of a five-bar: it is where circles about the crank pins meet."""
@@ -178,6 +180,7 @@ def test_a_ball_driven_by_its_three_angles():
     )
 
 
+@pytest.mark.long
 def test_the_rod_of_an_rssr_does_not_spin():
     """Its idle freedom has no memory: each pose is the same by whatever way, and 1,000 turns leave nothing."""
     mechanism = rssr_linkage()

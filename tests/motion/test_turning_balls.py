@@ -46,6 +46,7 @@ def displacement(axis, about, angles):
 LONG = [pytest.param(state, CENTRE, marks=pytest.mark.long) for state in "jnop"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("state", "point"), [("d", CENTRE), ("p", ORIGIN), *LONG])
 def test_a_ball_turned_about_any_axis_solves_as_well_as_at_the_start(state, point):
     """About its own centre, and, on a ball, about the centre of that: the line of centres turns as well."""

@@ -88,6 +88,7 @@ def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
     np.testing.assert_allclose(found, jnp.sqrt(square), rtol=1e-12)  # twenty products of numbers of order one
 
 
+@pytest.mark.long
 def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     """Away from closure the columns are twists, so the loop is closed first, by a constant behind its last joint."""
     system, before, after, pitch, q = loop
@@ -126,6 +127,7 @@ def test_what_is_read_off_is_what_was_put_in(loop):
         np.testing.assert_allclose(one, other, atol=1e-13)  # of lengths of order one, some products
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("off", [0.0, 1e-4])
 def test_balls_roll_anywhere_and_are_read_off_right(off):
     """Long random ways of (d) and (p), frames as in Table 1 or a little off: lines of centres turn about themselves."""
