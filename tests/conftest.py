@@ -1,8 +1,11 @@
 """Tests run in float64, as the command line and the examples do; tests of float32 switch it off for themselves.
 
-Programs once compiled are kept beside pytest's own cache: the processes of a run share them, and the next run has them.
-`pytest --cache-clear` begins anew.
+Most of their time goes into compiling. Programs once compiled are kept beside pytest's own cache: all processes of a
+run share them, and the next run has them (`pytest --cache-clear` begins anew). The default run compiles with few
+optimisations; those marked `long`, and a run of all (`pytest -m ""`), test the programs that users get.
 """
+
+import os
 
 import jax
 
@@ -10,6 +13,9 @@ jax.config.update("jax_enable_x64", True)
 
 
 def pytest_configure(config):
+    if config.option.markexpr == "not long":
+        few = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
+        os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} {few}"
     folder = config.cache.mkdir("compiled") if hasattr(config, "cache") else None
     if folder is not None:
         jax.config.update("jax_compilation_cache_dir", str(folder))

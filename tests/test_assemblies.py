@@ -92,6 +92,7 @@ def test_the_same_file_in_other_units_gives_the_same_angles(tmp_path, prefix, un
         np.testing.assert_allclose(scaled.coordinates[joint], angles, atol=5e-7)
 
 
+@pytest.mark.long
 def test_a_gradient_through_the_whole_path():
     """How the swing of the rocker changes with the place of a pin that was read from the file."""
     mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])

@@ -157,6 +157,7 @@ def test_inspect_draws_what_it_found(tmp_path):
     assert "none" in done.stderr
 
 
+@pytest.mark.long
 def test_loops_prints_and_draws_the_structure(tmp_path):
     done = invoke("loops", FOURBAR, "--fixed", "ground", "--png", tmp_path / "loops.png")
     assert done.exit_code == 0, done.output

@@ -48,6 +48,7 @@ def samples(part, rng):
     return np.concatenate(found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_what_is_reported_is_near_and_what_is_apart_is_not_reported(shapes, solids, seed):
     rng = np.random.default_rng(seed)

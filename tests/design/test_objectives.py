@@ -21,6 +21,7 @@ def motion():
     return planar_fourbar(START).sweep({"A": TURN})
 
 
+@pytest.mark.long
 def test_path(motion):
     own = np.asarray(motion.points("coupler", POINT))[:, :2]
     assert design.path("coupler", POINT, own)(motion) < 1e-20
@@ -37,6 +38,7 @@ def test_path(motion):
     assert placed(motion, {"place": jnp.array([7.0, -2.0, 0.3])}) < 1e-20
 
 
+@pytest.mark.long
 def test_function_and_dwell(motion):
     rocker = planar.fourbar(START + TURN).rocker
     wanted = rocker - rocker[0]
@@ -46,6 +48,7 @@ def test_function_and_dwell(motion):
     assert design.dwell("D", chosen)(motion) == pytest.approx(3 * np.var(rocker[chosen]))
 
 
+@pytest.mark.long
 def test_guidance(motion):
     at = planar.fourbar(START + TURN)
     turn = at.coupler - at.coupler[0]
@@ -67,6 +70,7 @@ def test_transmission_angle_by_the_law_of_cosines(motion):
     assert (np.min(within) >= 0) == (expected.min() >= 0.6)
 
 
+@pytest.mark.long
 def test_stroke():
     motion = slider_crank(START).sweep({"A": np.linspace(0.0, 2 * np.pi, 30)})
     slider = planar.slider_crank(START + TURN).slider

@@ -56,6 +56,7 @@ def test_published_errors_by_circles(name):
     assert error(name) == pytest.approx(PATHS[name].published, rel=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PATHS)
 def test_published_errors_by_the_mechanism(name):
     """The variables of the problem mean what they mean in the literature."""

@@ -57,6 +57,7 @@ def test_a_rigid_rod_keeps_its_length():
     np.testing.assert_allclose(apart, turned, atol=1e-9)
 
 
+@pytest.mark.long
 def test_poses_that_do_not_close_have_no_rates():
     motion = planar_fourbar(1.0, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0).sweep({"A": INPUTS})
     rates = velocities(motion, {"A": 1.0})
@@ -65,6 +66,7 @@ def test_poses_that_do_not_close_have_no_rates():
     assert np.all(np.isfinite(rates.coordinates["D"]))
 
 
+@pytest.mark.long
 def test_bad_rates():
     motion = planar_fourbar(1.0).sweep({"A": INPUTS})
     with pytest.raises(ValueError, match=r"'B.phi' is not driven in this motion; did you mean 'A.phi'"):

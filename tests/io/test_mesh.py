@@ -44,6 +44,7 @@ def files(cam, tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("file", "unit", "names"),
     [
@@ -108,6 +109,7 @@ def test_the_unit_does_not_matter(files, cam, scale, tmp_path):
     np.testing.assert_allclose(size(parts), scale * size(cam[1:2]), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_units_that_differ_are_refused(files):
     with pytest.raises(ValueError, match=re.escape("frame (frame.3mf) is in mm, not in m: nothing is rescaled")):
         load({"frame": files / "frame.3mf"}, unit="m")

@@ -71,6 +71,7 @@ def test_the_faces_are_those_that_were_drawn(solids):
         assert (len(tori), len(part.notes)) == ((1, 1) if name == "shaft" else (0, 0)), part.notes
 
 
+@pytest.mark.long
 def test_radii_come_back(solids):
     """To 1e-5; a metre away the corners are 6e-5 mm apart, which a quarter of a turn magnifies by some ten."""
     away, parts = solids

@@ -177,6 +177,7 @@ def test_hostile_files_are_refused_in_one_line_and_at_once(tmp_path, capfd, name
     assert list(tmp_path.iterdir()) == [file]
 
 
+@pytest.mark.long
 def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
     """The kernel follows a thousand million parts; here nothing keeps it from that but the time."""
     monkeypatch.setattr(step, "check_parts", lambda *_: None)
@@ -190,6 +191,7 @@ def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.long
 def test_memory_is_bounded(tmp_path, capfd, monkeypatch):
     """Some 250 MB of address space for the program, as much again for the points: a limit between the two."""
     monkeypatch.setattr(step_convert, "MEMORY", 400 << 20)

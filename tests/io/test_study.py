@@ -27,6 +27,7 @@ def written(tmp_path, text):
     return file
 
 
+@pytest.mark.long
 def test_a_study_is_the_same_as_the_calls_it_stands_for(tmp_path):
     study = load_study(written(tmp_path, SAME))
     mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])

@@ -89,6 +89,7 @@ def test_bennett():
         np.testing.assert_allclose(motion.coordinates[joint][:, 0], displacement(angles), atol=1e-12)
 
 
+@pytest.mark.long
 def test_spherical_fourbar():
     start = 0.4
     motion = spherical_linkage(start).sweep({"A": TURN})

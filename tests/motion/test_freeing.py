@@ -23,6 +23,7 @@ def blocked():
     return replace(assembly, parts=(*assembly.parts, stop)), end
 
 
+@pytest.mark.long
 def test_the_stop_is_the_first_way_out(blocked):
     assembly, end = blocked
     mechanism = assembly.mechanism(fixed=["ground", "stop"])

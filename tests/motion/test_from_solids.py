@@ -43,6 +43,7 @@ def same(motion, other):
         np.testing.assert_allclose(other.transforms[part], transforms, atol=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("cut", ["crank", "coupler"])
 def test_a_part_in_two_rigid_pieces_moves_as_one(fourbar, motion, cut):
     """Each hinge then rests on a face of one piece and a pin of the other: only together are they a hinge."""
@@ -56,6 +57,7 @@ def test_a_part_in_two_rigid_pieces_moves_as_one(fourbar, motion, cut):
     np.testing.assert_array_equal(found.transforms[f"{cut} pins"], found.transforms[cut])
 
 
+@pytest.mark.long
 def test_several_fixed_parts_are_one(fourbar, motion):
     pieces = split(fourbar, "ground").mechanism(fixed=["ground", "ground pins"])
     assert [joint.kind for joint in pieces.all_joints] == ["revolute"] * 4

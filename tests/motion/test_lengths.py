@@ -239,6 +239,7 @@ def test_lengths_inside_jit_vmap_and_grad():
     assert np.all(np.isnan(spoilt))  # the triangle cannot be: no number is better than a wrong one
 
 
+@pytest.mark.long
 def test_frames_and_points_on_both_parts_or_on_one():
     mechanism = planar_fourbar(1.0)
     both = mechanism.with_points({"D": (110.0, 0.0, 0.0)})

@@ -130,6 +130,7 @@ def reordered(mechanism: Mechanism, seed: int) -> tuple[Mechanism, dict[str, str
     return Mechanism.build(fixed=[parts[part] for part in mechanism.fixed], joints=joints), parts, turned
 
 
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(st.sampled_from([name for name, (mechanism, *_) in CATALOGUE.items() if alike(mechanism)]), SEEDS)
 def test_other_names_order_and_direction_give_the_same_mobility(name, seed):

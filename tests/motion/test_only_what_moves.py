@@ -66,11 +66,13 @@ def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None)
     return operations(closure, system, geometry, assembled(system, 100, jnp.zeros(0).dtype))
 
 
+@pytest.mark.long
 def test_equations_that_a_planar_loop_lacks_are_absent(solved):
     """The same four-bar in its plane and in space, where the travel along the loop counts as one step."""
     assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", Form())
 
 
+@pytest.mark.long
 def test_turns_of_balls_are_absent_where_there_is_none(solved):
     """Four hinges about one point, and a linkage of as many joints of which two are balls."""
     assert closures(spherical_linkage(), solved, "A") < 0.75 * closures(rssr_linkage(), solved, "A")

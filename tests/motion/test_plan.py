@@ -71,6 +71,7 @@ def test_subgroups(mechanism, drive, subgroup, equations, redundant, free):
     assert (step.subgroup.name, step.equations, step.redundant, step.free) == (subgroup, equations, redundant, free)
 
 
+@pytest.mark.long
 def test_the_paper_in_words():
     """Fig. 5: driven as in Section 6, with both choices of fixed parts."""
     assembly = jk.load(path("eighteen_bars"))

@@ -10,6 +10,7 @@ from reference.mechanisms import bennett_linkage, planar_fourbar, rssr_linkage, 
 from reference.overconstrained import shaft_in_contacts
 
 
+@pytest.mark.long
 def test_zero_at_change_points_only():
     motion = parallelogram().sweep({"A": np.array([-1.0, -0.5, 0.0, np.pi - 1.0, np.pi - 0.5])})
     assert np.all(motion.closed)  # assembled at 1 rad: flat at -1 and at pi - 1

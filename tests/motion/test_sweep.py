@@ -14,7 +14,7 @@ LIMIT = np.arccos((40.0**2 + 20.0**2 - 55.0**2) / (2 * 40.0 * 20.0))
 """The crank of that four-bar reaches this angle, coupler and rocker in line, to either side."""
 
 
-@pytest.mark.parametrize("poses", [200, 3000])
+@pytest.mark.parametrize("poses", [200, pytest.param(3000, marks=pytest.mark.long)])
 @pytest.mark.parametrize("direction", [1, -1])
 def test_a_range_beyond_the_limits_is_unreachable_there_and_right_elsewhere(poses, direction):
     start = 1.0
@@ -55,7 +55,7 @@ def test_behind_a_gap_on_another_circuit_is_jumped(turns, shift):
     assert np.sum(own) > 5 and np.sum(mirrored) > 5
 
 
-@pytest.mark.parametrize("poses", [50, 721])
+@pytest.mark.parametrize("poses", [50, pytest.param(721, marks=pytest.mark.long)])
 @pytest.mark.parametrize("inputs", [(0.0, 2 * np.pi), (0.0, -2 * np.pi), (-1.0, 2 * np.pi - 1.0), (-1.0, 5 * np.pi)])
 def test_a_parallelogram_stays_one_through_its_change_points(poses, inputs):
     """At crank angle 0 and pi both branches meet; the third grid starts on a change point exactly."""
@@ -67,6 +67,7 @@ def test_a_parallelogram_stays_one_through_its_change_points(poses, inputs):
     np.testing.assert_allclose(motion.coordinates["D"][:, 0], range_, atol=1e-7)
 
 
+@pytest.mark.long
 def test_order_repetition_and_spacing_of_the_inputs_do_not_matter():
     mechanism = planar_fourbar(1.0)
     rng = np.random.default_rng(3)
@@ -89,6 +90,7 @@ def test_few_poses(poses):
     assert np.all(motion.closed)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-6, 1e-3, 1e3, 1e6])
 def test_units_do_not_matter(scale):
     """The same mechanism in other units gives the same angles, to rounding."""

@@ -115,6 +115,7 @@ def test_one_writer_a_name(registry):
         _register("a.txt", "second")
 
 
+@pytest.mark.long
 def test_a_motion_saves_itself(motion, tmp_path):
     paths = motion.save(tmp_path)
     assert [path.name for path in paths][:2] == ["motion.npz", "motion.csv"]

@@ -103,6 +103,7 @@ def sliders(crank: float, rod: float) -> HardCase:
         {"A": turn(25)},
         displacements(slide, rod),
         "closed form",
+        long=True,
     )
 
 
@@ -219,6 +220,7 @@ OVERCONSTRAINED = (
         {"A": turn(25)},
         angles("B", lambda theta: spatial.bennett(theta)[..., 1], 0.9),
         "closed form",
+        long=True,
     ),
     HardCase(
         "Goldberg linkage",
@@ -357,6 +359,7 @@ NEARLY = tuple(
         {"A": turn(25, 0.3)},
         angles("B", lambda theta, m=margin: spatial.bennett(theta, m, 1.7 * m)[..., 1], 0.9),
         "closed form",
+        long=True,
     )
     for margin in MARGINS[:7]
 ) + tuple(

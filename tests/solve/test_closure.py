@@ -66,6 +66,7 @@ def displacement(system, before, after, pitch, q, index):
     return matrix
 
 
+@pytest.mark.long
 def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
     system, before, after, pitch, q = loop
     geometry, length = loop_geometry(system, before, after, pitch)
@@ -117,6 +118,7 @@ def close_behind(system, geometry, state):
     return geometry._replace(end=geometry.end @ np.linalg.inv(end))
 
 
+@pytest.mark.long
 def test_what_is_read_off_is_what_was_put_in(loop):
     """However the frames of a chain lie to each other."""
     system, before, after, pitch, q = loop
@@ -173,6 +175,7 @@ def matrices(given):
     return jnp.stack([jnp.stack(column) for column in rotation_matrix(from_angles(given))], axis=1)
 
 
+@pytest.mark.long
 def test_a_ball_turns_half_a_turn_about_any_axis():
     """retract never locks: many small turns about a generic axis add up to the turn about that axis."""
     system = LoopSystem((("T_theta_phi_psi",),), (((0, 1),),), (), Form())

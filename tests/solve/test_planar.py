@@ -30,6 +30,7 @@ def both(mechanism):
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism, block)))[0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", PLANAR, ids=lambda make: make.__name__)
 def test_the_same_gap_merit_and_row_space_as_in_space(make):
     """Anywhere, closed or not: the three equations are those of the six that do not vanish."""
@@ -44,6 +45,7 @@ def test_the_same_gap_merit_and_row_space_as_in_space(make):
     np.testing.assert_allclose(np.sum(one.residual**2, axis=0), np.sum(other.residual**2, axis=0), atol=1e-13)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", PLANAR, ids=lambda make: make.__name__)
 def test_the_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(make):
     (system, geometry), _ = both(make())
@@ -78,6 +80,7 @@ def test_a_slide_across_the_plane_makes_a_loop_spatial():
     assert plane_columns([*hinges, prismatic("S", "a", "b", axis=(1, 0, 1))]) is None
 
 
+@pytest.mark.long
 def test_a_hinge_tilted_inside_jit_is_not_taken_for_planar():
     """The structure is known to be planar before the numbers are: what then leaves the plane must not close."""
     mechanism, turn = planar_fourbar(1.0), jnp.linspace(0.0, 1.0, 10)

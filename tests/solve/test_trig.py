@@ -9,6 +9,7 @@ import pytest
 from jaxkin.solve.trig import FARTHEST, cos_sin, cos_sin_nearby
 
 EPS = np.finfo(float).eps
+compiled, compiled_nearby = jax.jit(cos_sin), jax.jit(cos_sin_nearby)
 
 
 def off(angles, found) -> float:
@@ -26,21 +27,21 @@ def off(angles, found) -> float:
 def test_of_any_angles_down_to_rounding(farthest):
     # half a unit in the last place is EPS / 4; the sums of the series round a few times more
     angles = np.random.default_rng(0).uniform(-farthest, farthest, 400)
-    assert off(angles, cos_sin(jnp.asarray(angles))) < EPS
+    assert off(angles, compiled(jnp.asarray(angles))) < EPS
 
 
 def test_at_whole_eighths_of_a_turn():
     angles = np.arange(-40, 41) * (math.pi / 4)
-    assert off(angles, cos_sin(jnp.asarray(angles))) < EPS
+    assert off(angles, compiled(jnp.asarray(angles))) < EPS
 
 
 def test_far_away_within_what_the_angle_is_known_to():
     angles = np.random.default_rng(0).uniform(1e7, 1e9, 100)
-    assert off(angles, cos_sin(jnp.asarray(angles))) < np.max(np.spacing(angles))
+    assert off(angles, compiled(jnp.asarray(angles))) < np.max(np.spacing(angles))
 
 
 def test_of_no_finite_angle_there_is_none():
-    cos, sin = cos_sin(jnp.array([jnp.nan, jnp.inf, -jnp.inf]))
+    cos, sin = compiled(jnp.array([jnp.nan, jnp.inf, -jnp.inf]))
     assert bool(jnp.all(jnp.isnan(cos) & jnp.isnan(sin)))
 
 
@@ -49,7 +50,7 @@ def test_derivatives_are_those_of_cosine_and_sine():
         return jnp.concatenate(cos_sin(x[None]))
 
     x = jnp.asarray(2.3)
-    once, twice = jax.jacfwd(both)(x), jax.jacrev(jax.jacfwd(both))(x)
+    once, twice = jax.jit(jax.jacfwd(both))(x), jax.jit(jax.jacrev(jax.jacfwd(both)))(x)
     np.testing.assert_allclose(once, [-math.sin(2.3), math.cos(2.3)], atol=EPS)
     np.testing.assert_allclose(twice, [-math.cos(2.3), -math.sin(2.3)], atol=EPS)
 
@@ -57,11 +58,11 @@ def test_derivatives_are_those_of_cosine_and_sine():
 def test_nearby_angles():
     # one product of two rotations more than above
     angles = 7.0 + np.linspace(-0.78, 0.78, 201)
-    assert off(angles, cos_sin_nearby(jnp.asarray(angles))) < 2 * EPS
-    cos, _ = cos_sin_nearby(jnp.asarray([7.0 - 0.99 * FARTHEST, 7.0, 7.0 + 1.1 * FARTHEST]))
+    assert off(angles, compiled_nearby(jnp.asarray(angles))) < 2 * EPS
+    cos, _ = compiled_nearby(jnp.asarray([7.0 - 0.99 * FARTHEST, 7.0, 7.0 + 1.1 * FARTHEST]))
     assert np.isnan(cos).tolist() == [False, False, True]
 
 
 def test_float32_keeps_its_precision():
     angles = np.float32(np.linspace(-7, 7, 50))
-    assert off(angles, cos_sin(jnp.asarray(angles, jnp.float32))) < np.finfo(np.float32).eps
+    assert off(angles, compiled(jnp.asarray(angles, jnp.float32))) < np.finfo(np.float32).eps

@@ -68,6 +68,7 @@ def _with(fixed, scene):
     return parts, fixed, displacements
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_the_view_depends_neither_on_the_unit_nor_on_the_origin(scale, crane, sticks):
     for motion, fixed in ((crane, ["base"]), (sticks, ["ground"])):

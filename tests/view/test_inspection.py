@@ -26,6 +26,7 @@ def states():
     return Assembly(parts, unit, "states.step")
 
 
+@pytest.mark.long
 def test_regions_lie_on_both_surfaces(states):
     """Areas by the corners of their triangles: between these lie chords."""
     faces = {(part.name, face.name): face for part in states.parts for face in part.faces}
@@ -44,6 +45,7 @@ def area(triangles):
     return np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=-1).sum() / 2
 
 
+@pytest.mark.long
 def test_areas_are_those_of_the_drawing():
     """The pin of the crank in the coupler: 2 pi r h, of which the chords of its tessellation leave out a little."""
     assembly = jk.load(path("fourbar"))
@@ -55,6 +57,7 @@ def test_areas_are_those_of_the_drawing():
     assert found == pytest.approx(2 * np.pi * size["pin radius"] * size["thickness"], rel=0.01)
 
 
+@pytest.mark.long
 def test_the_picture_shows_contacts_in_their_colour(tmp_path):
     assembly = jk.load(path("cam"))
     red = []
@@ -67,6 +70,7 @@ def test_the_picture_shows_contacts_in_their_colour(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["found.png"]
 
 
+@pytest.mark.long
 def test_a_gallery_shows_each_contact_in_a_panel(states, tmp_path):
     """In the colour of its region; the panels stand side by side from the left."""
     contacts = {contact.region: contact for contact in states.contacts()}

@@ -24,6 +24,7 @@ def where(image, color):
     return np.argwhere(np.abs(image - color).max(axis=-1) < 0.012)
 
 
+@pytest.mark.long
 def test_six_panels_in_two_rows_with_every_part_in_its_colour(four_bar, tmp_path):
     image = draw(four_bar, tmp_path)
     assert np.array_equal(image, draw(four_bar, tmp_path, poses=[0, 10, 20, 30, 40, 50]))  # 360 is 0
@@ -53,6 +54,7 @@ def test_parts_are_where_the_closed_form_has_them(four_bar, tmp_path):
     assert np.abs(wanted).max() > 20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("count", "columns", "rows"), [(1, 1, 1), (2, 2, 1), (4, 2, 2)])
 def test_panels_fill_rows_of_at_most_three(four_bar, tmp_path, count, columns, rows):
     image = draw(four_bar, tmp_path, poses=np.arange(count))
@@ -64,6 +66,7 @@ def test_panels_fill_rows_of_at_most_three(four_bar, tmp_path, count, columns, r
         assert ((captions > top - 40) & (captions < top + 40)).any()
 
 
+@pytest.mark.long
 def test_failed_poses_are_not_drawn(partly, nowhere, plates, tmp_path):
     for motion, some in ((partly, True), (nowhere, False)):
         solid = replace(motion, mechanism=replace(motion.mechanism, solids=plates))
@@ -81,6 +84,7 @@ def test_poses_that_fail_or_do_not_exist_are_refused(partly, tmp_path):
     assert not (tmp_path / "motion.png").exists()
 
 
+@pytest.mark.long
 def test_the_picture_is_the_same_in_another_unit(sticks, small, tmp_path):
     one, other = (draw(motion, tmp_path, poses=[0, 17, 40]) for motion in (sticks, small))
     assert one.shape == other.shape
@@ -88,11 +92,13 @@ def test_the_picture_is_the_same_in_another_unit(sticks, small, tmp_path):
     assert differ.mean() < 1e-3
 
 
+@pytest.mark.long
 def test_a_motion_in_space_is_drawn_too(crane, tmp_path):
     image = draw(crane, tmp_path)
     assert 0.02 < (image[HEAD:] < 0.9).any(axis=-1).mean() < 0.6
 
 
+@pytest.mark.long
 def test_any_name_of_a_part_is_drawn(tmp_path):
     names = ["_hidden", "a $ b $ c", "x" * 200, "\u30af\u30e9\u30f3\u30af"]  # the last: a crank, in katakana
     colors = [(0.8, 0.2, 0.2), (0.2, 0.2, 0.8), (0.2, 0.6, 0.2), (0.7, 0.2, 0.7)]
