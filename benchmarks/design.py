@@ -15,7 +15,6 @@ from pathlib import Path
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from reference import catalogue, mechanisms
@@ -26,8 +25,6 @@ BARS = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rock
 NOW = [100.0, 40.0, 120.0, 80.0]
 POINT = (30.0, 60.0, 0.0)
 FOURBARS, LEGS = 10_000, 1_000
-TOGETHER = 100
-"""Designs that go through one batch of a compiled call over very many: their knots stay in the cache."""
 
 
 def least_time(function, *args) -> tuple[float, float]:
@@ -141,7 +138,7 @@ def batch() -> None:
             motion = mechanism.with_lengths(dict(zip(keys, lengths, strict=True))).sweep({joint: inputs})
             return motion.displacements, motion.closed
 
-        return jax.jit(lambda designs: lax.map(one, designs, batch_size=TOGETHER))
+        return jax.jit(jax.vmap(one))
 
     bars = jnp.asarray(np.array(NOW) * random.uniform(0.97, 1.03, (FOURBARS, 4)))
     hand = jax.jit(lambda bars, theta: dyad(bars[..., None].swapaxes(0, 1), theta))
