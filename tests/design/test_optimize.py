@@ -26,6 +26,7 @@ def recovered():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_a_synthetic_target_is_recovered(recovered):
     """To 1e-6 relative, as asked for; a sum of squares that falls to none converges quadratically, to rounding."""
     found = [recovered.values[f"({', '.join(key)})"] for key in BOUNDS]
@@ -39,6 +40,7 @@ def test_a_synthetic_target_is_recovered(recovered):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_a_result_is_saved_and_read_back(recovered, tmp_path):
     again = design.read_optimum(recovered.save(tmp_path / "best.npz"))
     assert str(again) == str(recovered)
@@ -55,6 +57,7 @@ def test_a_result_is_saved_and_read_back(recovered, tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_bounded_minimum_of_any_loss():
     """Mean transmission quality with rocker and coupler tied: the best crank is the shortest that is allowed.
 

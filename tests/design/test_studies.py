@@ -9,7 +9,7 @@ from jaxkin.examples.paths import BARS, fourbar
 from reference import spatial
 from reference.mechanisms import cam, rssr_linkage
 
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.study]
 
 
 def freudenstein(inputs, outputs):

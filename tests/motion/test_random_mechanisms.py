@@ -39,6 +39,7 @@ def test_limits_are_found_however_the_steps_fall(points):
 
 
 @pytest.mark.long
+@pytest.mark.study
 @pytest.mark.parametrize("name", ["four-bar", "Watt six-bar", "RSSR", "spherical four-bar"])
 def test_every_pose_is_closed_on_its_branch_or_says_why_not(name):
     """The committed figures of 100 times as many are in `benchmarks/README.md`."""
