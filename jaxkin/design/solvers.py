@@ -158,18 +158,15 @@ def bounded(problem: Problem) -> Solver:
         value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
-    solver = jaxopt().LBFGSB(
+    package = jaxopt()
+    solver = package.LBFGSB(
         value_and_grad, value_and_grad=True, history_size=MEMORY, linesearch_init="max", implicit_diff=False
     )
     # its own line search holds the program of loss and gradient three times over; this one once. It asks for less loss
     # only: `c2` switches the condition on the slope off, and L-BFGS skips steps of negative curvature by itself
-    solver.run_ls = (
-        jaxopt()
-        .BacktrackingLineSearch(
-            value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
-        )
-        .run
-    )
+    solver.run_ls = package.BacktrackingLineSearch(
+        value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
+    ).run
     bounds = (jnp.zeros_like(lower), (upper - lower) / width)
 
     def begin(vectors, weight):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -74,10 +74,10 @@ def _pair(mechanism: Mechanism, name: str) -> list[str]:
     return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
 
 
-def _values(key: str, values: object) -> Float[Array, " poses"]:
+def _values(key: str, values: Any) -> Float[Array, " poses"]:
     if not isinstance(values, jax.Array):
         try:
-            values = np.asarray(values, float)  # type: ignore[arg-type]
+            values = np.asarray(values, float)
         except (TypeError, ValueError):
             raise ValueError(f"drive {key!r}: the displacements must be numbers, got {values!r}") from None
     if values.ndim != 1:

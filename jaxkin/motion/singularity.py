@@ -39,7 +39,6 @@ def _rank(mechanism: Mechanism, number: int, system: LoopSystem) -> int:
     if traced(mechanism.all_joints):
         return min(system.equations, len(system.free))
     freedoms, plane = mechanism.loop_freedoms[number], mechanism.forms[number].plane
-    free = [
-        column for column in system.free if plane is None or column in plane
-    ]  # what leaves the plane is not solved for
+    # what leaves the plane is not solved for
+    free = [column for column in system.free if plane is None or column in plane]
     return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0] + len(system.spins)

@@ -11,9 +11,9 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
-UNROLLED, MANY = 9, 1024
+FEW, UNROLLED, MANY = 3, 9, 1024
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
-fewer poses it is not worth the time that it takes to compile."""
+fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
@@ -25,7 +25,7 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
     With `refine` one step of iterative refinement takes the bias of the damping out.
     """
     rows, _, poses = jacobian.shape
-    solve = (_unrolled if rows <= 3 or (rows <= UNROLLED and poses >= MANY) else _looped)(jacobian, damping)
+    solve = (_unrolled if rows <= FEW or (rows <= UNROLLED and poses >= MANY) else _looped)(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(jacobian * y[:, None], axis=0)
