@@ -113,6 +113,7 @@ def _3mf(path: Path, head: bytes, size: int) -> str:
             with archive.open(models[0]) as model:
                 start = model.read(20_000)
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError) as error:
+        # in this order: no archive, a compression that is not known, a password, and data that end too soon
         raise ValueError(f"{path.name} is damaged or no 3MF file: {error}; copy or export it again") from None
     root = re.search(rb"<(?:\w+:)?model\b[^>]*>", start)
     said = re.search(rb"\bunit\s*=\s*[\"'](\w+)[\"']", root[0]) if root else None

@@ -39,6 +39,7 @@ CROSSING = 1e-3
 """A step that is no longer may pass from one branch to another that crosses it: at a change point, or where two
 branches miss each other by less than this, as they do for lengths that are off by 1e-6."""
 CORRECTOR_STEPS, GAP_STEPS, RESCUE_STEPS = 8, 16, 200
+"""Of the corrector at most: following, crossing a gap, and where a pose is to be closed or to have least residual."""
 
 START, FOLLOW, GAP = range(3)
 """Stages of a lane: closing the assembled pose, following the motion, beyond its limit."""
@@ -96,10 +97,8 @@ def arrived(front: Front, target: Float[Array, " lanes"]) -> Bool[Array, " lanes
     return (front.at == target) & (front.stage != START)
 
 
-def substep(
-    system: LoopSystem, geometry: Geometry, way: Way, front: Front, target: Float[Array, " lanes"]
-) -> tuple[Front, Bool[Array, " lanes"]]:
-    """One step of every lane that has not arrived, and which lanes now stand at a new pose with its final status."""
+def substep(system: LoopSystem, geometry: Geometry, way: Way, front: Front, target: Float[Array, " lanes"]) -> Front:
+    """One step of every lane that has not arrived; a lane whose step was refused stands where it stood."""
     dtype = target.dtype
     left = jnp.abs(target - front.at)
     stage = jnp.where(arrived(front, target), -1, front.stage)
@@ -143,22 +142,19 @@ def substep(
         secant = jax.tree.map(lambda new, old: (new - old) / apart, found.state, front.state)
     else:
         secant = rate(system, found.state, slope)
-    return (
-        Front(
-            state=choose(final, found.state, front.state),
-            status=jnp.where(starting | in_gap, status, front.status),  # a branch is kept while it is followed
-            gap=jnp.where(final, found.closure.gap, front.gap),
-            jacobian=jnp.where(final, jacobian, front.jacobian),
-            at=jnp.where(final, at, front.at),
-            slope=jnp.where(final, slope, front.slope),
-            secant=choose(good, secant, front.secant),
-            has_secant=(front.has_secant | good) & (next_stage == FOLLOW) & ~entered,
-            tangent=following & ~good & ~front.tangent,
-            step=jnp.where(entered, FIRST_STEP, step),
-            stage=next_stage.astype(jnp.int32),
-            anchored=front.anchored | entered,
-        ),
-        final,
+    return Front(
+        state=choose(final, found.state, front.state),
+        status=jnp.where(starting | in_gap, status, front.status),  # a branch is kept while it is followed
+        gap=jnp.where(final, found.closure.gap, front.gap),
+        jacobian=jnp.where(final, jacobian, front.jacobian),
+        at=jnp.where(final, at, front.at),
+        slope=jnp.where(final, slope, front.slope),
+        secant=choose(good, secant, front.secant),
+        has_secant=(front.has_secant | good) & (next_stage == FOLLOW) & ~entered,
+        tangent=following & ~good & ~front.tangent,
+        step=jnp.where(entered, FIRST_STEP, step),
+        stage=next_stage.astype(jnp.int32),
+        anchored=front.anchored | entered,
     )
 
 
@@ -187,7 +183,7 @@ def reach(
 
     front = lax.while_loop(
         lambda front: any_lane(~arrived(front, distance)),
-        lambda front: substep(system, geometry, way, front, distance)[0],
+        lambda front: substep(system, geometry, way, front, distance),
         start(system, targets.shape[-1], targets.dtype),
     )
     return front.state, front.status, front.gap

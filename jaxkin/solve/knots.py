@@ -94,7 +94,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
 
     def step(carry):
         front, count, limits, repeats, table = carry
-        front, _ = substep(system, geometry, way, front, target(limits, repeats))
+        front = substep(system, geometry, way, front, target(limits, repeats))
         # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
         # so that all lanes, those of other designs too, write at one place
         row = _row(system, front)
