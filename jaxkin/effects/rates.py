@@ -111,7 +111,8 @@ def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
                 f"{tuple(value.shape)}"
             )
         given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
-    named = {name: entry.values for name, entry in resolve(motion.mechanism, given).items()} if given else {}
+    driven = resolve(motion.mechanism, given) if given else {}
+    named = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
     for name in named:
         if name not in motion.inputs:
             raise ValueError(f"{name!r} is not driven in this motion{nearest(name, motion.inputs)}")

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import dtypes
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
@@ -15,13 +15,16 @@ from jaxkin.geometry.traced import traced
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.names import nearest
 
+Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
+"""Displacements, one a pose: on the host where they are numbers."""
+
 
 class Driven(NamedTuple):
     """A driven coordinate."""
 
     joint: int
     coordinate: int
-    values: Float[Array, " poses"]
+    values: Given
 
 
 def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driven]:
@@ -30,21 +33,34 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
     numbers that are not finite, and a ball of which only some angles are driven.
     """
-    if not drive:
+    driven = coordinates(mechanism, tuple(drive))
+    given = given_values(driven, drive)
+    return {name: Driven(*place, values) for (name, place), values in zip(driven.items(), given, strict=True)}
+
+
+def coordinates(mechanism: Mechanism, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
+    """(joint, coordinate) that the names of a drive mean, by their full names; ValueError as in `resolve`."""
+    if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
-    driven: dict[str, Driven] = {}
-    for key, values in drive.items():
+    driven: dict[str, tuple[int, int]] = {}
+    for key in keys:
         joint, index = coordinate(mechanism, key)
         name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[index]}"
         if name in driven:
             raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
-        driven[name] = Driven(joint, index, _values(key, values))
-    lengths = {name: entry.values.shape[0] for name, entry in driven.items()}
-    if len(set(lengths.values())) > 1:
-        listed = ", ".join(f"{name!r}: {length}" for name, length in lengths.items())
-        raise ValueError(f"driven arrays must have equal length, one value a pose, got {listed}")
-    _whole_balls(mechanism, driven)
+        driven[name] = joint, index
+    _whole_balls(mechanism, driven.values())
     return driven
+
+
+def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[Given, ...]:
+    """What a drive gives to coordinates of these full names, in its order; ValueError as in `resolve`."""
+    given = tuple(_values(key, values) for key, values in drive.items())
+    lengths = [values.shape[0] for values in given]
+    if len(set(lengths)) > 1:
+        listed = ", ".join(f"{name!r}: {length}" for name, length in zip(names, lengths, strict=True))
+        raise ValueError(f"driven arrays must have equal length, one value a pose, got {listed}")
+    return given
 
 
 def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
@@ -74,10 +90,13 @@ def _pair(mechanism: Mechanism, name: str) -> list[str]:
     return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
 
 
-def _values(key: str, values: Any) -> Float[Array, " poses"]:
-    if not isinstance(values, jax.Array):
+def _values(key: str, values: Any) -> Given:
+    dtype = dtypes.canonicalize_dtype(float)
+    if traced(values):
+        values = jnp.asarray(values, dtype)
+    else:
         try:
-            values = np.asarray(values, float)
+            values = np.asarray(values, dtype)
         except (TypeError, ValueError):
             raise ValueError(f"drive {key!r}: the displacements must be numbers, got {values!r}") from None
     if values.ndim != 1:
@@ -85,22 +104,21 @@ def _values(key: str, values: Any) -> Float[Array, " poses"]:
             f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "
             f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
         )
-    if not traced(values) and not np.all(np.isfinite(np.asarray(values))):
-        first = int(np.flatnonzero(~np.isfinite(np.asarray(values)))[0])
+    if isinstance(values, np.ndarray) and not np.isfinite(values).all():
+        first = int(np.flatnonzero(~np.isfinite(values))[0])
         raise ValueError(
             f"drive {key!r}: pose {first} is {float(values[first])}; all displacements must be finite numbers"
         )
-    return jnp.asarray(values, float)
+    return values
 
 
-def _whole_balls(mechanism: Mechanism, driven: dict[str, Driven]) -> None:
+def _whole_balls(mechanism: Mechanism, driven: Collection[tuple[int, int]]) -> None:
     """A ball's angles are one rotation: all three are driven or none."""
     for index, joint in enumerate(mechanism.all_joints):
         column = 0
         for movement in joint.movements:
             count = len(MOVEMENTS[movement].coordinates)
-            given = [entry.coordinate for entry in driven.values() if entry.joint == index]
-            chosen = [c for c in range(column, column + count) if c in given]
+            chosen = [c for c in range(column, column + count) if (index, c) in driven]
             if MOVEMENTS[movement].ball and 0 < len(chosen) < count:
                 names = [f"{joint.name}.{joint.coordinates[c]}" for c in range(column, column + count)]
                 raise ValueError(f"joint {joint.name!r} is a ball: drive all of {', '.join(map(repr, names))}, or none")

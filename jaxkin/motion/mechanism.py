@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from jaxkin.motion.mobility import Mobility
     from jaxkin.motion.motion import Motion
     from jaxkin.motion.plan import Plan
+    from jaxkin.motion.prepared import Prepared
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,6 +158,11 @@ class Mechanism:
         from jaxkin.motion.freedoms import loop_freedoms
 
         return loop_freedoms(self)
+
+    @cached_property
+    def prepared(self) -> dict[Any, Prepared]:
+        """What sweeps have found out about their drives: see `jaxkin.motion.prepared.prepare`."""
+        return {}
 
     def __str__(self) -> str:
         from jaxkin.motion.describe import describe_mechanism

@@ -14,20 +14,16 @@ from jax import dtypes, lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
-from jaxkin.joints.joint import Joint
-from jaxkin.motion.dead_ends import dead_end
-from jaxkin.motion.drive import Driven, resolve
+from jaxkin.motion.drive import Given, given_values
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
-from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.motion.prepared import prepare
 from jaxkin.solve.compiled import solve
 from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance
 from jaxkin.solve.status import tolerance as default_tolerance
 from jaxkin.solve.sweep import Poses
-from jaxkin.solve.system import Form
 from jaxkin.topology.names import nearest
-from jaxkin.topology.structure import Block
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
 """Of several loop systems the worst decides the status of the pose."""
@@ -51,37 +47,22 @@ def sweep(
     an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that the
     loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
     """
-    driven = resolve(mechanism, drive)
-    _refuse_dead_ends(mechanism, driven)
+    prepared = prepare(mechanism, tuple(drive))
+    values = given_values(prepared.driven, drive)
+    if prepared.refused:
+        raise ValueError(prepared.refused)
     asked = _tolerance(tolerance)
     if method not in METHODS:
         raise ValueError(f"there is no method {method!r}{nearest(method, METHODS)}; there are {', '.join(METHODS)}")
     _warn_of_float32()
-    values = tuple(entry.values for entry in driven.values())
-    poses = values[0].shape[0]
-    solutions, blocks = [], []
-    for block, form in zip(mechanism.structure.blocks, mechanism.forms, strict=True):
-        inside = [entry for entry in driven.values() if entry.joint in block.joints]
-        if poses and (inside or _edited([mechanism.all_joints[joint] for joint in block.joints])):
-            solutions.append(_solve_block(mechanism, block, form, inside, method, asked))
-            blocks.append(block.joints)
-    layout = Layout(
-        tuple(joint.freedoms for joint in mechanism.all_joints),
-        tuple((entry.joint, entry.coordinate) for entry in driven.values()),
-        tuple(blocks),
-    )
-    return Motion(mechanism, dict(zip(driven, values, strict=True)), *_collect(layout, values, solutions))
-
-
-def _solve_block(
-    mechanism: Mechanism, block: Block, form: Form, driven: list[Driven], method: str, tolerance: Tolerance
-) -> tuple[Float[Array, "columns padded"], Poses]:
-    """Displacements and poses of one structure element. Without a drive: one pose for all."""
-    driven = sorted(driven, key=lambda entry: (block.joints.index(entry.joint), entry.coordinate))
-    system = block_system(mechanism, block, tuple((entry.joint, entry.coordinate) for entry in driven), form)
-    dtype = driven[0].values.dtype if driven else dtypes.canonicalize_dtype(float)
-    inputs = _padded([entry.values for entry in driven], dtype)
-    return solve(system, method, block_joints(mechanism, block), inputs, tolerance)
+    elements = prepared.elements if values[0].shape[0] else ()
+    solutions = [
+        solve(element.system, method, element.joints, _padded([values[i] for i in element.inputs]), asked)
+        for element in elements
+    ]
+    layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), tuple(element.columns for element in elements))
+    inputs, *found = _collect(layout, values, solutions)
+    return Motion(mechanism, dict(zip(prepared.driven, inputs, strict=True)), *found)
 
 
 def _tolerance(asked: float | None) -> Tolerance:
@@ -109,10 +90,15 @@ class Layout(NamedTuple):
 @partial(jax.jit, static_argnums=0)
 def _collect(
     layout: Layout,
-    values: tuple[Float[Array, " poses"], ...],
+    values: tuple[Given, ...],
     solutions: list[tuple[Float[Array, "_ _"], Poses]],
-) -> tuple[tuple[Float[Array, "poses _"], ...], Int[Array, " poses"], Float[Array, " poses"]]:
-    """Displacements of all joints, status and closure residual: the worst of the structure elements decides."""
+) -> tuple[
+    tuple[Float[Array, " poses"], ...],
+    tuple[Float[Array, "poses _"], ...],
+    Int[Array, " poses"],
+    Float[Array, " poses"],
+]:
+    """The inputs, displacements of all joints, status and closure residual, of which the worst structure element's."""
     poses, dtype = values[0].shape[0], values[0].dtype
     displacements = [jnp.zeros((poses, freedoms), dtype) for freedoms in layout.freedoms]
     for (joint, coordinate), given in zip(layout.driven, values, strict=True):
@@ -129,37 +115,28 @@ def _collect(
         worst = jnp.maximum(worst, rank[found.status[:poses]])
         square = square + found.gap[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
-    return tuple(displacements), status, jnp.sqrt(square)
+    return tuple(map(jnp.asarray, values)), tuple(displacements), status, jnp.sqrt(square)
 
 
-def _padded(rows: list[Float[Array, " poses"]], dtype) -> Float[Array, "driven padded"]:
+def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
     """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
 
     A power of two from 32 to 512 poses, above that a multiple of an eighth of one. Traced inputs are left alone: their
-    program is compiled for their length anyway.
+    program is compiled for their length anyway. Without a drive: one pose for all.
     """
     if not rows:
-        return jnp.zeros((0, 1), dtype)
+        return jnp.zeros((0, 1), float)
     poses = rows[0].shape[0]
     power = 2 ** max(5, (poses - 1).bit_length())
     length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
     if not traced(rows):
         # on the host: there it costs a copy, not a program for every length
-        return jnp.asarray(np.pad(np.stack([np.asarray(row) for row in rows]), ((0, 0), (0, length - poses)), "edge"))
+        padded = np.empty((len(rows), length), rows[0].dtype)
+        for whole, row in zip(padded, rows, strict=True):
+            whole[:poses], whole[poses:] = row, row[-1]
+        return jnp.asarray(padded)
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
-
-
-def _refuse_dead_ends(mechanism: Mechanism, driven: Mapping[str, Driven]) -> None:
-    if traced(mechanism) or not all(np.all(np.isfinite(leaf)) for leaf in jax.tree.leaves(mechanism)):
-        return
-    if text := dead_end(mechanism, [(entry.joint, entry.coordinate) for entry in driven.values()]):
-        raise ValueError(text)
-
-
-def _edited(joints: list[Joint]) -> bool:
-    """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
-    return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
 
 
 _warned = False
