@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from jaxkin.motion.motion import Motion
     from jaxkin.motion.plan import Plan
     from jaxkin.motion.prepared import Prepared
+    from jaxkin.motion.stream import Stream
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +91,27 @@ class Mechanism:
         from jaxkin.motion.sweep import sweep
 
         return sweep(self, drive, tolerance=tolerance, method=method)
+
+    def stream(
+        self,
+        drive: Mapping[str, object],
+        chunk: int = 100_000,
+        *,
+        tolerance: float | None = None,
+        method: str = CONTINUATION,
+    ) -> Stream:
+        """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
+
+        Together they are what `sweep` gives: each goes on where the one before it ends, on its branch, and full turns
+        are counted through. All are solved by one compiled program. `len` of it is the number of chunks, so that
+        `rich.progress.track(mechanism.stream(...))` draws a bar; it may be gone through several times, and solves anew
+        each time.
+
+        Raises ValueError as `sweep` does, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
+        """
+        from jaxkin.motion.stream import Stream
+
+        return Stream(self, drive, chunk, tolerance, method)
 
     @cached_property
     def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:

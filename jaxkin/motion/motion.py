@@ -70,8 +70,7 @@ class Motion:
     @cached_property
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
         """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
-        matrices = _transforms(self.mechanism.structure, self.mechanism.all_joints, self.displacements)
-        return dict(zip(self.mechanism.parts, matrices, strict=True))
+        return dict(zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
@@ -105,6 +104,13 @@ class Motion:
 jax.tree_util.register_dataclass(
     Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=[]
 )
+
+
+def placed(
+    mechanism: Mechanism, displacements: tuple[Float[Array | np.ndarray, "poses _"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Transforms of all parts, in the order of `mechanism.parts`, for displacements of all joints."""
+    return _transforms(mechanism.structure, mechanism.all_joints, displacements)
 
 
 @partial(jax.jit, static_argnums=0)
