@@ -15,35 +15,12 @@ import time
 import jax
 import jax.numpy as jnp
 import numpy as np
-from timing import closed_fourbar, closed_points, hexapod_curve, median_time
+from cases import CASES
+from timing import closed_fourbar, closed_points, median_time
 
-from reference import catalogue, mechanisms, planar  # on the path by `timing`
+from reference import mechanisms, planar  # on the path by `timing`
 
 SIZES = (1, 360, 10_000, 100_000)
-
-
-def hexapod_legs(poses: int) -> dict[str, np.ndarray]:
-    """Legs of the catalogue's hexapod while its platform runs through a closed curve."""
-    return {f"leg {i}": leg for i, leg in enumerate(hexapod_curve(poses).legs.T)}
-
-
-def turn_of(joint: str, upto: float = 2 * np.pi):
-    return lambda poses: {joint: np.linspace(0.0, upto, poses)}
-
-
-CASES = {
-    "four-bar": (mechanisms.planar_fourbar, turn_of("A")),
-    "slider-crank": (mechanisms.slider_crank, turn_of("A")),
-    "Jansen leg": (catalogue.jansen, turn_of("O")),
-    "Watt six-bar": (catalogue.watt, turn_of("A")),
-    "cam (b)": (mechanisms.cam, turn_of("shaft")),
-    "Cardan": (mechanisms.cardan_shafts, turn_of("in")),
-    "spherical four-bar": (mechanisms.spherical_linkage, turn_of("A")),
-    "ball in a bore (j)": (mechanisms.ball_in_bore, turn_of("A")),
-    "RSSR": (mechanisms.rssr_linkage, turn_of("A")),
-    "Bennett": (mechanisms.bennett_linkage, turn_of("A")),
-    "Stewart-Gough": (catalogue.hexapod, hexapod_legs),
-}
 
 
 def main(sizes: tuple[int, ...]) -> None:

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
 
@@ -57,7 +56,7 @@ def prepare(mechanism: Mechanism, keys: tuple[str, ...]) -> Prepared:
     if key in mechanism.prepared:
         return mechanism.prepared[key]
     prepared = _prepared(mechanism, keys)
-    on_device = jax.tree.map(jnp.asarray, [element.joints for element in prepared.elements])
+    on_device = jax.device_put([element.joints for element in prepared.elements])
     if traced(on_device):
         return prepared
     elements = tuple(

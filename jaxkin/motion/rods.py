@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from itertools import chain
 
-import networkx as nx
 import numpy as np
 
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.joints.joint import Joint
+from jaxkin.topology.components import connected
 
 PARALLEL = 1e-9
 """Sine of the angle between directions that count as parallel."""
 
 
-def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, object]) -> tuple[tuple[int, int, int], ...]:
+def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int], ...]:
     """The spins of rods, as `Form.spins`. `body_of` gives the body of a part, the same for all fixed parts.
 
     A rod is one part, or several in a row that slide along the line only, such as the halves of a leg, held by two
@@ -26,23 +27,19 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, object]) -> tuple[
         if count == 1 and len(joint.movements) == 1:
             ball_of[index] = balls
         balls += count
-    graph = nx.MultiGraph()
-    for index, joint in enumerate(joints):
-        one, other = joint.parts
-        graph.add_edge(body_of[one], body_of[other], index)
-    slides = [(a, b, index) for a, b, index in graph.edges(keys=True) if joints[index].movements == ("T_z",)]
-    rods = nx.MultiGraph()
-    rods.add_nodes_from(graph)
-    rods.add_edges_from(slides)
+    if len(ball_of) < 2:
+        return ()
+    ends_of = [tuple(body_of[part] for part in joint.parts) for joint in joints]
+    slides = [index for index, joint in enumerate(joints) if joint.movements == ("T_z",)]
     found = []
-    for bodies in nx.connected_components(rods):
-        held = [(index, a in bodies) for a, b, index in graph.edges(keys=True) if (a in bodies) != (b in bodies)]
-        if len(held) != 2 or not all(index in ball_of for index, _ in held):
+    for bodies in connected(chain.from_iterable(ends_of), [ends_of[index] for index in slides]):
+        held = [index for index, (a, b) in enumerate(ends_of) if (a in bodies) != (b in bodies)]
+        if len(held) != 2 or not all(index in ball_of for index in held):
             continue
-        (one, _), (other, _) = held
+        one, other = held
         ends = [{body_of[part] for part in joints[index].parts} - bodies for index in (one, other)]
         line = np.asarray(joints[other].before[0], float)[:3, 3] - np.asarray(joints[one].before[0], float)[:3, 3]
-        along = [index for a, _, index in slides if a in bodies]
+        along = [index for index in slides if ends_of[index][0] in bodies]
         if ends[0] == ends[1] or not _all_along(line, [joints[index] for index in along]):
             continue
         second = [body_of[joints[index].parts[1]] in bodies for index in (one, other)]

@@ -21,6 +21,7 @@ from jaxkin.joints.from_contacts import forwards
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.motion.twists import Twists, constraints, middle, twists
+from jaxkin.topology.components import connected
 from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
@@ -200,9 +201,5 @@ def _carried(
 
 def _touching(parts: Sequence[str], mechanism: Mechanism) -> list[list[str]]:
     """The parts in groups that are joined among themselves."""
-    import networkx as nx
-
-    graph = nx.Graph()
-    graph.add_nodes_from(parts)
-    graph.add_edges_from(joint.parts for joint in mechanism.all_joints if set(joint.parts) <= set(parts))
-    return [sorted(group, key=parts.index) for group in nx.connected_components(graph)]
+    pairs = [joint.parts for joint in mechanism.all_joints if set(joint.parts) <= set(parts)]
+    return [sorted(group, key=parts.index) for group in connected(parts, pairs)]

@@ -134,7 +134,7 @@ def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        return jnp.asarray(padded)
+        return jax.device_put(padded)
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
+
+from jaxkin.topology.components import biconnected
 
 
 class Step(NamedTuple):
@@ -50,17 +51,7 @@ class Graph:
 
         These are the biconnected components without the bridges. Loops that share a part but no joint are separate.
         """
-        import networkx as nx
-
-        between: dict[tuple[int, int], list[int]] = defaultdict(list)
-        for joint, ends in enumerate(self.ends):
-            between[min(ends), max(ends)].append(joint)
-        pairs = nx.Graph()
-        pairs.add_edges_from((row1, row2) for row1, row2 in between if row1 != row2)
-        blocks = [
-            sorted(joint for ends in component for joint in between[min(ends), max(ends)])
-            for component in nx.biconnected_component_edges(pairs)
+        looped = [
+            block for block in biconnected(self.rows, self.ends) if len(block) > 1 or len(set(self.ends[block[0]])) == 1
         ]
-        blocks = [block for block in blocks if len(block) > 1]
-        blocks += [[joint] for joint, (row1, row2) in enumerate(self.ends) if row1 == row2]
-        return tuple(map(tuple, sorted(blocks)))
+        return tuple(map(tuple, sorted(looped)))
