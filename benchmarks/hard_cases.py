@@ -12,6 +12,8 @@ import jax
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+from counted import counted
+
 from jaxkin.solve.status import Status
 from reference import hard_cases
 from reference.hard_case import HardCase
@@ -27,7 +29,18 @@ SECTIONS = {
     "Lengths and units": hard_cases.SIZES,
     "Single precision": hard_cases.SINGLE_PRECISION,
 }
-COLUMNS = ("input", "what is hard", "poses", "status", "residual", "sigma_min", "error", "of what is allowed", "truth")
+COLUMNS = (
+    "input",
+    "what is hard",
+    "poses",
+    "status",
+    "steps + iterations",
+    "residual",
+    "sigma_min",
+    "error",
+    "of what is allowed",
+    "truth",
+)
 HEAD = """# Hard cases
 
 Made by `python benchmarks/hard_cases.py benchmarks/HARD_CASES.md` from the table in `tests/reference/hard_cases.py`,
@@ -39,12 +52,18 @@ the mechanism. A pose may be wrong by 100 roundings (more where the input itself
 smallest singular value, and at most over the root of rounding: *of what is allowed* is the largest part of that used.
 A closed loop is no accurate pose near a dead point or a change point: there the residual stays at rounding while the
 error grows as rounding over *sigma_min*.
+
+*steps* are those of the continuation from the assembled pose to either end of the range, refused ones included;
+*iterations* those of the damped corrector from there to a pose, the median and the most of all poses (200 is its limit:
+poses that cannot be reached, or whose last digits of rounding it goes after). They are counted by `counted.py`, which
+makes the solver's loops tell.
 """
 
 
 def row(case: HardCase) -> str:
     """One line of the table."""
-    motion = case.sweep()
+    with counted() as count:
+        motion = case.sweep()
     closed, status = np.asarray(motion.closed), np.asarray(motion.status)
     poses = len(status)
     error = case.error(motion)[closed]
@@ -57,6 +76,7 @@ def row(case: HardCase) -> str:
         case.hard,
         str(poses),
         (counts or "none") + right,
+        str(count),
         figure(np.asarray(motion.residual)[closed]),
         figure(sigma, np.min),
         figure(error),
