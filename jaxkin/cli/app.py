@@ -16,6 +16,10 @@ from jaxkin.cli.options import Options
 if TYPE_CHECKING:
     from jaxkin.io.study import Study
 
+LONG = 200_000
+"""From more poses on a range is written as arrays only, chunk by chunk: pictures and tables of so many say nothing, and
+the displacements of all parts may not fit into memory."""
+
 app = typer.Typer(
     no_args_is_help=True,
     add_completion=False,
@@ -211,7 +215,8 @@ def sweep(
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
     Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
-    (motion.html) and a picture (motion.png).
+    (motion.html) and a picture (motion.png). Of more than 200,000 poses only arrays are written, without those of the
+    parts.
     """
     with one_line_errors():
         _sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit))
@@ -224,19 +229,40 @@ def _sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     from jaxkin.cli import report
     from jaxkin.motion.writers import filenames
 
-    with _progress(3 + len(filenames())) as step:
+    with _progress(2) as step:
         study = _found(files, options, step)
-        step("solving")
-        motion = jax.block_until_ready(study.sweep())
-        paths = []
-        for filename in filenames():
-            step(f"writing {filename}")
-            paths += motion.save(out, only=filename)
+    if len(next(iter(study.drive.values()))) > LONG:
+        said, paths = _streamed(study, out)
+    else:
+        with _progress(1 + len(filenames())) as step:
+            step("solving")
+            motion = jax.block_until_ready(study.sweep())
+            said, paths = motion, []
+            for filename in filenames():
+                step(f"writing {filename}")
+                paths += motion.save(out, only=filename)
     report.say(f"{_named(files)}: {study.mechanism.mobility()}")
-    report.print_motion(motion)
+    if isinstance(said, str):
+        report.say(said)
+        more = f"More than {LONG} poses: arrays only."
+    else:
+        report.print_motion(said)
+        more = f"Open {out / 'motion.html'} in a browser."
     report.say()
     report.print_files(paths)
-    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. Open {out / 'motion.html'} in a browser.")
+    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. {more}")
+
+
+def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
+    """The motion written chunk by chunk, as arrays only; what became of the poses, and the file."""
+    from jaxkin.io.long_motion import write_stream
+
+    out.mkdir(parents=True, exist_ok=True)
+    stream = study.mechanism.stream(study.drive)
+    with _progress(1 + len(stream)) as step:
+        step("writing motion.npz")
+        said = write_stream(stream, out / "motion.npz", lambda: step("writing motion.npz"))
+    return said, [out / "motion.npz"]
 
 
 def _named(files: Sequence[Path]) -> str:

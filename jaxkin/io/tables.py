@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin.geometry.motions import is_length
+from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.solve.status import Status
@@ -24,15 +25,23 @@ def write_arrays(motion: Motion, path: Path) -> None:
     - `residual` (poses,): square root of Eq. 12 with lengths over the characteristic length
     - `unit`: of all lengths; angles are in radians
     """
-    arrays = {f"input:{name}": np.asarray(values) for name, values in motion.inputs.items()}
-    for name, joint in motion.mechanism.joints.items():
-        arrays[f"joint:{name}"] = np.asarray(motion.coordinates[name])
-        arrays[f"coordinates:{name}"] = np.array(joint.coordinates, dtype=str)
+    arrays = poses_of(motion) | words_of(motion.mechanism)
     for name, transforms in motion.transforms.items():
         arrays[f"part:{name}"] = np.asarray(transforms)
-    arrays["status"], arrays["residual"] = np.asarray(motion.status), np.asarray(motion.residual)
-    arrays["status_names"], arrays["unit"] = np.array([s.name for s in Status]), np.array(motion.mechanism.unit)
     np.savez(path, **arrays)  # pyright: ignore[reportArgumentType]  # no key of ours is "allow_pickle"
+
+
+def poses_of(motion: Motion) -> dict[str, np.ndarray]:
+    """The arrays of one row a pose, but for the displacements of parts, which follow from those of the joints."""
+    arrays = {f"input:{name}": np.asarray(values) for name, values in motion.inputs.items()}
+    arrays |= {f"joint:{name}": np.asarray(values) for name, values in motion.coordinates.items()}
+    return arrays | {"status": np.asarray(motion.status), "residual": np.asarray(motion.residual)}
+
+
+def words_of(mechanism: Mechanism) -> dict[str, np.ndarray]:
+    """What the columns and codes of those are called."""
+    words = {f"coordinates:{name}": np.array(j.coordinates, dtype=str) for name, j in mechanism.joints.items()}
+    return words | {"status_names": np.array([s.name for s in Status]), "unit": np.array(mechanism.unit)}
 
 
 @register("motion.csv", table=True)

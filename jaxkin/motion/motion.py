@@ -88,17 +88,19 @@ class Motion:
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        lines = [
-            f"Motion of {len(self.mechanism.parts)} parts over {len(self)} poses, driven by {', '.join(self.inputs)}"
-        ]
-        lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
-        if counts[Status.CLOSED]:
-            largest = float(np.max(np.asarray(self.residual)[np.asarray(self.closed)]))
-            lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
-        driven = [coordinate(self.mechanism, name) for name in self.inputs]
-        if free := left_free(self.mechanism, driven):
-            lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
-        return "\n".join(lines)
+        closed = np.asarray(self.residual)[np.asarray(self.closed)]
+        return tally(self.mechanism, self.inputs, counts, float(closed.max(initial=0.0)))
+
+
+def tally(mechanism: Mechanism, inputs: Collection[str], counts: Int[np.ndarray, " status"], largest: float) -> str:
+    """What became of poses, in words: how many of each status, and the largest residual of the closed ones."""
+    lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
+    lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
+    if counts[Status.CLOSED]:
+        lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
+    if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
+        lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
+    return "\n".join(lines)
 
 
 jax.tree_util.register_dataclass(

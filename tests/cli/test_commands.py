@@ -65,6 +65,14 @@ def test_sweep_takes_degrees_and_says_what_cannot_be_reached(tmp_path):
     assert min(np.abs(error).max() for error in errors) < 5e-7
 
 
+def test_a_long_range_is_written_as_arrays(tmp_path, monkeypatch):
+    monkeypatch.setattr("jaxkin.cli.app.LONG", 4)
+    done = invoke("sweep", FOURBAR, *CRANK, "--out", tmp_path / "out")
+    assert done.exit_code == 0, done.output
+    assert "5  CLOSED" in done.output and "arrays only" in done.output
+    assert [file.name for file in (tmp_path / "out").iterdir()] == ["motion.npz"]
+
+
 def test_inspect_says_what_was_found():
     done = invoke("inspect", FOURBAR, "--fixed", "ground")
     assert done.exit_code == 0, done.output

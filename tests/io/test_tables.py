@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.io.long_motion import write_stream
 
 
 def _robot(names=("A", "B", "C"), unit="mm"):
@@ -31,6 +32,20 @@ def motion():
     motion = _robot().sweep(drive)
     codes = np.where(np.arange(41) > 32, jk.Status.UNREACHABLE.value, jk.Status.CLOSED.value)
     return replace(motion, status=jnp.array(codes), residual=part / 9)
+
+
+def test_chunks_make_the_same_arrays(motion, tmp_path):
+    """Of a mechanism without loops: nothing is compiled for it."""
+    motion = motion.mechanism.sweep(motion.inputs)
+    motion.save(tmp_path, only="motion.npz")
+    stream, written = motion.mechanism.stream(motion.inputs, chunk=9), []
+    said = write_stream(stream, tmp_path / "long.npz", lambda: written.append(1))
+    assert said == str(motion) and len(written) == len(stream) == 5
+    with np.load(tmp_path / "motion.npz") as whole, np.load(tmp_path / "long.npz") as arrays:
+        assert set(arrays) == {name for name in whole if not name.startswith("part:")}
+        for name in arrays:
+            assert arrays[name].dtype == whole[name].dtype and np.array_equal(arrays[name], whole[name]), name
+    assert {file.name for file in tmp_path.iterdir()} == {"motion.npz", "long.npz"}
 
 
 def _rows(path):

@@ -1,0 +1,55 @@
+"""A motion of any length as arrays on disk: written chunk by chunk, never whole in memory."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+
+from jaxkin.io.tables import poses_of, words_of
+from jaxkin.motion.motion import tally
+from jaxkin.motion.stream import Stream
+from jaxkin.motion.writers import whole
+from jaxkin.solve.status import Status
+
+
+def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: None) -> str:
+    """Write the arrays of `write_arrays` but for those of the parts, and say what became of the poses.
+
+    `step` is called when a chunk is written. The file appears whole or not at all; while it is made, its folder holds
+    its arrays twice.
+    """
+    counts, largest = np.zeros(len(Status), int), 0.0
+    with whole(path) as draft:
+        columns: dict[str, Path] = {}
+        with ExitStack() as stack:
+            files: dict[str, BinaryIO] = {}
+            for motion in stream:
+                for name, rows in poses_of(motion).items():
+                    if name not in files:
+                        columns[name] = draft.with_name(f"{len(files)}.npy")
+                        files[name] = stack.enter_context(columns[name].open("wb"))
+                        shape = (stream.poses, *rows.shape[1:])
+                        header = {
+                            "descr": np.lib.format.dtype_to_descr(rows.dtype),
+                            "fortran_order": False,
+                            "shape": shape,
+                        }
+                        np.lib.format.write_array_header_2_0(files[name], header)
+                    files[name].write(rows.tobytes())
+                counts += np.bincount(np.asarray(motion.status), minlength=len(Status))
+                closed = np.asarray(motion.residual)[np.asarray(motion.closed)]
+                largest = max(largest, float(closed.max(initial=0.0)))
+                step()
+        with zipfile.ZipFile(draft, "w") as archive:
+            for name, file in columns.items():
+                archive.write(file, f"{name}.npy")
+                file.unlink()
+            for name, words in words_of(stream.mechanism).items():
+                with archive.open(f"{name}.npy", "w") as file:
+                    np.lib.format.write_array(file, words)
+    return tally(stream.mechanism, stream.inputs, counts, largest)
