@@ -12,11 +12,13 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.design.constraints import Constraint
+from jaxkin.design.lbfgs import bounded
+from jaxkin.design.least_squares import least_squares
 from jaxkin.design.objectives import Objective
 from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.solvers import CHUNK, Solver, bounded, least_squares
-from jaxkin.design.variables import Variables, inside, spread, variables
+from jaxkin.design.solvers import CHUNK, Solver
+from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 
@@ -95,20 +97,20 @@ def optimize(
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
     vectors, weight = _best_of(solver, pool, starts)
     weight = penalty if penalty is not None else weight
-    _warn_of_idle(solver, inside(chosen, vectors), weight, chosen)
+    _warn_of_idle(solver, vectors, weight, chosen)
 
     history: list[np.ndarray] = []
     bar = _Bar(iterations, progress)
     reason = ""
     for _ in range(ROUNDS):
-        vectors, reason = _search(solver, inside(chosen, vectors), weight, iterations, tolerance, target, history, bar)
+        vectors, reason = _search(solver, vectors, weight, iterations, tolerance, target, history, bar)
         losses, violations = solver.judge(vectors)
         best = _rank(losses, violations)
         if violations[best] <= MET:
             break
         weight *= STIFFER
     bar.close()
-    vector = np.asarray(vectors)[best]
+    vector = vectors[best]
     if violations[best] > MET:
         reason += (
             f"; the best design still violates by {violations[best]:.1g} (closure, fit of lengths, or constraints)"
@@ -148,8 +150,7 @@ def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
 
 def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
     """The given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
-    parts = [solver.judge(pool[first : first + starts]) for first in range(0, len(pool), starts)]
-    losses, violations = (np.concatenate(column) for column in zip(*parts, strict=True))
+    losses, violations = solver.judge(pool)
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2
@@ -159,23 +160,20 @@ def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray,
 
 def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, target, history, bar):
     """Designs and why the search ended. A start that is done, or that at its pace will not reach the best one in the
-    iterations left, retires: a batch takes as long as its slowest member, so its place repeats an active one."""
-    kept = np.array(vectors)
+    iterations left, retires and costs nothing more."""
     state = solver.begin(vectors, weight)
-    active = np.ones(len(kept), bool)
-    last = np.full(len(kept), np.finfo(float).max)
+    active = np.ones(len(vectors), bool)
+    last = np.full(len(vectors), np.finfo(float).max)
     for done in range(CHUNK, iterations + CHUNK, CHUNK):
-        state, losses = solver.advance(state, weight)
-        losses = np.where(active, np.asarray(losses), np.nan)
+        state, losses = solver.advance(state, weight, active)
         history.append(losses)
-        kept = np.where(active[:, None], np.asarray(solver.vectors(state)), kept)
         now = np.where(active, losses[-1], last)
-        least = float(np.nanmin(now))
+        least = float(np.min(now))
         bar.show(done, least)
         if target is not None and least <= target:
-            found, violations = solver.judge(kept)
+            found, violations = solver.judge(solver.vectors(state))
             if np.any((found <= target) & (violations <= MET)):
-                return kept, f"the target {target:g} was reached after {done} iterations"
+                return solver.vectors(state), f"the target {target:g} was reached after {done} iterations"
         settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
@@ -183,12 +181,14 @@ def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, 
         active &= ~(settled | hopeless)
         last = now
         if not active.any():
-            return kept, (
+            return solver.vectors(state), (
                 f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
                 f"{CHUNK} of them, or too slowly to reach the best one"
             )
-        state = solver.replaced(state, ~active, int(np.argmin(np.where(active, now, np.inf))))
-    return kept, f"all {iterations} iterations were used; {int(active.sum())} starts were still improving"
+    return (
+        solver.vectors(state),
+        f"all {iterations} iterations were used; {int(active.sum())} starts were still improving",
+    )
 
 
 def _rank(losses, violations) -> int:

@@ -6,8 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
@@ -199,22 +197,3 @@ def spread(variables: Variables, count: int, seed: int) -> Float[np.ndarray, "st
     """The given design and further ones at random between the bounds."""
     random = np.random.default_rng(seed).uniform(size=(max(count - 1, 0), len(variables.start)))
     return np.concatenate([variables.start[None], variables.lower + random * (variables.upper - variables.lower)])
-
-
-def inside(variables: Variables, vectors, share: float = 1e-3):
-    """The vectors, moved off their bounds by a share of the range: there the sine of `from_angles` has no slope."""
-    width = variables.upper - variables.lower
-    return np.clip(np.asarray(vectors), variables.lower + share * width, variables.upper - share * width)
-
-
-def to_angles(variables: Variables, vectors) -> jax.Array:
-    """Vectors between their bounds as angles without bounds: x = middle + half sin(angle)."""
-    half = 0.5 * (variables.upper - variables.lower)
-    middle = 0.5 * (variables.upper + variables.lower)
-    return jnp.arcsin(jnp.clip((vectors - middle) / np.where(half > 0, half, 1.0), -1.0, 1.0))
-
-
-def from_angles(variables: Variables, angles) -> jax.Array:
-    """The vectors between the bounds; the inverse of `to_angles`."""
-    half = jnp.asarray(0.5 * (variables.upper - variables.lower))
-    return jnp.asarray(0.5 * (variables.upper + variables.lower)) + half * jnp.sin(angles)

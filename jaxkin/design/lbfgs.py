@@ -1,0 +1,93 @@
+"""Bounded L-BFGS from jaxopt, for any loss.
+
+jaxopt is imported when it is used: see `jaxkin.solve.outside`.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from jaxkin.design.problem import HOPELESS, Problem
+from jaxkin.design.solvers import CHUNK, Solver, in_groups, unit_box
+from jaxkin.solve.compiled import jit_options
+from jaxkin.solve.outside import jaxopt
+
+MEMORY = 12
+"""Pairs of steps and gradients that L-BFGS keeps."""
+HALVINGS = 15
+"""Trials of a line search, each 0.4 times as long as the one before."""
+
+
+def bounded(problem: Problem) -> Solver:
+    """Bounded L-BFGS on vectors scaled to 0..1."""
+    lower, width = unit_box(problem.variables.lower, problem.variables.upper)
+    bounds = (jnp.zeros_like(lower), jnp.where(width > 0, 1.0, 0.0))
+
+    def value_and_grad(unit, weight):
+        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
+        return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
+
+    package = jaxopt()
+    solver = package.LBFGSB(
+        value_and_grad, value_and_grad=True, history_size=MEMORY, linesearch_init="max", implicit_diff=False
+    )
+    # its own line search holds the program of loss and gradient three times over; this one once. It asks for less loss
+    # only: `c2` switches the condition on the slope off, and L-BFGS skips steps of negative curvature by itself
+    solver.run_ls = package.BacktrackingLineSearch(
+        value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
+    ).run
+
+    @partial(jax.jit, **jit_options())
+    def first(units, weight):
+        return units, jax.vmap(lambda unit: solver.init_state(unit, bounds, weight))(units)
+
+    @partial(jax.jit, **jit_options())
+    def further(state, weight):
+        def one(unit, state):
+            step = solver.update(unit, state, bounds, weight)
+            return step.params, step.state
+
+        def iterate(carry, _):
+            new = jax.vmap(one)(*carry)
+            # a line search that fails leaves the point where it was
+            better = new[1].value <= carry[1].value
+
+            def keep(new, old):
+                return jnp.where(better.reshape(better.shape + (1,) * (new.ndim - 1)), new, old)
+
+            carry = jax.tree.map(keep, new, carry)
+            return carry, carry[1].value
+
+        state, losses = jax.lax.scan(iterate, state, None, length=CHUNK)
+        return state, losses.T
+
+    def begin(vectors, weight):
+        span = np.where(width > 0, width, 1.0)
+        units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
+        return in_groups(lambda group: first(group, weight), units, np.arange(len(units)))
+
+    def advance(state, weight, active):
+        chosen = np.flatnonzero(active)
+        found, values = in_groups(lambda group: further(group, weight), state, chosen)
+        losses = np.full((CHUNK, len(active)), np.nan)
+        losses[:, chosen] = values.T
+
+        def put(old, new):
+            whole = np.array(old)
+            whole[chosen] = new
+            return whole
+
+        return jax.tree.map(put, state, found), losses
+
+    judged = jax.jit(jax.vmap(problem.judge), **jit_options())
+
+    def judge(vectors):
+        found = in_groups(judged, np.asarray(vectors), np.arange(len(vectors)))
+        losses = found.rows[:, 0]
+        return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
+
+    return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)

@@ -1,0 +1,142 @@
+"""Levenberg-Marquardt steps within bounds, for sums of squares."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin.design.problem import HOPELESS, Problem
+from jaxkin.design.solvers import CHUNK, Solver, in_groups, unit_box
+from jaxkin.solve.compiled import jit_options
+
+DAMPING, LEAST_DAMPING = 1e-3, 1e-16
+"""First and least damping, relative to the largest diagonal entry of J^T J."""
+ROUNDS = 3
+"""Variables at a bound that the step would leave are held, and the step is computed anew, so many times at most."""
+
+
+class _State(NamedTuple):
+    units: Float[np.ndarray, "starts variables"]
+    """0 at the lower bounds, 1 at the upper ones."""
+    residuals: Float[np.ndarray, "starts rows"]
+    jacobian: Float[np.ndarray, "starts rows variables"]
+    damping: Float[np.ndarray, " starts"]
+    growth: Float[np.ndarray, " starts"]
+    """What the damping is multiplied by if the next step is refused."""
+
+
+def least_squares(problem: Problem) -> Solver:
+    """Levenberg-Marquardt with projection: each step is that of the variables which are not held by a bound.
+
+    One program is compiled, residuals and Jacobian of a few designs; the small systems are solved in numpy.
+    """
+    lower, width = unit_box(problem.variables.lower, problem.variables.upper)
+    count = jax.eval_shape(problem.judge, lower).rows.shape[0]
+
+    @partial(jax.jit, **jit_options())
+    def program(units, weight):
+        def one(unit):
+            def along(direction):
+                return jax.jvp(lambda u: problem.residuals(lower + width * u, weight), (unit,), (direction,))
+
+            residuals, jacobian = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
+            residuals = jnp.clip(jnp.nan_to_num(residuals, nan=HOPELESS), -HOPELESS, HOPELESS)
+            return residuals, jnp.nan_to_num(jacobian, nan=0.0, posinf=0.0, neginf=0.0)
+
+        return jax.vmap(one)(units)
+
+    def evaluated(units, weight, chosen):
+        return in_groups(lambda group: program(group, weight), units, chosen)
+
+    def begin(vectors, weight):
+        span = np.where(width > 0, width, 1.0)
+        units = np.clip((np.asarray(vectors) - lower) / span, 0.0, 1.0)
+        residuals, jacobian = evaluated(units, weight, np.arange(len(units)))
+        damping = DAMPING * _largest(jacobian) + 1e-300
+        return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
+
+    def advance(state, weight, active):
+        losses = np.full((CHUNK, len(active)), np.nan)
+        chosen = np.flatnonzero(active)
+        now = _State(*(each[chosen] for each in state))
+        everyone = np.arange(len(chosen))
+        for row in losses:
+            units, foreseen = _proposed(now)
+            now = _judged(now, units, foreseen, *evaluated(units, weight, everyone))
+            row[chosen] = _loss(now.residuals)
+        whole = [each.copy() for each in state]
+        for each, part in zip(whole, now, strict=True):
+            each[chosen] = part
+        return _State(*whole), losses
+
+    def judge(vectors):
+        residuals = begin(vectors, 1.0).residuals
+        rows, violations = residuals[:, :count], residuals[:, count:]
+        losses = np.where(np.any(np.abs(rows) >= HOPELESS, axis=1), np.nan, np.sum(rows**2, axis=1))
+        return losses, np.sqrt(np.sum(violations**2, axis=1))
+
+    return Solver(
+        begin,
+        advance,
+        lambda state: np.asarray(lower + width * state.units),
+        lambda state: np.max(np.abs(state.jacobian), axis=1),
+        judge,
+    )
+
+
+def _loss(residuals: Float[np.ndarray, "starts rows"]) -> Float[np.ndarray, " starts"]:
+    return np.sum(residuals**2, axis=1)
+
+
+def _largest(jacobian: Float[np.ndarray, "starts rows variables"]) -> Float[np.ndarray, " starts"]:
+    """The largest diagonal entry of J^T J."""
+    return np.max(np.sum(jacobian**2, axis=1), axis=1)
+
+
+def _proposed(state: _State) -> tuple[Float[np.ndarray, "starts variables"], Float[np.ndarray, " starts"]]:
+    """Where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
+    square = np.einsum("sri,srj->sij", state.jacobian, state.jacobian)
+    slope = np.einsum("sri,sr->si", state.jacobian, state.residuals)
+    at_lower, at_upper = state.units <= 0.0, state.units >= 1.0
+    held = at_lower & (slope > 0) | at_upper & (slope < 0)
+    step = _step(square, slope, state.damping, held)
+    for _ in range(ROUNDS):
+        leaving = at_lower & (step < 0) | at_upper & (step > 0)
+        if not leaving.any():
+            break
+        held |= leaving
+        step = _step(square, slope, state.damping, held)
+    units = np.clip(state.units + step, 0.0, 1.0)
+    step = units - state.units
+    return units, -np.sum(step * (2 * slope + np.einsum("sij,sj->si", square, step)), axis=1)
+
+
+def _step(square, slope, damping, held: Bool[np.ndarray, "starts variables"]) -> Float[np.ndarray, "starts variables"]:
+    """Solution of (J^T J + damping) step = -J^T r for the variables that are not held; zero for the others."""
+    size = held.shape[1]
+    matrix = np.where(held[:, :, None] | held[:, None, :], 0.0, square)
+    matrix[:, range(size), range(size)] += np.where(held, 1.0, damping[:, None])
+    return np.linalg.solve(matrix, np.where(held, 0.0, -slope)[..., None])[..., 0]
+
+
+def _judged(state: _State, units, foreseen, residuals, jacobian) -> _State:
+    """The step taken where it lowers the loss, and the damping by how well the decrease was foreseen (Nielsen)."""
+    gained = _loss(state.residuals) - _loss(residuals)
+    better = gained > 0
+    share = np.where(foreseen > 0, gained / np.where(foreseen > 0, foreseen, 1.0), 0.0)
+    easier = state.damping * np.maximum(1 / 3, 1 - (2 * np.clip(share, 0.0, 1.0) - 1) ** 3)
+    harder = np.minimum(state.damping * state.growth, 1e100)
+    found = _State(
+        *(
+            np.where(better.reshape(-1, *(1,) * (new.ndim - 1)), new, old)
+            for new, old in zip((units, residuals, jacobian), state[:3], strict=True)
+        ),
+        np.where(better, easier, harder),
+        np.where(better, 2.0, np.minimum(2 * state.growth, 1e100)),
+    )
+    return found._replace(damping=np.maximum(found.damping, LEAST_DAMPING * _largest(found.jacobian) + 1e-300))
