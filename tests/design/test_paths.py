@@ -73,7 +73,7 @@ def test_published_errors_by_the_mechanism(name):
 
 @pytest.mark.long
 @pytest.mark.study
-@pytest.mark.parametrize("name", ["b", "d"])  # of a, c and e the published errors have not been reached yet
+@pytest.mark.parametrize("name", PATHS)
 def test_no_worse_than_the_lowest_published(name):
     """From 32 random starts; the crank turns fully, and the whole turn is reached."""
     best = jk.optimize(**PATHS[name].arguments(), starts=32)

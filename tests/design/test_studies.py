@@ -1,12 +1,14 @@
-"""Designs whose best is known in closed form: function generation, a cam's lift, a spatial linkage. All take long."""
+"""Whole studies: designs whose best is known in closed form, and two that must beat what was there. All take long."""
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxkin as jk
 from jaxkin import design
+from jaxkin.examples import path
 from jaxkin.examples.paths import BARS, fourbar
-from reference import spatial
+from reference import catalogue, planar, spatial
 from reference.mechanisms import cam, rssr_linkage
 
 pytestmark = [pytest.mark.long, pytest.mark.study]
@@ -81,3 +83,89 @@ def test_spatial_four_bar():
         lengths={key: (0.7 * length, 1.3 * length) for key, length in zip(keys, now, strict=True)},
     )
     np.testing.assert_allclose([best.values[f"({', '.join(key)})"] for key in keys], now, rtol=1e-6)
+
+
+def jansen_step(foot):
+    """Length of a step, and how far the foot is from level in it: over half a turn, of 181 poses."""
+    return np.ptp(foot[:181, 0]), np.ptp(foot[:181, 1])
+
+
+def test_jansen_leg_with_a_flatter_and_longer_step():
+    """Jansen's own half turn that is most level: 63.5 long, 1.76 from level. Wanted: 8% more, as level as can be.
+
+    All lengths but the crank's may change by 30%, and the foot's place in the shin; it must be lifted by 22 as it is,
+    and not touch the ground on its way back (by more than 0.2).
+    """
+    leg, foot = catalogue.jansen(), planar.jansen(np.array([1.0])).foot[0]
+    half, turn = 13, np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
+    own = [jansen_step(planar.jansen(first + np.linspace(0.0, np.pi, 181)).foot) for first in np.radians(range(360))]
+    before = own[np.argmin([height for _, height in own])]
+    assert before == pytest.approx((63.5, 1.76), abs=0.1)
+
+    def path_of(motion, extras):
+        return motion.points("shin", jnp.append(extras["foot"], 0.0))[:, :2]
+
+    def step(motion, extras):
+        found = path_of(motion, extras)[:half]
+        return jnp.append(found[:, 1] - extras["ground"], found[-1, 0] - found[0, 0] - 1.08 * before[0])
+
+    def lifted(motion, extras):
+        height = path_of(motion, extras)[half:, 1] - extras["ground"]
+        return jnp.append(height[5] - 22.0, height + 0.2) / 22.0
+
+    keys = [("ground", "O", "Y0"), ("rocker", "Y1", "U0"), ("upper rod", "Z0", "W"), ("lower rod", "Z1", "U0")]
+    keys += [("thigh", "Y0", "W"), ("thigh", "Y0", "V"), ("thigh", "W", "V"), ("link", "V", "T"), ("shin", "U1", "T")]
+    best = jk.optimize(
+        step,
+        leg,
+        method="least-squares",
+        drive={"O": lambda extras: extras["first"] + turn},
+        lengths={key: (0.7 * float(leg.lengths[key]), 1.3 * float(leg.lengths[key])) for key in keys},
+        # hinges of three links are two joints in one place
+        ties={("ground", "O", "Y1"): keys[0], ("lower rod", "Z1", "U1"): keys[3]},
+        extras={
+            "foot": design.Free(foot, foot - 25.0, foot + 25.0),
+            "ground": design.Free(-91.7, -130.0, -60.0),
+            "first": design.Free(-2.48, -3.5, -1.5),
+        },
+        constraints=[lifted],
+        iterations=60,
+    )
+    assert best.feasible and best.moves.everywhere
+    motion = best.mechanism.sweep({"O": best.extras["first"] + np.linspace(0.0, 2 * np.pi, 361)})
+    found = np.asarray(path_of(motion, best.extras))
+    length, height = jansen_step(found)
+    print(f"step {before[0]:.2f} to {length:.2f}, from level {before[1]:.3f} to {height:.3f}, {best.seconds:.0f} s")
+    assert length > 1.05 * before[0] and height < 0.8 * before[1]
+    assert np.ptp(found[:, 1]) > 22.0
+
+
+def test_lengths_of_an_assembly_from_step():
+    """A crank-rocker read from STEP, frame as it is: 50 degrees of swing with the best transmission.
+
+    Its closed form for a given ratio of the swing's times is not this problem; the angles are held against circles.
+    """
+    mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])
+    ground, crank = ("ground", "ground-crank", "ground-rocker"), ("crank", "crank-coupler", "ground-crank")
+    coupler, rocker = ("coupler", "crank-coupler", "coupler-rocker"), ("rocker", "coupler-rocker", "ground-rocker")
+    ends, turn = ("crank-coupler", "ground-rocker"), np.linspace(0.0, 2 * np.pi, 48)
+    best = jk.optimize(
+        1e4 * design.stroke_of("ground-rocker", np.radians(50.0)) + design.transmission("coupler-rocker", ends),
+        mechanism,
+        drive={"ground-crank": turn},
+        lengths={crank: (15.0, 60.0), coupler: (60.0, 180.0), rocker: (40.0, 140.0)},
+        constraints=[design.full_crank(ground, crank, coupler, rocker)],
+    )
+    assert best.feasible and best.moves.everywhere
+    bars = [float(best.mechanism.lengths[key]) for key in (ground, crank, coupler, rocker)]
+    assert bars[0] == pytest.approx(100.0, rel=1e-12)
+    # where crank and coupler are in line the rocker turns back: two triangles with the ground link
+    ends_of = [
+        (bars[0] ** 2 + bars[3] ** 2 - (bars[2] + sign * bars[1]) ** 2) / (2 * bars[0] * bars[3]) for sign in (1, -1)
+    ]
+    swing = np.ptp(np.degrees(np.arccos(ends_of)))
+    assert swing == pytest.approx(50.0, abs=0.5)  # 48 poses miss the very ends
+    across = np.array([bars[0] - bars[1], bars[0] + bars[1]])
+    angles = np.degrees(np.arccos((bars[2] ** 2 + bars[3] ** 2 - across**2) / (2 * bars[2] * bars[3])))
+    print(f"bars {np.round(bars, 3)}, swing {swing:.2f}, transmission {angles}, {best.seconds:.0f} s")
+    assert np.abs(angles - 90.0).max() < 30.0  # 63 of the one that was read
