@@ -1,6 +1,9 @@
-"""Many designs at once, and what derivatives cost, beside formulas written by hand in JAX, in one process.
+"""Many designs at once, what derivatives cost, and time to a given loss, beside what else there is, in one process.
 
-    python benchmarks/design.py [gradient] [ratios] [batch]
+    python benchmarks/design.py [gradient] [ratios] [batch] [race]
+
+Beside formulas written by hand in JAX; pylinkage's `Ensemble` where it is installed (`uv run --group peers`); SciPy's
+least squares with finite differences.
 
 The shortest of repeated runs, results awaited, since other work on the machine only lengthens them. Machines differ:
 compare the figures of one run.
@@ -15,8 +18,16 @@ from pathlib import Path
 import jax
 import jax.numpy as jnp
 import numpy as np
+import scipy.optimize
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+import peers
+
+from jaxkin.design.least_squares import least_squares
+from jaxkin.design.optimize import MET, POOL, _Bar, _best_of, _search
+from jaxkin.design.problem import Problem
+from jaxkin.design.variables import spread, variables
+from jaxkin.examples.paths import PATHS
 from reference import catalogue, mechanisms
 
 SECONDS, RUNS = 2.0, 15
@@ -25,6 +36,7 @@ BARS = [("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rock
 NOW = [100.0, 40.0, 120.0, 80.0]
 POINT = (30.0, 60.0, 0.0)
 FOURBARS, LEGS = 10_000, 1_000
+RACE = 8
 
 
 def least_time(function, *args) -> tuple[float, float]:
@@ -158,10 +170,108 @@ def batch() -> None:
     ours = many(leg, keys, "O")
     seconds, first = least_time(ours, legs)
     line(f"Jansen legs, {len(now)} lengths", len(legs), seconds, first, float(jnp.mean(ours(legs)[1])))
+    for name, template, count, share in (
+        ("four-bars", "four-bar", FOURBARS, 0.03),
+        ("Jansen legs", "Jansen leg", LEGS, 0.01),
+    ):
+        try:
+            linkage = peers.pylinkage_linkage(template, 1.0, float(inputs[1]))
+        except peers.Missing as missing:
+            print(f"  {name} by pylinkage: {missing}")
+            continue
+        from pylinkage.population import Ensemble
+
+        bars = np.array(linkage.get_constraints())
+        members = bars * random.uniform(1 - share, 1 + share, (count, len(bars)))
+        home = np.array([(each.x, each.y) for each in linkage.components])
+        ensemble = Ensemble(linkage, members, np.broadcast_to(home, (count, *home.shape)))
+        seconds, first = least_time(lambda ensemble=ensemble: ensemble.simulate(iterations=len(inputs), store=False))
+        paths = ensemble.simulate(iterations=len(inputs), store=False)
+        line(f"{name} by pylinkage", count, seconds, first, float(np.mean(np.isfinite(paths).all(axis=(2, 3)))))
+
+
+def race() -> None:
+    """Processor seconds from the same starts to the lowest error published for a path problem; nothing is compiled in
+    them. All ask the same compiled program, so that only the ways downhill differ."""
+    print(f"to the published error, {RACE} starts    processor s   starts taken  designs judged")
+    for name in "bd":
+        given = PATHS[name].arguments()
+        chosen = variables(given["mechanism"], given["drive"], given["lengths"], {}, given["extras"], {})
+        problem = Problem(given["loss"], True, given["mechanism"], chosen, tuple(given["constraints"]))
+        solver, target = least_squares(problem), PATHS[name].published * (1 + 1e-5)
+        vectors, weight = _best_of(solver, spread(chosen, RACE * POOL, 0), RACE)
+        solver.begin(vectors[:1], weight)  # compiled for one start, too
+
+        def downhill(vectors, solver=solver, weight=weight, target=target):
+            history: list[np.ndarray] = []
+            found = _search(solver, vectors, weight, 300, 1e-9, target, history, _Bar(300, False))[0]
+            losses, violations = solver.judge(found)
+            judged = int(np.isfinite(np.concatenate(history)).sum()) + len(vectors)
+            return bool(np.any((losses <= target) & (violations <= MET))), judged
+
+        def one_by_one(way, vectors=vectors):
+            judged = 0
+            for taken, vector in enumerate(vectors, 1):
+                reached, more = way(vector)
+                judged += more
+                if reached:
+                    return taken, judged
+            return None, judged
+
+        def scipy_from(vector, problem=problem, chosen=chosen, weight=weight, target=target):
+            return _scipy(problem, chosen, weight, target, vector)
+
+        scipy_from(vectors[0], target=np.inf)  # compiled
+        for label, run in {
+            "all starts together": lambda vectors=vectors: (
+                lambda found: (len(vectors) if found[0] else None, found[1])
+            )(downhill(vectors)),
+            "one start at a time": lambda: one_by_one(lambda vector: downhill(vector[None])),
+            "SciPy, finite differences": lambda: one_by_one(scipy_from),
+        }.items():
+            began = time.process_time()
+            taken, judged = run()
+            seconds = time.process_time() - began
+            print(f"  ({name}) {label:34}{seconds:>11.1f}{taken or 'not reached':>15}{judged:>16}", flush=True)
+
+
+def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
+    """Whether SciPy's bounded least squares reaches the target from a vector, and the designs that it asked for."""
+    width = chosen.upper - chosen.lower
+    if id(problem) not in _compiled:
+        _compiled[id(problem)] = jax.jit(problem.residuals), jax.jit(problem.judge)
+    residuals, judge = _compiled[id(problem)]
+    asked = 0
+
+    class Reached(Exception):
+        pass
+
+    def function(unit):
+        nonlocal asked
+        asked += 1
+        design = chosen.lower + width * unit
+        found = np.asarray(residuals(design, weight))
+        if np.sum(found**2) <= target * (1 + 1e-9):
+            judged = judge(design)
+            if np.sum(judged.rows**2) <= target and np.linalg.norm(judged.violations) <= MET:
+                raise Reached
+        return np.clip(np.nan_to_num(found, nan=1e6), -1e6, 1e6)
+
+    begin = np.clip((vector - chosen.lower) / width, 1e-6, 1 - 1e-6)
+    try:
+        scipy.optimize.least_squares(
+            function, begin, bounds=(0.0, 1.0), xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=300
+        )
+    except Reached:
+        return True, asked
+    return False, asked
+
+
+_compiled: dict[int, tuple] = {}
 
 
 if __name__ == "__main__":
     jax.config.update("jax_enable_x64", True)
     print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64\n")
-    for name in sys.argv[1:] or ("gradient", "ratios", "batch"):
-        {"gradient": gradient, "ratios": ratios, "batch": batch}[name]()
+    for name in sys.argv[1:] or ("gradient", "ratios", "batch", "race"):
+        {"gradient": gradient, "ratios": ratios, "batch": batch, "race": race}[name]()

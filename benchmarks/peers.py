@@ -17,6 +17,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -112,39 +113,42 @@ def scipy(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
     return solve, solve
 
 
-def pylinkage(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
-    if problem.name not in ("four-bar", "Jansen leg"):
-        raise Missing("planar only")
+def pylinkage_linkage(name: str, first: float, step: float) -> Any:
+    """The four-bar or Jansen's leg in pylinkage, a step before the first crank angle, so that stepping leads to it."""
     _needs("pylinkage")
     from pylinkage.actuators import Crank
     from pylinkage.components import Ground
     from pylinkage.dyads import RRRDyad
     from pylinkage.simulation import Linkage
 
-    step = float(u[1, 0] - u[0, 0]) if len(u) > 1 else 0.0
-    before = u[:1] - step
-    at = problem.truth(before)[0]
-    if problem.name == "four-bar":
-        crank = Crank(Ground(0.0, 0.0), radius=40.0, angular_velocity=step, initial_angle=before[0, 0])
-        start = 40.0 * np.array([np.cos(before[0, 0]), np.sin(before[0, 0])])
-        pin = start + 120.0 * np.array([np.cos(at[0]), np.sin(at[0])])
-        other = Ground(100.0, 0.0)
-        rocker = RRRDyad(crank.output, other, 120.0, 80.0, *pin)
-        linkage = Linkage([crank.anchor, other, crank, rocker])
-    else:
-        from reference import planar
+    from reference import planar
 
-        n = planar.JANSEN
-        crank = Crank(Ground(0.0, 0.0), radius=n["m"], angular_velocity=step, initial_angle=before[0, 0])
+    before = np.array([first - step])
+    if name == "four-bar":
+        at = planar.fourbar(before)
+        crank = Crank(Ground(0.0, 0.0), radius=40.0, angular_velocity=step, initial_angle=before[0])
+        other = Ground(100.0, 0.0)
+        rocker = RRRDyad(crank.output, other, 120.0, 80.0, *at.rocker_pin[0])
+        linkage = Linkage([crank.anchor, other, crank, rocker])
+    elif name == "Jansen leg":
+        n, at = planar.JANSEN, planar.jansen(before)
+        crank = Crank(Ground(0.0, 0.0), radius=n["m"], angular_velocity=step, initial_angle=before[0])
         fixed = Ground(-n["a"], -n["l"])
-        places = (100.0 * at).reshape(4, 2)
-        knee = RRRDyad(fixed, crank.output, n["b"], n["j"], *places[0])
-        rear = RRRDyad(fixed, knee, n["d"], n["e"], *places[1])
-        lower = RRRDyad(fixed, crank.output, n["c"], n["k"], *places[2])
-        ankle = RRRDyad(rear, lower, n["f"], n["g"], *places[3])
+        knee = RRRDyad(fixed, crank.output, n["b"], n["j"], *at.knee[0])
+        rear = RRRDyad(fixed, knee, n["d"], n["e"], *at.rear[0])
+        lower = RRRDyad(fixed, crank.output, n["c"], n["k"], *at.lower[0])
+        ankle = RRRDyad(rear, lower, n["f"], n["g"], *at.ankle[0])
         linkage = Linkage([crank.anchor, fixed, crank, knee, rear, lower, ankle])
-    home = [(each.x, each.y) for each in linkage.components]
+    else:
+        raise Missing("planar only")
     linkage.compile()
+    return linkage
+
+
+def pylinkage(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
+    step = float(u[1, 0] - u[0, 0]) if len(u) > 1 else 0.0
+    linkage = pylinkage_linkage(problem.name, float(u[0, 0]), step)
+    home = [(each.x, each.y) for each in linkage.components]
 
     def run() -> Array:
         for each, (x, y) in zip(linkage.components, home, strict=True):
