@@ -131,12 +131,15 @@ def _judged(state: _State, units, foreseen, residuals, jacobian) -> _State:
     share = np.where(foreseen > 0, gained / np.where(foreseen > 0, foreseen, 1.0), 0.0)
     easier = state.damping * np.maximum(1 / 3, 1 - (2 * np.clip(share, 0.0, 1.0) - 1) ** 3)
     harder = np.minimum(state.damping * state.growth, 1e100)
+
+    def kept(new, old):
+        return np.where(better.reshape(-1, *(1,) * (new.ndim - 1)), new, old)
+
     found = _State(
-        *(
-            np.where(better.reshape(-1, *(1,) * (new.ndim - 1)), new, old)
-            for new, old in zip((units, residuals, jacobian), state[:3], strict=True)
-        ),
-        np.where(better, easier, harder),
-        np.where(better, 2.0, np.minimum(2 * state.growth, 1e100)),
+        units=kept(units, state.units),
+        residuals=kept(residuals, state.residuals),
+        jacobian=kept(jacobian, state.jacobian),
+        damping=np.where(better, easier, harder),
+        growth=np.where(better, 2.0, np.minimum(2 * state.growth, 1e100)),
     )
     return found._replace(damping=np.maximum(found.damping, LEAST_DAMPING * _largest(found.jacobian) + 1e-300))
