@@ -1,7 +1,7 @@
 """Steps and iterations of the solver, counted from outside: it returns none, and must not pay for them.
 
-While a sweep is traced, the loops of the solver are made to tell how often they ran; the programs so compiled are
-forgotten afterwards. What is counted is what these programs do, with the same numbers.
+While a sweep is traced, the loops of the solver are made to tell how often they ran; the programs so compiled, with few
+optimisations, are forgotten afterwards. They do what the others do, but for rounding.
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jaxkin.solve import correct, knots, sweep
+from jaxkin.solve import compiled, correct, knots, sweep
+
+FEW = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
 
 
 class Count:
@@ -76,9 +78,10 @@ def counted() -> Iterator[Count]:
         (correct, "lax", _with(corrected)),
         (knots, "lax", _with(followed)),
         (sweep, "correct", settle),
+        (compiled, "OPTIONS", compiled.OPTIONS | FEW),
     ]
     before = [(module, name, getattr(module, name)) for module, name, _ in patches]
-    jax.clear_caches()
+    _forget()
     try:
         for module, name, value in patches:
             setattr(module, name, value)
@@ -87,7 +90,14 @@ def counted() -> Iterator[Count]:
     finally:
         for module, name, value in before:
             setattr(module, name, value)
-        jax.clear_caches()
+        _forget()
+
+
+def _forget() -> None:
+    """All that was compiled, and with which options."""
+    jax.clear_caches()
+    compiled.jit_options.cache_clear()
+    compiled._program.cache_clear()
 
 
 def _with(while_loop) -> SimpleNamespace:

@@ -62,8 +62,9 @@ makes the solver's loops tell.
 
 def row(case: HardCase) -> str:
     """One line of the table."""
+    motion = case.sweep()
     with counted() as count:
-        motion = case.sweep()
+        case.sweep()
     closed, status = np.asarray(motion.closed), np.asarray(motion.status)
     poses = len(status)
     error = case.error(motion)[closed]
