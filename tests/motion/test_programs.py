@@ -21,6 +21,16 @@ def test_nothing_is_recompiled_for_new_numbers():
     assert compiled._cache_size() == traces
 
 
+def test_what_does_not_depend_on_the_values_is_found_once(monkeypatch):
+    mechanism = planar_fourbar(1.0)
+    mechanism.sweep({"A": np.linspace(0.0, 1.0, 37)})
+    monkeypatch.delattr("jaxkin.motion.prepared._prepared")
+    motion = mechanism.sweep({"A": np.linspace(0.0, 1.1, 30)})
+    assert np.all(motion.closed)
+    with pytest.raises(NameError):
+        mechanism.sweep({"D": np.zeros(3)})
+
+
 @pytest.mark.long
 def test_float32_warns_once_and_reaches_what_it_says():
     import jaxkin.motion.sweep as module
@@ -48,6 +58,10 @@ def test_a_sweep_works_inside_jit_and_vmap():
 
     expected = planar_fourbar(1.0).sweep({"A": range_}).coordinates["D"][:, 0]
     np.testing.assert_allclose(rocker(planar_fourbar(1.0), range_), expected, atol=1e-14)
+    fresh = planar_fourbar(1.0)
+    captured = jax.jit(lambda inputs: fresh.sweep({"A": inputs}).coordinates["D"][:, 0])(range_)
+    outside = fresh.sweep({"A": range_}).coordinates["D"][:, 0]
+    np.testing.assert_allclose([captured, outside], [expected, expected], atol=1e-14)
     designs = [planar_fourbar(1.0, crank=crank) for crank in (35.0, 40.0)]
     batch = jax.tree.map(lambda *leaves: jnp.stack(leaves), *designs)
     found = jax.vmap(rocker, in_axes=(0, None))(batch, range_)
