@@ -97,6 +97,8 @@ def path(
         axes.plot(found[:, 0], found[:, 1], **style)
         axes.plot(wanted[:, 0], wanted[:, 1], "o", color="black", markerfacecolor="none", zorder=0)
         axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel("xyz"[components[0]])
+        axes.set_ylabel("xyz"[components[1]])
 
     return Objective((("path", 1.0, rows, draw),))
 
@@ -149,6 +151,8 @@ def guidance(part: str, point: Sequence[float | int] | str, targets: Any, *, siz
         for poses, angles, color in ((wanted, wanted[:, 2], "black"), (found, angle, style.get("color", "C0"))):
             axes.quiver(poses[:, 0], poses[:, 1], np.cos(angles), np.sin(angles), color=color, width=0.004)
         axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlabel("x")
+        axes.set_ylabel("y")
 
     return Objective((("guidance", 1.0, rows, draw),))
 

@@ -143,7 +143,7 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
 def test_lengths_of_an_assembly_from_step():
     """A crank-rocker read from STEP, frame as it is: 50 degrees of swing with the best transmission.
 
-    Its closed form for a given ratio of the swing's times is not this problem; the angles are held against circles.
+    What its dead points and its transmission angles are follows from triangles.
     """
     mechanism = jk.load(path("fourbar")).mechanism(fixed=["ground"])
     ground, crank = ("ground", "ground-crank", "ground-rocker"), ("crank", "crank-coupler", "ground-crank")
@@ -157,8 +157,8 @@ def test_lengths_of_an_assembly_from_step():
         constraints=[design.full_crank(ground, crank, coupler, rocker)],
     )
     assert best.feasible and best.moves.everywhere
-    bars = [float(best.mechanism.lengths[key]) for key in (ground, crank, coupler, rocker)]
-    assert bars[0] == pytest.approx(100.0, rel=1e-12)
+    bars = [float(design.measures.length_now(best.mechanism, key)) for key in (ground, crank, coupler, rocker)]
+    assert bars[0] == pytest.approx(float(design.measures.length_now(mechanism, ground)), rel=1e-12)
     # where crank and coupler are in line the rocker turns back: two triangles with the ground link
     ends_of = [
         (bars[0] ** 2 + bars[3] ** 2 - (bars[2] + sign * bars[1]) ** 2) / (2 * bars[0] * bars[3]) for sign in (1, -1)
@@ -168,4 +168,4 @@ def test_lengths_of_an_assembly_from_step():
     across = np.array([bars[0] - bars[1], bars[0] + bars[1]])
     angles = np.degrees(np.arccos((bars[2] ** 2 + bars[3] ** 2 - across**2) / (2 * bars[2] * bars[3])))
     print(f"bars {np.round(bars, 3)}, swing {swing:.2f}, transmission {angles}, {best.seconds:.0f} s")
-    assert np.abs(angles - 90.0).max() < 30.0  # 63 of the one that was read
+    assert np.abs(angles - 90.0).max() < 32.0  # 63 of the one that was read; this one 29
