@@ -21,7 +21,7 @@ from jaxkin.solve.status import Tolerance
 from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
 
-OPTIONS = {"xla_cpu_use_fusion_emitters": False}
+OPTIONS = {"xla_cpu_use_fusion_emitters": False, "xla_cpu_experimental_ynn_fusion_type": ""}
 """With its newer emitters XLA takes 1.7 times as long to compile the solver for the CPU, for a program no faster."""
 
 

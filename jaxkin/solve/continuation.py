@@ -1,7 +1,9 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
-A secant carries the motion of a single input through change points, where a plain warm start leaves the branch, and no
-tangent is unique; where it fails, as it does near a limit behind a long step, the tangent is tried, by turns with it.
+A step of a single input is predicted by the cubic through the last two states with their slopes, or by the secant
+through them where a slope says nothing: it carries the motion through change points, where a plain warm start leaves the
+branch and no tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried, by
+turns with it.
 The motion of several inputs goes along the tangent only, since their way has corners. A step is taken only if the
 corrector stays near the prediction, and if the Jacobian keeps its orientation: where two branches nearly meet, a long
 step would go straight on to the other one. Where the motion ends (a limit of the range) the damped corrector goes on
@@ -61,11 +63,15 @@ class Front(NamedTuple):
     """How far along the way: the input itself if it is a single one."""
     slope: Float[Array, "columns lanes"]
     """Change of the coordinates per unit of that."""
-    secant: State
-    """Change of the state per unit of it that the next step is predicted with."""
-    has_secant: Bool[Array, " lanes"]
+    before: State
+    """The state one step back, of a single input."""
+    before_rate: State
+    """Its change per unit of the input."""
+    width: Float[Array, " lanes"]
+    """How far back that was."""
+    has_before: Bool[Array, " lanes"]
     tangent: Bool[Array, " lanes"]
-    """Whether the next step is predicted with the slope instead: where the secant failed."""
+    """Whether the next step is predicted with the slope alone: where the curve through two states failed."""
     step: Float[Array, " lanes"]
     stage: Int[Array, " lanes"]
     anchored: Bool[Array, " lanes"]
@@ -84,6 +90,8 @@ def start(system: LoopSystem, lanes: int, dtype) -> Front:
         jnp.zeros(lanes, dtype),
         nothing.x,
         nothing,
+        nothing,
+        jnp.ones(lanes, dtype),
         jnp.zeros(lanes, bool),
         jnp.zeros(lanes, bool),
         jnp.full(lanes, FIRST_STEP, dtype),
@@ -97,8 +105,18 @@ def arrived(front: Front, target: Float[Array, " lanes"]) -> Bool[Array, " lanes
     return (front.at == target) & (front.stage != START)
 
 
-def substep(system: LoopSystem, geometry: Geometry, way: Way, front: Front, target: Float[Array, " lanes"]) -> Front:
-    """One step of every lane that has not arrived; a lane whose step was refused stands where it stood."""
+def substep(
+    system: LoopSystem,
+    geometry: Geometry,
+    way: Way,
+    front: Front,
+    target: Float[Array, " lanes"],
+    enough: float = 0.0,
+) -> Front:
+    """One step of every lane that has not arrived; a lane whose step was refused stands where it stood.
+
+    Poses whose gap is no larger than `enough` are not improved any more.
+    """
     dtype = target.dtype
     left = jnp.abs(target - front.at)
     stage = jnp.where(arrived(front, target), -1, front.stage)
@@ -108,13 +126,13 @@ def substep(system: LoopSystem, geometry: Geometry, way: Way, front: Front, targ
     at = jnp.where((jnp.abs(moved) >= left) & (following | in_gap), target, front.at + moved)
     inputs, direction = way(at)
 
-    sloped = front.has_secant | front.tangent
-    along = choose(front.tangent, rate(system, front.state, front.slope), front.secant)
-    predicted = jax.tree.map(lambda x, d: x + jnp.where(following & sloped, moved, 0.0) * d, front.state, along)
+    sloped = front.has_before | front.tangent
+    tangent = rate(system, front.state, front.slope)
+    predicted = _predicted(system, front, tangent, jnp.where(following & sloped, moved, 0.0))
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     most = jnp.where(starting, RESCUE_STEPS, jnp.where(in_gap, GAP_STEPS, CORRECTOR_STEPS))
-    found = correct(system, geometry, predicted, most)
+    found = correct(system, geometry, predicted, most, enough)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)
@@ -137,11 +155,6 @@ def substep(system: LoopSystem, geometry: Geometry, way: Way, front: Front, targ
     final = good | starting | in_gap
     next_stage = jnp.where(entered, FOLLOW, jnp.where(lost | starting, GAP, front.stage))
     slope = slopes(system, found.state, found.closure, direction)
-    if len(system.driven) == 1:
-        apart = jnp.where(moved == 0, 1.0, moved)
-        secant = jax.tree.map(lambda new, old: (new - old) / apart, found.state, front.state)
-    else:
-        secant = rate(system, found.state, slope)
     return Front(
         state=choose(final, found.state, front.state),
         status=jnp.where(starting | in_gap, status, front.status),  # a branch is kept while it is followed
@@ -149,13 +162,36 @@ def substep(system: LoopSystem, geometry: Geometry, way: Way, front: Front, targ
         jacobian=jnp.where(final, jacobian, front.jacobian),
         at=jnp.where(final, at, front.at),
         slope=jnp.where(final, slope, front.slope),
-        secant=choose(good, secant, front.secant),
-        has_secant=(front.has_secant | good) & (next_stage == FOLLOW) & ~entered,
+        before=choose(good, front.state, front.before),
+        before_rate=choose(good, tangent, front.before_rate),
+        width=jnp.where(good & (moved != 0), moved, front.width),
+        has_before=(front.has_before | good) & (next_stage == FOLLOW) & ~entered,
         tangent=following & ~good & ~front.tangent,
         step=jnp.where(entered, FIRST_STEP, step),
         stage=next_stage.astype(jnp.int32),
         anchored=front.anchored | entered,
     )
+
+
+def _predicted(system: LoopSystem, front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:
+    """Where the motion is expected to be: on the cubic through two states with their slopes, or along the tangent."""
+    if len(system.driven) != 1:
+        return jax.tree.map(lambda x, d: x + moved * d, front.state, tangent)
+    s, w = moved / front.width, front.width
+
+    def chord(x: Array, x_before: Array) -> Array:
+        return x + s * (x - x_before)
+
+    def cubic(x: Array, d: Array, x_before: Array, d_before: Array) -> Array:
+        back, d, d_before = x_before - x, w * d, w * d_before
+        return x + s * (d + s * (3 * back + 2 * d + d_before + s * (2 * back + d + d_before)))
+
+    straight = jax.tree.map(chord, front.state, front.before)
+    curve = jax.tree.map(cubic, front.state, tangent, front.before, front.before_rate)
+    # at a change point the tangent is not unique and a slope says nothing
+    smooth = difference(curve, straight) <= 0.25 * difference(straight, front.state)
+    along = jax.tree.map(lambda x, d: x + moved * d, front.state, tangent)
+    return choose(front.tangent | ~front.has_before, along, choose(smooth, curve, straight))
 
 
 def _turned_over(

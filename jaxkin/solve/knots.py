@@ -31,6 +31,8 @@ BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9
 """Coordinates that differ by less after a full turn have come back (1e-4 in float32)."""
+ENOUGH = 64
+"""Times the unit of rounding: the gap of a knot, which is only a place to begin from."""
 TURN = 2 * np.pi
 
 
@@ -77,7 +79,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     room = max(ROOM, each * min(values.shape[0], MOST_POSES))
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([-TURN, TURN], dtype)
-    front = start(system, 2, dtype)
+    front, enough = start(system, 2, dtype), ENOUGH * float(jnp.finfo(dtype).eps)
     table = jnp.zeros((2 * room + 2, _row(system, front).shape[1]), dtype)
     nowhere, unknown = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.ones(2, bool)
 
@@ -94,7 +96,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
 
     def step(carry):
         front, count, limits, repeats, table = carry
-        front = substep(system, geometry, way, front, target(limits, repeats))
+        front = substep(system, geometry, way, front, target(limits, repeats), enough)
         # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
         # so that all lanes, those of other designs too, write at one place
         row = _row(system, front)

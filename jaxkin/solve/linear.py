@@ -25,14 +25,24 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
     With `refine` one step of iterative refinement takes the bias of the damping out.
     """
     rows, _, poses = jacobian.shape
-    solve = (_unrolled if rows <= FEW or (rows <= UNROLLED and poses >= MANY) else _looped)(jacobian, damping)
+    straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
+    factored = (_unrolled if straight else _looped)(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(jacobian * y[:, None], axis=0)
 
+    def forward(x: Array) -> Vector:
+        return jnp.sum(jacobian * x[None], axis=1)
+
+    def solve(right: Vector) -> Vector:
+        # derivatives are solutions of the same system, too: nothing differentiates the elimination
+        return lax.custom_linear_solve(
+            lambda y: forward(transposed(y)) + damping * y, right, lambda _, right: factored(right), symmetric=True
+        )
+
     x = transposed(solve(right))
     if refine:
-        x = x + transposed(solve(right - jnp.sum(jacobian * x[None], axis=1)))
+        x = x + transposed(solve(right - forward(x)))
     return x
 
 
@@ -73,20 +83,12 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
     def solve(right: Vector) -> Vector:
-        def eliminate(k: Array | int, carry: tuple[Array, Array]) -> tuple[Array, Array]:
-            gram, right = carry  # kept apart: the right side is linear, and must stay so for derivatives in reverse
-            pivot, at_pivot = _at(gram, k), _at(right, k)
-            column = lax.dynamic_index_in_dim(gram, k, axis=1, keepdims=False)
-            diagonal = _at(column, k)
-            pivot, at_pivot = pivot / diagonal, at_pivot / diagonal
-            gram = lax.dynamic_update_index_in_dim(gram - column[:, None] * pivot[None], pivot, k, axis=0)
-            right = lax.dynamic_update_index_in_dim(right - column * at_pivot[None], at_pivot, k, axis=0)
-            return gram, right
+        def eliminate(k: Array | int, matrix: Array) -> Array:
+            pivot = lax.dynamic_index_in_dim(matrix, k, axis=0, keepdims=False)
+            column = lax.dynamic_index_in_dim(matrix, k, axis=1, keepdims=False)
+            pivot = pivot / lax.dynamic_index_in_dim(column, k, axis=0, keepdims=False)
+            return lax.dynamic_update_index_in_dim(matrix - column[:, None] * pivot[None], pivot, k, axis=0)
 
-        return lax.fori_loop(0, n, eliminate, (gram, right))[1]
+        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, right[:, None]], axis=1))[:, -1]
 
     return solve
-
-
-def _at(rows: Array, k: Array | int) -> Array:
-    return lax.dynamic_index_in_dim(rows, k, axis=0, keepdims=False)
