@@ -19,7 +19,6 @@ from jaxkin.solve.spatial import Spatial, spatial_closure, spatial_geometry
 from jaxkin.solve.spins import spin_equations
 from jaxkin.solve.state import State
 from jaxkin.solve.system import LoopSystem
-from jaxkin.solve.trig import Trig, cos_sin
 
 Geometry = Spatial | Planar
 Given = Array | np.ndarray
@@ -35,12 +34,12 @@ class Closure(NamedTuple):
     """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
 
 
-def closure(system: LoopSystem, geometry: Geometry, state: State, trig: Trig = cos_sin) -> Closure:
-    """Residual and Jacobian of all loops, lengths over the characteristic length. `trig` gives cosines and sines."""
+def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
+    """Residual and Jacobian of all loops, lengths over the characteristic length."""
     if isinstance(geometry, Planar):
-        residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x, trig)
+        residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x)
         return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
-    residual, jacobian, rotated, moved = spatial_closure(system, geometry, state, trig)
+    residual, jacobian, rotated, moved = spatial_closure(system, geometry, state)
     merit, gap = 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved)
     if system.spins:
         spun, rows = spin_equations(system, geometry.lines, state)

@@ -1,9 +1,9 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
 A step of a single input is predicted by the cubic through the last two states with their slopes, or by the secant
-through them where a slope says nothing: it carries the motion through change points, where a plain warm start leaves the
-branch and no tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried, by
-turns with it.
+through them where a slope says nothing: it carries the motion through change points, where a plain warm start leaves
+the branch and no tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried,
+by turns with it.
 The motion of several inputs goes along the tangent only, since their way has corners. A step is taken only if the
 corrector stays near the prediction, and if the Jacobian keeps its orientation: where two branches nearly meet, a long
 step would go straight on to the other one. Where the motion ends (a limit of the range) the damped corrector goes on

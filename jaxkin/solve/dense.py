@@ -24,7 +24,6 @@ from jaxkin.solve.linear import least_norm, scale
 from jaxkin.solve.state import State, difference, drive, rate, retract
 from jaxkin.solve.status import tolerance
 from jaxkin.solve.system import LoopSystem
-from jaxkin.solve.trig import cos_sin_nearby
 
 SEGMENTS, WITH_SPINS = 128, 512
 """At most so many, of a number of poses that is a power of two. Where rods spin between balls, and a ball passes near
@@ -65,9 +64,9 @@ def interpolate(
         powers = _powers((values - middle) / half)
         state = jax.tree.map(lambda c: jnp.tensordot(c, powers, 1), coefficients)
         predicted = drive(system, retract(system, state, jnp.zeros_like(state.x)), values[None])
-        delta = -inverse @ closure(system, geometry, predicted, cos_sin_nearby).residual
+        delta = -inverse @ closure(system, geometry, predicted).residual
         state = retract(system, predicted, delta)
-        gap = closure(system, geometry, state, cos_sin_nearby).gap
+        gap = closure(system, geometry, state).gap
         trusted = (gap <= CLOSED * float(jnp.finfo(dtype).eps)) & (difference(state, predicted) <= CORRECTION)
         return state, gap, trusted
 

@@ -1,8 +1,9 @@
 """Closure of planar loops: every joint turns about the normal of one plane, or slides in it.
 
 Three equations a loop instead of six: the turns add up to none, and the links, each at its absolute angle, to nothing.
-The angles are sums of coordinates, so that a whole loop is one product of matrices and one sum. Coordinates along the
-normal (those of cylindrical joints) commute with all of this: they rest.
+The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of them (for links that
+slide, in their products with the coordinate as well), so that a loop is two products of matrices. Coordinates along
+the normal (those of cylindrical joints) commute with all of this: they rest.
 """
 
 from __future__ import annotations
@@ -18,20 +19,21 @@ from jaxtyping import Array, Float
 from jaxkin.solve.spatial import Spatial
 from jaxkin.solve.steps import steps
 from jaxkin.solve.system import LoopSystem
-from jaxkin.solve.trig import Trig
+from jaxkin.solve.trig import cos_sin
 
 
 class Planar(NamedTuple):
-    """Constants of the loops in the plane, lengths divided by the characteristic length."""
+    """Constants of the loops in the plane, lengths divided by the characteristic length.
+
+    The terms are the cosines of the links, their sines, both times what the link slides if any does, and one.
+    """
 
     turns: Float[Array, "loops links columns"]
     """Absolute angle of each link by the coordinates: -1, 0 or 1."""
-    links: Float[Array, "2 loops links"]
-    """Each link, from its joint to the next, as it lies in the assembled pose."""
-    slides: Float[Array, "2 loops links columns"]
-    """Direction in which a coordinate lengthens the link."""
-    first: Float[Array, "2 loops"]
-    """Where the first joint lies: the links lead from there back to the origin."""
+    moved: Float[Array, "loops 2 terms"]
+    """What the terms give to where the loop ends: links from each joint to the next, as in the assembled pose."""
+    jacobian: Float[Array, "loops rows terms"]
+    """What they give to the derivatives of the turn, and of both translations, by the coordinates."""
     begun: Float[Array, "2 loops"]
     """Cosine and sine of the turn that the loop leaves open at the assembled pose: none unless lengths were changed."""
     off: Float[Array, ""]
@@ -39,41 +41,25 @@ class Planar(NamedTuple):
 
 
 def planar_closure(
-    system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"], trig: Trig
+    system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
 ) -> tuple[Array, Array, Array, Array]:
     """Residual (turn and two translations a loop), Jacobian, and squares of Eq. 12: see `closure.Closure`."""
-    loops, poses = len(system.loops), x.shape[-1]
-    angles = jnp.einsum("lkc,cp->lkp", geometry.turns, x)
-    cos, sin = trig(angles)
-
-    def turned(vectors: Array) -> tuple[Array, Array]:
-        return cos * vectors[0] - sin * vectors[1], sin * vectors[0] + cos * vectors[1]
-
-    links = geometry.links[..., None]
-    if slid := any(system.is_length[column] for column in system.plane or ()):
-        links = links + jnp.einsum("dlkc,cp->dlkp", geometry.slides, x)
-    along, across = turned(links)
-    moved = geometry.first[..., None] + jnp.stack([jnp.sum(along, axis=1), jnp.sum(across, axis=1)])
+    poses = x.shape[-1]
+    cos, sin = both = cos_sin(jnp.einsum("lkc,cp->lkp", geometry.turns, x))
+    terms = [cos, sin, jnp.ones_like(cos[:, :1])]
+    if _slides(system):
+        slid = jnp.concatenate([x, jnp.zeros_like(x[:1])])[_kept(system).slider.T]
+        terms[2:2] = list(slid * both)
+    terms = jnp.concatenate(terms, axis=1)
+    moved = jnp.einsum("ldt,ltp->ldp", geometry.moved, terms)
     begun_cos, begun_sin = geometry.begun[..., None]
     rest_cos = cos[:, -1] * begun_cos - sin[:, -1] * begun_sin
     rest_sin = sin[:, -1] * begun_cos + cos[:, -1] * begun_sin
-    residual = jnp.stack([rest_sin, *moved], axis=1)
-
-    columns = [
-        jnp.broadcast_to(geometry.turns[:, -1, :, None], (loops, system.columns, poses)),
-        -jnp.einsum("lkc,lkp->lcp", geometry.turns, across),
-        jnp.einsum("lkc,lkp->lcp", geometry.turns, along),
-    ]
-    if slid:
-        columns[1] += jnp.einsum("lkc,lkp->lcp", geometry.slides[0], cos)
-        columns[1] -= jnp.einsum("lkc,lkp->lcp", geometry.slides[1], sin)
-        columns[2] += jnp.einsum("lkc,lkp->lcp", geometry.slides[0], sin)
-        columns[2] += jnp.einsum("lkc,lkp->lcp", geometry.slides[1], cos)
     # a turn changes four of the nine entries of a rotation matrix; not 2 - 2 cos, which cancels
     rotated = 2 * jnp.sum((rest_cos - 1) ** 2 + rest_sin**2, axis=0)
     return (
-        residual.reshape(system.equations, poses),
-        jnp.stack(columns, axis=1).reshape(system.equations, system.columns, poses),
+        jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.equations, poses),
+        jnp.einsum("lrt,ltp->lrp", geometry.jacobian, terms).reshape(system.equations, system.columns, poses),
         rotated,
         jnp.sum(moved**2, axis=(0, 1)),
     )
@@ -104,26 +90,55 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     one_hot = jnp.asarray(
         np.arange(system.columns) == np.where(used, table.column[step, loops], -1)[..., None], last.dtype
     )
-    turns = jnp.cumsum((sign * facing)[..., None] * one_hot, axis=0)
+    turns = jnp.cumsum((sign * facing)[..., None] * one_hot, axis=0).swapaxes(0, 1)
 
     arrival = jnp.einsum("di,li->dl", plane, last[:, :3, 3])
     centre = jnp.where(used_, centre, arrival[:, None])  # steps that fill up the shorter loops stand at the end
-    links = jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre
-    direction = jnp.einsum("di,kli->dkl", plane, axis) * sign * jnp.asarray((1 - turning) * used)
-    slides = direction[..., None] * one_hot
+    links = (jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre).swapaxes(1, 2)
+    direction = jnp.einsum("di,kli->dlk", plane, axis) * (sign * jnp.asarray((1 - turning) * used)).T
 
     tilt = jnp.where(turning, jnp.sum(jnp.cross(axis, normal) ** 2, axis=-1), (axis @ normal) ** 2)
     leaning = last[:, :3, :3] @ normal - normal
     off = jnp.sum(jnp.where(used_, tilt, 0.0)) + jnp.sum(leaning**2) + jnp.sum((last[:, :3, 3] @ normal) ** 2)
     begun = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
-    return Planar(
-        jnp.moveaxis(turns, 0, 1),
-        jnp.swapaxes(links, 1, 2),
-        jnp.swapaxes(slides, 1, 2),
-        centre[:, 0],
-        begun,
-        off,
-    )
+    moved, jacobian = _by_terms(system, turns, links, direction, one_hot.swapaxes(0, 1), centre[:, 0])
+    return Planar(turns, moved, jacobian, begun, off)
+
+
+def _by_terms(
+    system: LoopSystem,
+    turns: Float[Array, "loops links columns"],
+    links: Float[Array, "2 loops links"],
+    slides: Float[Array, "2 loops links"],
+    coordinate: Float[Array, "loops links columns"],
+    first: Float[Array, "2 loops"],
+) -> tuple[Float[Array, "loops 2 terms"], Float[Array, "loops rows terms"]]:
+    """`Planar.moved` and `.jacobian` from the links, the directions in which they slide, and where each loop begins."""
+
+    def turned(vectors: Array) -> list[Array]:
+        """What cosine and sine of the angle of each link give to the coordinates of vectors that turn with it."""
+        along, across = vectors
+        return [jnp.stack([along, across]), jnp.stack([-across, along])]
+
+    parts = [links, slides] if _slides(system) else [links]
+    moving = jnp.concatenate([by for vectors in parts for by in turned(vectors)], axis=-1)
+    # a turn carries all links behind it, at right angles to where they lie
+    behind = jnp.concatenate([turns] * (2 * len(parts)), axis=1)
+    derivative = jnp.einsum("dlt,ltc->ldct", jnp.stack([-moving[1], moving[0]]), behind)
+    if _slides(system):
+        along = jnp.einsum(
+            "dlt,ltc->ldct", jnp.concatenate(turned(slides), axis=-1), jnp.concatenate([coordinate] * 2, 1)
+        )
+        derivative = derivative.at[..., : along.shape[-1]].add(along)
+    by_one = jnp.pad(turns[:, None, -1, :, None], [(0, 0), (0, 2), (0, 0), (0, 0)])
+    turn = jnp.zeros_like(derivative[:, :1])
+    jacobian = jnp.concatenate([jnp.concatenate([turn, derivative], axis=1), by_one], axis=-1)
+    moved = jnp.concatenate([moving, first[..., None]], axis=-1)
+    return moved.swapaxes(0, 1), jacobian.reshape(len(system.loops), 3 * system.columns, -1)
+
+
+def _slides(system: LoopSystem) -> bool:
+    return any(system.is_length[column] for column in system.plane or ())
 
 
 class _Kept(NamedTuple):
@@ -131,6 +146,8 @@ class _Kept(NamedTuple):
 
     step: np.ndarray
     """(links, loops): numbers of the steps; the number of steps, which is none, where a loop is shorter."""
+    slider: np.ndarray
+    """(links, loops): column of the coordinate by which a link slides; the number of columns, which is none."""
     reference: tuple[int, int]
     """Step and loop of a turn, whose axis is the normal."""
 
@@ -143,4 +160,8 @@ def _kept(system: LoopSystem) -> _Kept:
     length = max(map(len, chosen))
     filled = [np.append(numbers, [len(inside)] * (length - len(numbers))) for numbers in chosen]
     step, loop = np.argwhere(inside & (table.turn > 0))[0]
-    return _Kept(np.array(filled, int).T, (int(step), int(loop)))
+    number = np.array(filled, int).T
+    used = number < len(inside)
+    at = np.minimum(number, len(inside) - 1), np.arange(number.shape[1])
+    slider = np.where(used & (table.slide[at] > 0), table.column[at], system.columns)
+    return _Kept(number, slider, (int(step), int(loop)))

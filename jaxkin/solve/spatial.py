@@ -22,7 +22,7 @@ from jaxkin.solve.spins import Lines, spin_lines
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
 from jaxkin.solve.system import EQUATIONS, LoopSystem
-from jaxkin.solve.trig import Trig, cos_sin
+from jaxkin.solve.trig import cos_sin
 
 Rotation = Float[Array, "3 3 *poses"]
 """[column, row]: the first index picks one of the three axes."""
@@ -41,14 +41,12 @@ class Spatial(NamedTuple):
     """Of idle spins: see `spins`."""
 
 
-def spatial_closure(
-    system: LoopSystem, geometry: Spatial, state: State, trig: Trig
-) -> tuple[Array, Array, Array, Array]:
+def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
     """Residual, Jacobian, and squares of Eq. 12 from rotation and translation: see `closure.Closure`.
 
     Columns follow `LoopSystem`, those of balls turn about world axes.
     """
-    rotation, translation, twists = _travel(system, geometry, state, trig)
+    rotation, translation, twists = _travel(system, geometry, state)
     (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
     half = 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
     residual = jnp.concatenate([half, translation]).swapaxes(0, 1)
@@ -67,7 +65,7 @@ def spatial_closure(
 
 
 def _travel(
-    system: LoopSystem, geometry: Spatial, state: State, trig: Trig = cos_sin
+    system: LoopSystem, geometry: Spatial, state: State
 ) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
     """Displacement of the ends of the loops, and the twists that the steps give to them, four a step and a zero."""
     table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
@@ -77,7 +75,7 @@ def _travel(
     )
     advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
-    (cos, sin), travel = trig(turn * q), advance * q
+    (cos, sin), travel = cos_sin(turn * q), advance * q
     balls = _ball_turns(system, state, table) if system.balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
