@@ -1,13 +1,14 @@
 """Many poses at once, between few that were solved: interpolation of high order, one correction, a check of each pose.
 
 A range in order is cut into segments. At four poses of each the state and its exact slope are known, which makes a
-polynomial of degree seven; over a segment of a twentieth of a radian it is right to about 1e-13. One chord step
-(Newton's, with the inverse Jacobian of the middle of the segment) leaves rounding only. Each pose then has to close by
-itself: what does not is left to the damped corrector.
+polynomial of degree seven; over a segment of a fortieth of a radian it is right to about rounding. Where it is not, one
+chord step (Newton's, with the inverse Jacobian of the middle of the segment) brings it there. Each pose then has to
+close by itself: a segment in which one does not is left to the damped corrector.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import jax
@@ -20,24 +21,28 @@ from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.continuation import slopes
 from jaxkin.solve.correct import floor, free_jacobian
 from jaxkin.solve.knots import Knots, guess
+from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import least_norm, scale
-from jaxkin.solve.state import State, difference, drive, rate, retract
+from jaxkin.solve.state import State, assembled, difference, drive, rate, retract
 from jaxkin.solve.status import tolerance
 from jaxkin.solve.system import LoopSystem
 
-SEGMENTS, WITH_SPINS = 128, 512
+SEGMENTS, WITH_SPINS = 256, 512
 """At most so many, of a number of poses that is a power of two. Where rods spin between balls, and a ball passes near
 half a turn, the spin changes fast."""
 NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
 """Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial."""
 NARROWEST = 1e-4
 """Half the width of the narrowest segment, radians or characteristic lengths: repeated inputs have no width."""
+NEWTON = 2
+"""Steps from where the knots put a node."""
 CORRECTION = 1e-6
 """A pose farther from the polynomial than this is not trusted."""
 NEAR = 1e-3
 """A node farther from where the knots put it is not trusted."""
-CLOSED = 64
-"""Times the unit of rounding: a pose that does not close as well as this is left to the corrector."""
+SHARP, CLOSED = 32, 64
+"""Times the unit of rounding: a segment whose poses do not all close as well as this is corrected, or after that left
+to the damped corrector."""
 
 
 class Poses(NamedTuple):
@@ -50,30 +55,47 @@ class Poses(NamedTuple):
 
 
 def interpolate(
-    system: LoopSystem, geometry: Geometry, knots: Knots, values: Float[Array, " poses"]
-) -> tuple[Poses, Bool[Array, " poses"]]:
-    """All poses from those at the nodes of the segments, and which of them are trusted."""
+    system: LoopSystem,
+    geometry: Geometry,
+    knots: Knots,
+    values: Float[Array, " poses"],
+    settle: Callable[[Float[Array, " segment"]], Poses],
+) -> Poses:
+    """All poses from those at the nodes of the segments; `settle` finds those of a segment that cannot be trusted."""
     dtype, poses = values.dtype, values.shape[0]
+    eps = float(jnp.finfo(dtype).eps)
     length = max(2 ** (poses - 1).bit_length() // (WITH_SPINS if system.spins else SEGMENTS), 1)
-    rows = jnp.pad(values, (0, -poses % length), mode="edge").reshape(-1, length)
-    middle, half = 0.5 * (rows[:, 0] + rows[:, -1]), jnp.maximum(0.5 * jnp.abs(rows[:, -1] - rows[:, 0]), NARROWEST)
+    # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
+    first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
+    begin, end = values[first], values[first + length - 1]
+    middle, half = 0.5 * (begin + end), jnp.maximum(0.5 * jnp.abs(end - begin), NARROWEST)
     status, solid, polynomials, inverse = _solve_nodes(system, geometry, knots, middle, half)
 
-    def one(segment):
-        coefficients, inverse, middle, half, values = segment
-        powers = _powers((values - middle) / half)
-        state = jax.tree.map(lambda c: jnp.tensordot(c, powers, 1), coefficients)
-        predicted = drive(system, retract(system, state, jnp.zeros_like(state.x)), values[None])
-        delta = -inverse @ closure(system, geometry, predicted).residual
-        state = retract(system, predicted, delta)
-        gap = closure(system, geometry, state).gap
-        trusted = (gap <= CLOSED * float(jnp.finfo(dtype).eps)) & (difference(state, predicted) <= CORRECTION)
-        return state, gap, trusted
+    def one(number: Array, found: Poses) -> Poses:
+        here = lax.dynamic_slice_in_dim(values, first[number], length)
+        state = jax.tree.map(lambda c: _at((here - middle[number]) / half[number], c[number]), polynomials)
+        predicted = drive(system, retract(system, state, jnp.zeros_like(state.x)), here[None])
+        closed = closure(system, geometry, predicted)
 
-    found = lax.map(one, (polynomials, inverse, middle, half, rows))
-    whole = jax.tree.map(lambda a: jnp.moveaxis(a, 0, -2).reshape(*a.shape[1:-1], rows.size)[..., :poses], found)
-    state, gap, trusted = whole
-    return Poses(state, jnp.repeat(status, length)[:poses], gap), trusted & jnp.repeat(solid, length)[:poses]
+        def corrected() -> tuple[State, Array, Array]:
+            state = retract(system, predicted, -inverse[number] @ closed.residual)
+            return state, closure(system, geometry, state).gap, difference(state, predicted)
+
+        state, gap, moved = lax.cond(
+            any_lane(closed.gap > SHARP * eps), corrected, lambda: (predicted, closed.gap, jnp.zeros_like(here))
+        )
+        trusted = solid[number] & jnp.all((gap <= CLOSED * eps) & (moved <= CORRECTION))
+        segment = lax.cond(
+            any_lane(~trusted),
+            lambda: settle(here),
+            lambda: Poses(state, jnp.full(length, status[number]), gap),
+        )
+        return jax.tree.map(
+            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first[number], axis=-1), found, segment
+        )
+
+    start = Poses(assembled(system, poses, dtype), jnp.zeros(poses, jnp.int32), jnp.zeros(poses, dtype))
+    return lax.fori_loop(0, len(first), one, start)
 
 
 def _solve_nodes(
@@ -86,15 +108,10 @@ def _solve_nodes(
     """Of every segment: status, whether that holds for all of its nodes, polynomials of the state, inverse Jacobian."""
     values = (middle[:, None] + half[:, None] * jnp.asarray(NODES, half.dtype)).reshape(-1)
     begin = guess(system, knots, values)
-
-    def newton(_, carry: tuple[State, Closure]) -> tuple[State, Closure]:
-        state, closed = carry
-        jacobian = free_jacobian(system, closed)
-        state = retract(system, state, -least_norm(jacobian, closed.residual, floor(values.dtype) * scale(jacobian)))
-        return state, closure(system, geometry, state)
-
     state = drive(system, begin.state, values[None])
-    state, closed = lax.fori_loop(0, 3, newton, (state, closure(system, geometry, state)))
+    state, closed = lax.fori_loop(
+        0, NEWTON, lambda _, at: _newton(system, geometry, *at), (state, closure(system, geometry, state))
+    )
     inverse = _inverse(system, free_jacobian(system, closed)[..., len(NODES) // 2 :: len(NODES)])
     basis = jnp.asarray(_coefficients(), values.dtype)
 
@@ -112,6 +129,14 @@ def _solve_nodes(
     return status[:, 0], solid, polynomials, inverse
 
 
+def _newton(system: LoopSystem, geometry: Geometry, state: State, closed: Closure) -> tuple[State, Closure]:
+    """A step of Newton's method, and the closure that it leads to."""
+    jacobian = free_jacobian(system, closed)
+    delta = -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian))
+    state = retract(system, state, delta)
+    return state, closure(system, geometry, state)
+
+
 def _inverse(
     system: LoopSystem, jacobian: Float[Array, "equations columns segments"]
 ) -> Float[Array, "segments columns equations"]:
@@ -121,10 +146,12 @@ def _inverse(
     return jnp.transpose(columns, (2, 1, 0))
 
 
-def _powers(t: Float[Array, " poses"]) -> Float[Array, "degree poses"]:
-    square = t * t
-    low = jnp.stack([jnp.ones_like(t), t, square, square * t])
-    return jnp.concatenate([low, low * (square * square)])
+def _at(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:
+    """Polynomials at these places, by Horner's rule."""
+    *lower, total = jnp.moveaxis(coefficients, -1, 0)[..., None]
+    for coefficient in reversed(lower):
+        total = total * t + coefficient
+    return total
 
 
 def _coefficients() -> np.ndarray:

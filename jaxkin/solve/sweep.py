@@ -11,12 +11,13 @@ straight line from the assembled pose.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Float
 
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
 from jaxkin.solve.continuation import RESCUE_STEPS, reach
@@ -111,13 +112,7 @@ def _of_one_input(
 
     if len(values) < MANY:
         return _in_groups(settled, values)
-    found, trusted = interpolate(system, geometry, knots, values)
-
-    def settle(group: tuple[Array, Bool[Array, " poses"], Poses]) -> Poses:
-        values, trusted, found = group
-        return lax.cond(any_lane(~trusted), lambda: settled(values), lambda: found)
-
-    return _in_groups(settle, (values, trusted, found))
+    return interpolate(system, geometry, knots, values, partial(_in_groups, settled))
 
 
 def _of_several_inputs(
