@@ -18,11 +18,10 @@ from jaxkin.motion.drive import Given, given_values
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.prepared import prepare
-from jaxkin.solve.compiled import solve
+from jaxkin.solve.compiled import Outcome, solve
 from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance
 from jaxkin.solve.status import tolerance as default_tolerance
-from jaxkin.solve.sweep import Poses
 from jaxkin.topology.names import nearest
 
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
@@ -91,7 +90,7 @@ class Layout(NamedTuple):
 def _collect(
     layout: Layout,
     values: tuple[Given, ...],
-    solutions: list[tuple[Float[Array, "_ _"], Poses]],
+    solutions: list[tuple[Float[Array, "_ _"], Outcome]],
 ) -> tuple[
     tuple[Float[Array, " poses"], ...],
     tuple[Float[Array, "poses _"], ...],

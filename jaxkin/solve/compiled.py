@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from functools import cache, partial
 from inspect import signature
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
 from jaxkin.solve.lanes import all_designs
@@ -25,10 +25,19 @@ OPTIONS = {"xla_cpu_use_fusion_emitters": False, "xla_cpu_experimental_ynn_fusio
 """With its newer emitters XLA takes 1.7 times as long to compile the solver for the CPU, for a program no faster."""
 
 
+class Outcome(NamedTuple):
+    status: Int[Array, " poses"]
+    gap: Float[Array, " poses"]
+    """Square root of Eq. 12, lengths over the characteristic length."""
+
+
 def solve(
     system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
-) -> tuple[Float[Array, "columns poses"], Poses]:
-    """Displacements of all joints, and the poses found: compiled once for a system, a method and a number of poses."""
+) -> tuple[Float[Array, "columns poses"], Outcome]:
+    """Displacements of all joints, and what became of the poses.
+
+    Compiled once for a system, a method and a number of poses.
+    """
     if not traced((joints, inputs, tolerance)):
         given, order = (inputs, None) if method != CONTINUATION else _in_order(np.asarray(inputs))
         found = _program(_solve)(system, method, joints, given, tolerance)
@@ -36,7 +45,7 @@ def solve(
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
     poses = (_plain if traced(numbers) else _program)(_of_all_designs)(system, method, *numbers)
-    return _plain(displacements)(system, joints, inputs, poses), poses
+    return _plain(displacements)(system, joints, inputs, poses), Outcome(poses.status, poses.gap)
 
 
 def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Array, tolerance: Tolerance) -> Poses:
@@ -45,7 +54,7 @@ def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Arr
 
 def _solve(system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance):
     poses = find_poses(system, method, joints, inputs, tolerance)
-    return displacements(system, joints, inputs, poses), poses
+    return displacements(system, joints, inputs, poses), Outcome(poses.status, poses.gap)
 
 
 def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

@@ -117,8 +117,11 @@ def _solve_nodes(
 
     def polynomial(x: Array, d: Array) -> Array:
         shape = (*x.shape[:-1], half.shape[0], len(NODES))
-        data = jnp.concatenate([x.reshape(shape), d.reshape(shape) * half[:, None]], axis=-1)
-        return jnp.einsum("ij,...sj->s...i", basis, data)
+        x = x.reshape(shape)
+        # of differences, which are small: the coefficients of a power are sums that cancel
+        centre = x[..., :1]
+        data = jnp.concatenate([x - centre, d.reshape(shape) * half[:, None]], axis=-1)
+        return jnp.einsum("ij,...sj->s...i", basis, data).at[..., 0].add(jnp.moveaxis(centre[..., 0], -1, 0))
 
     polynomials = jax.tree.map(
         polynomial, state, rate(system, state, slopes(system, state, closed, jnp.ones_like(values)[None]))
