@@ -31,5 +31,5 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     found = []
     for block in mechanism.structure.blocks:
         inside = [joints[joint] for joint in block.joints]
-        found.append(Form(plane_columns(inside), idle_spins(inside, bodies)))
+        found.append(Form(plane_columns(inside), idle_spins(inside, bodies), cut=True))
     return tuple(found)

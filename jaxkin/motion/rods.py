@@ -15,7 +15,7 @@ PARALLEL = 1e-9
 """Sine of the angle between directions that count as parallel."""
 
 
-def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int], ...]:
+def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int, int], ...]:
     """The spins of rods, as `Form.spins`. `body_of` gives the body of a part, the same for all fixed parts.
 
     A rod is one part, or several in a row that slide along the line only, such as the halves of a leg, held by two
@@ -42,8 +42,8 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tupl
         along = [index for index in slides if ends_of[index][0] in bodies]
         if ends[0] == ends[1] or not _all_along(line, [joints[index] for index in along]):
             continue
-        second = [body_of[joints[index].parts[1]] in bodies for index in (one, other)]
-        found.append((ball_of[one], ball_of[other], 1 if second[0] == second[1] else -1))
+        sides = (1 if body_of[joints[index].parts[1]] in bodies else -1 for index in (one, other))
+        found.append((ball_of[one], ball_of[other], *sides))
     return tuple(sorted(found))
 
 

@@ -37,8 +37,8 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
 def _rank(mechanism: Mechanism, number: int, system: LoopSystem) -> int:
     """Independent equations for the free coordinates where nothing is singular; as many as may be where JAX traces."""
     if traced(mechanism.all_joints):
-        return min(system.equations, len(system.free))
+        return min(system.whole.equations, len(system.free))
     freedoms, plane = mechanism.loop_freedoms[number], mechanism.forms[number].plane
     # what leaves the plane is not solved for
     free = [column for column in system.free if plane is None or column in plane]
-    return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0] + len(system.spins)
+    return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0]

@@ -16,7 +16,6 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.spatial import Spatial, spatial_closure, spatial_geometry
-from jaxkin.solve.spins import spin_equations
 from jaxkin.solve.state import State
 from jaxkin.solve.system import LoopSystem
 
@@ -26,7 +25,7 @@ Given = Array | np.ndarray
 
 class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
-    """Rotation and translation of each loop: zero where it closes; then what sets idle spins."""
+    """Rotation of each loop in space that is whole, and translation of each; of planar loops one after the other."""
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
     """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: half the square of the residual nearby."""
@@ -40,12 +39,7 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
         residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x)
         return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
     residual, jacobian, rotated, moved = spatial_closure(system, geometry, state)
-    merit, gap = 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved)
-    if system.spins:
-        spun, rows = spin_equations(system, geometry.lines, state)
-        residual, jacobian = jnp.concatenate([residual, spun]), jnp.concatenate([jacobian, rows])
-        merit = merit + 0.5 * jnp.sum(spun * spun, axis=0)
-    return Closure(residual, jacobian, merit, gap)
+    return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved))
 
 
 def loop_geometry(

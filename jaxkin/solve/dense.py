@@ -9,6 +9,7 @@ close by itself: a segment in which one does not is left to the damped corrector
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import jax
@@ -23,6 +24,7 @@ from jaxkin.solve.correct import floor, free_jacobian
 from jaxkin.solve.knots import Knots, guess
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.reading import at_rest
 from jaxkin.solve.state import State, assembled, difference, drive, rate, retract
 from jaxkin.solve.status import tolerance
 from jaxkin.solve.system import LoopSystem
@@ -123,9 +125,8 @@ def _solve_nodes(
         data = jnp.concatenate([x - centre, d.reshape(shape) * half[:, None]], axis=-1)
         return jnp.einsum("ij,...sj->s...i", basis, data).at[..., 0].add(jnp.moveaxis(centre[..., 0], -1, 0))
 
-    polynomials = jax.tree.map(
-        polynomial, state, rate(system, state, slopes(system, state, closed, jnp.ones_like(values)[None]))
-    )
+    slope = rate(system, state, slopes(system, state, closed, jnp.ones_like(values)[None]))
+    polynomials = jax.tree.map(polynomial, *jax.jvp(partial(at_rest, system, geometry), (state,), (slope,)))
     status = begin.status.reshape(-1, len(NODES))
     good = (closed.gap <= tolerance(values.dtype)) & (difference(state, begin.state) <= NEAR) & begin.covered
     solid = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)

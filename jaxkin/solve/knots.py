@@ -19,6 +19,7 @@ from jaxkin.solve.closure import Geometry
 from jaxkin.solve.continuation import AT_LIMIT, Front, Way, arrived, start, substep
 from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
+from jaxkin.solve.reading import ball_turns
 from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
@@ -103,7 +104,10 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
         table = write_row(write_row(table, row[0], room - count), row[1], room + 1 + count)
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
         if system.periodic:
-            repeats &= (front.at != turn) | _came_back(system, front.state)
+            there = front.at == turn
+            repeats &= ~there | lax.cond(
+                any_lane(there), lambda: _came_back(system, geometry, front.state), lambda: jnp.zeros_like(there)
+            )
         return front, count + 1, jnp.where(ended, front.at, limits), repeats, table
 
     front, count, limits, repeats, table = lax.while_loop(
@@ -120,11 +124,13 @@ def _wound(system: LoopSystem, state: State) -> Float[Array, "columns lanes"]:
     return jnp.where(np.array(system.is_length)[:, None], 0.0, TURN * jnp.round(state.x / TURN))
 
 
-def _came_back(system: LoopSystem, state: State) -> Bool[Array, " lanes"]:
-    """Whether this is the assembled pose, but for full turns."""
+def _came_back(system: LoopSystem, geometry: Geometry, state: State) -> Bool[Array, " lanes"]:
+    """Whether this is the assembled pose, but for full turns, and for spins of rods."""
     same = SAME if jnp.finfo(state.x.dtype).bits == 64 else 1e-4
     rest = jnp.max(jnp.abs(state.x - _wound(system, state)), axis=0)
-    return jnp.maximum(rest, jnp.max(jnp.abs(state.turns[:, 1:]), axis=(0, 1), initial=0.0)) <= same
+    for turn in ball_turns(system, geometry, state).values():
+        rest = jnp.maximum(rest, jnp.max(jnp.abs(turn - jnp.eye(3)[..., None]), axis=(0, 1)))
+    return rest <= same
 
 
 def _row(system: LoopSystem, front: Front) -> Float[Array, "lanes entries"]:

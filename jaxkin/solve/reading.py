@@ -12,19 +12,39 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.solve.closure import Geometry
+from jaxkin.solve.spatial import Spatial, cut_turns
+from jaxkin.solve.spins import Rotations, rested, without_spin
 from jaxkin.solve.state import Coordinates, State, angles, from_angles, multiply, rotation_matrix
 from jaxkin.solve.system import LoopSystem
 
-Rotations = Float[Array, "3 3 poses"]
-"""[row, column]."""
 Frames = tuple[Float[Array, "_ 4 4"], ...]
 """One entry a joint, on the side of part 1 or of part 2, as in `Joint`."""
 
 
-def read_off(system: LoopSystem, before: Frames, after: Frames, state: State) -> Coordinates:
-    """The displacements of all joints; angles of balls are unwrapped along the poses. Lengths as in the frames."""
-    x = state.x
-    turns = {ball: _matrix(turn) for ball, turn in enumerate(state.turns)}
+def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+    """The turns of all balls by number: those at which loops are cut turn as these want it, rods do not spin."""
+    turns = _all_turns(system, geometry, state)
+    return without_spin(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
+
+
+def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
+    """The state with no spin left in any rod: a smooth function of the input, as that of the solver is not."""
+    if not isinstance(geometry, Spatial) or not system.spins:
+        return state
+    return rested(system, geometry.lines, _all_turns(system, geometry, state), state)
+
+
+def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+    turns = {ball: matrix(turn) for ball, turn in enumerate(state.turns)}
+    return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
+
+
+def read_off(
+    system: LoopSystem, before: Frames, after: Frames, x: Coordinates, turns: dict[int, Rotations]
+) -> Coordinates:
+    """Displacements of all joints from those that are not of balls, and the turns of balls; lengths as in the frames."""
+    turns = dict(turns)
     for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
         if columns[0] in system.driven:
             continue
@@ -37,7 +57,15 @@ def read_off(system: LoopSystem, before: Frames, after: Frames, state: State) ->
             first = columns[2] - 2
             found, moved = _on_plane(_between(before[joint], after[joint], frame - 1), turns[ball])
             x = x.at[first : first + 2].add(moved)
-        x = x.at[np.array(columns)].set(jnp.unwrap(found, axis=-1))
+        x = x.at[np.array(columns)].set(found)
+    return x
+
+
+def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
+    """Displacements without leaps in the angles of balls from pose to pose."""
+    for columns in system.balls:
+        if columns[0] not in system.driven:
+            x = x.at[np.array(columns)].set(jnp.unwrap(x[np.array(columns)], axis=-1))
     return x
 
 
@@ -72,7 +100,7 @@ def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tup
     theta = jnp.arctan2(b * lifted - c * y, b * y + c * lifted)
     phi = _direction(lifted * x - a * z, a * x + lifted * z, at_pole)
     none = jnp.zeros_like(theta)
-    rest = jnp.einsum("jip,jkp->ikp", _matrix(from_angles(jnp.stack([theta, phi, none]))), line)
+    rest = jnp.einsum("jip,jkp->ikp", matrix(from_angles(jnp.stack([theta, phi, none]))), line)
     inner = between[:3, :3]
     turned = jnp.einsum("ji,jkp,kl,lmp->imp", inner, rest, inner, ball)
     return jnp.stack([theta, phi]), turned
@@ -90,10 +118,10 @@ def _on_plane(between: Float[Array, "4 4"], ball: Rotations) -> tuple[Array, Flo
     level = jnp.where(across > 0, jnp.sqrt(jnp.where(across > 0, across, 1.0)), 0.0)
     phi = jnp.arctan2(side * inner[2, 0], jnp.abs(inner[2, 2])) - jnp.arctan2(side * wz, level)
     none = jnp.zeros_like(phi)
-    leaned = jnp.einsum("ij,jkp->ikp", inner, _matrix(from_angles(jnp.stack([none, phi, none]))))
+    leaned = jnp.einsum("ij,jkp->ikp", inner, matrix(from_angles(jnp.stack([none, phi, none]))))
     vx, vy, _ = leaned[:, 0]
     about_normal = _direction(vx * wy - vy * wx, vx * wx + vy * wy, locked)
-    upright = _matrix(from_angles(jnp.stack([none, none, about_normal])))
+    upright = matrix(from_angles(jnp.stack([none, none, about_normal])))
     rolled = jnp.einsum("jip,kjp,klp->ilp", leaned, upright, turn)
     theta = jnp.arctan2(rolled[2, 1], rolled[1, 1])
     return jnp.stack([theta, phi, about_normal]), between[:2, 3, None] - _turned(about_normal, between)
@@ -118,5 +146,6 @@ def _between(before: Float[Array, "frames 4 4"], after: Float[Array, "frames 4 4
     return there.at[:3, :3].set(turned @ there[:3, :3]).at[:3, 3].set(turned @ (there[:3, 3] - here[:3, 3]))
 
 
-def _matrix(turn: Float[Array, "4 poses"]) -> Rotations:
+def matrix(turn: Float[Array, "4 poses"]) -> Rotations:
+    """The rotation matrix of a unit quaternion."""
     return jnp.stack([jnp.stack(column) for column in rotation_matrix(turn)], axis=1)

@@ -3,7 +3,8 @@
 A loop is travelled step by step. `R, t` is the displacement accumulated so far; every step leaves one column of the
 Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
 independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
-sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`).
+sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
+cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball.
 
 The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
 compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
@@ -21,7 +22,7 @@ from jaxtyping import Array, Float
 from jaxkin.solve.spins import Lines, spin_lines
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
-from jaxkin.solve.system import EQUATIONS, LoopSystem
+from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.trig import cos_sin
 
 Rotation = Float[Array, "3 3 *poses"]
@@ -47,21 +48,32 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     Columns follow `LoopSystem`, those of balls turn about world axes.
     """
     rotation, translation, twists = _travel(system, geometry, state)
-    (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
-    half = 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
-    residual = jnp.concatenate([half, translation]).swapaxes(0, 1)
-    loops = np.arange(len(system.loops), dtype=np.int32)
-    jacobian = twists[steps(system).source, :, loops].transpose(1, 2, 0, 3)
+    table, poses = steps(system), state.x.shape[-1]
+    loops, whole = np.arange(len(system.loops)), np.flatnonzero(table.cut_sign == 0)
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
-    rotated = jnp.sum((rotation - jnp.eye(3, dtype=rotation.dtype)[..., None, None]) ** 2, axis=(0, 1, 2))
-    moved = jnp.sum(translation**2, axis=(0, 1))
-    poses, equations = state.x.shape[-1], EQUATIONS * len(system.loops)
-    return (
-        residual.reshape(equations, poses),
-        jacobian.reshape(equations, system.columns, poses),
-        rotated,
-        moved,
-    )
+    turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
+    residual = jnp.concatenate([*jnp.moveaxis(_vee(rotation[:, :, whole]), 1, 0), *jnp.moveaxis(translation, 1, 0)])
+    rows = [twists[table.source[:, whole], :3, whole], twists[table.source, 3:, loops]]
+    jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
+    return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), jnp.sum(translation**2, axis=(0, 1))
+
+
+def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
+    """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it."""
+    if not any(cut is not None for cut in system.cuts):
+        return {}
+    rotation, _, _ = _travel(system, geometry, state)
+    found = {}
+    for loop, (cut, sign) in enumerate(zip(system.cuts, steps(system).cut_sign, strict=True)):
+        if cut is not None:
+            found[cut] = rotation[:, :, loop] if sign > 0 else rotation[:, :, loop].swapaxes(0, 1)
+    return found
+
+
+def _vee(rotation: Rotation) -> Vector:
+    """Half of what is not symmetric, as a vector: the sine of the angle along the axis."""
+    (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
+    return 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
 
 
 def _travel(
@@ -134,8 +146,8 @@ def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pit
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
     along = jnp.asarray(turned[table.axis], frames.dtype)
     enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
-    between = jnp.concatenate([enter[:1], leave[:-1] @ enter[1:]])
-    return Spatial(between, leave[-1], pitch, spin_lines(system, frames))
+    between = jnp.concatenate([_inverse(frames[table.begin])[None] @ enter[:1], leave[:-1] @ enter[1:]])
+    return Spatial(between, leave[-1] @ frames[table.end], pitch, spin_lines(system, frames))
 
 
 def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:

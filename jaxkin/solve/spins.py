@@ -1,25 +1,28 @@
 """Idle spins: a rod between two balls may turn about the line of their centres, and nothing else moves.
 
-The loops say nothing about such a spin. One equation more for each does: the balls turn as little as they can, counted
-from the assembled pose. With the turn `(w, v)` of either ball and the line `n`, which is fixed in the rod, that is
-`sum(+-w v.n) = 0`, where the sum of their `|v|^2` is least. So the same input gives the same pose by whatever way;
-after a thousand turns no spin is left behind, as it is by least-norm steps alone.
+The loops say nothing about such a spin, and least-norm steps leave some of it behind. What counts is that the balls
+turn as little as they can, counted from the assembled pose: with the turn `(w, v)` of either ball and the line `n`,
+which is fixed in the rod, the sum of their `|v|^2` is least. Spun by `phi` it is a constant less
+`(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and `b = sum w^2 - (v.n)^2`. So the same input gives the same pose
+by whatever way; after a thousand turns no spin is left behind.
 """
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Mapping
 
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
-from jaxkin.solve.state import State
+from jaxkin.solve.state import State, multiply
 from jaxkin.solve.system import LoopSystem
 
 Lines = Float[Array, "spins 2 3"]
-"""For each spin the line through its two balls, in the frames of both, with the sign of the turn that a spin gives."""
+"""For each spin the line through its two balls, in the frames that they have on the rod, signed as it turns them."""
+Rotations = Float[Array, "3 3 poses"]
+"""[row, column]."""
 
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
@@ -28,40 +31,60 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
     for chain in system.chains:
         of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
         first += len(chain)
-    balls, signs = _pairs(system)
-    ends = frames[np.array(of_ball, np.int32)[balls]]
+    table = np.array(system.spins, np.int32).reshape(-1, 4)
+    side = table[:, 2:]
+    ends = frames[np.array(of_ball, np.int32)[table[:, :2]] + np.where(side > 0, first, 0)]
     line = ends[:, 1, :3, 3] - ends[:, 0, :3, 3]
     line = line / jnp.sqrt(jnp.sum(line * line, axis=1, keepdims=True))
-    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(signs, frames.dtype)
+    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(side[..., None], frames.dtype)
 
 
-def spin_equations(
-    system: LoopSystem, lines: Lines, state: State
-) -> tuple[Float[Array, "spins poses"], Float[Array, "spins columns poses"]]:
-    """Residual and Jacobian of the equations."""
-    balls, _ = _pairs(system)
-    poses = state.x.shape[-1]
-    w, v = state.turns[balls, :1], state.turns[balls, 1:]
-    line = lines[..., None]
-    along = jnp.sum(v * line, axis=2, keepdims=True)
-    turned = w * w * line + w * jnp.cross(v, line, axis=2) - along * v
-    turned = jnp.concatenate([turned.reshape(-1, poses), jnp.zeros((1, poses), turned.dtype)])
-    return jnp.sum(2 * w * along, axis=(1, 2)), turned[_places(system)]
+def spin_angles(
+    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+) -> list[tuple[int, int, Float[Array, "3"], Float[Array, " poses"]]]:
+    """Of both balls of each rod: number, side, signed line, and the angle about it that leaves no spin behind."""
+    found = []
+    for (one, other, *sides), line in zip(system.spins, lines, strict=True):
+        a = b = 0.0
+        for ball, n in zip((one, other), line, strict=True):
+            a += n @ _vee(turns[ball])
+            b += 0.5 * (jnp.trace(turns[ball]) - jnp.einsum("i,ijp,j->p", n, turns[ball], n))
+        undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
+        phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
+        found += [(ball, side, n, phi) for ball, side, n in zip((one, other), sides, line, strict=True)]
+    return found
 
 
-@lru_cache(maxsize=256)
-def _pairs(system: LoopSystem) -> tuple[Int[np.ndarray, "spins 2"], Float[np.ndarray, "spins 2 1"]]:
-    """The two balls of each spin, and the signs of their turns."""
-    table = np.array(system.spins, np.int32).reshape(-1, 3)
-    return table[:, :2], np.stack([np.ones(len(table)), table[:, 2]], axis=1)[..., None]
+def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
+    """The turns of all balls, by number, with every rod spun to where its balls turn least."""
+    turns = dict(turns)
+    for ball, side, n, phi in spin_angles(system, lines, turns):
+        spin = _about(n, phi)
+        turns[ball] = jnp.einsum("ijp,jkp->ikp", *((turns[ball], spin) if side > 0 else (spin, turns[ball])))
+    return turns
 
 
-@lru_cache(maxsize=256)
-def _places(system: LoopSystem) -> Int[np.ndarray, "spins columns"]:
-    """For each entry of the Jacobian its number among the turns of the pairs, three a ball; behind them is a zero."""
-    balls, _ = _pairs(system)
-    places = np.full((len(balls), system.columns), 6 * len(balls), np.int32)
-    for spin, pair in enumerate(balls):
-        for end, ball in enumerate(pair):
-            places[spin, list(system.balls[ball])] = 6 * spin + 3 * end + np.arange(3)
-    return places
+def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
+    """The state with every rod spun so. `turns` are those of all its balls."""
+    quaternions = list(state.turns)
+    for ball, side, n, phi in spin_angles(system, lines, turns):
+        spin = jnp.concatenate([jnp.cos(0.5 * phi)[None], jnp.sin(0.5 * phi) * n[:, None]])
+        quaternions[ball] = multiply(*((quaternions[ball], spin) if side > 0 else (spin, quaternions[ball])))
+    return State(state.x, jnp.stack(quaternions)) if quaternions else state
+
+
+def _vee(rotation: Rotations) -> Float[Array, "3 poses"]:
+    """Half of what is not symmetric, as a vector: `2 w v`."""
+    (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation
+    return 0.5 * jnp.stack([zy - yz, xz - zx, yx - xy])
+
+
+def _about(axis: Float[Array, "3"], angle: Float[Array, " poses"]) -> Rotations:
+    """Rotations about a fixed axis (Rodrigues)."""
+    x, y, z = axis
+    cross = jnp.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]) * z
+    cross += jnp.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]) * y
+    cross += jnp.array([[0.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]) * x
+    along = jnp.outer(axis, axis)
+    cos, sin = jnp.cos(angle), jnp.sin(angle)
+    return along[..., None] + cos * (jnp.eye(3) - along)[..., None] + sin * cross[..., None]

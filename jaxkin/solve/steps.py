@@ -41,6 +41,12 @@ class Steps(NamedTuple):
     """Index of the frame in which the step begins: frames before, frames after, no frame."""
     leave: np.ndarray
     """Index of the frame in which it ends."""
+    begin: np.ndarray
+    """(loops,): frame in which the loop begins; no frame, or that behind the ball at which it is cut."""
+    end: np.ndarray
+    """(loops,): frame in which it ends; no frame, or that before the ball."""
+    cut_sign: np.ndarray
+    """(loops,): +1, or -1 where the ball at which it is cut is travelled from part 2 to part 1; 0 for whole loops."""
     source: np.ndarray
     """(columns, loops): the twist that is the column of the Jacobian, counted four a step (z, then the three of a
     ball); the one behind the last, which is zero, where the loop does not hold the coordinate."""
@@ -49,9 +55,12 @@ class Steps(NamedTuple):
 @lru_cache(maxsize=256)
 def steps(system: LoopSystem) -> Steps:
     """The tables of a system."""
-    loops = [_loop(system, loop) for loop in system.loops]
-    length = max(map(len, loops))
     frames = sum(map(len, system.movements))
+    loops, ends = zip(
+        *(_opened(_loop(system, loop), cut, 2 * frames) for loop, cut in zip(system.loops, system.cuts, strict=True)),
+        strict=True,
+    )
+    length = max(map(len, loops))
     idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 1, 2, 2 * frames, 2 * frames)
     filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops], np.int32)
     tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
@@ -63,7 +72,18 @@ def steps(system: LoopSystem) -> Steps:
         if ball < len(system.balls):
             columns = system.balls[ball]
             source[list(columns), loop] = 4 * step + 1 + np.arange(len(columns))
-    return Steps._make([*tables, source])
+    return Steps._make([*tables, *np.array(ends, np.int32).T, source])
+
+
+def _opened(
+    rows: list[tuple[int, ...]], cut: int | None, no_frame: int
+) -> tuple[list[tuple[int, ...]], tuple[int, int, int]]:
+    """The rows of a loop from behind the ball at which it is cut to before it; where it begins and ends; its sign."""
+    if cut is None:
+        return rows, (no_frame, no_frame, 0)
+    place = next(number for number, row in enumerate(rows) if row[6] == cut)
+    *_, enter, leave = ball = rows[place]
+    return rows[place + 1 :] + rows[:place], (leave, enter, ball[2])
 
 
 def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[int, ...]]:

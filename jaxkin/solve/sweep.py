@@ -28,14 +28,15 @@ from jaxkin.solve.knots import Knots, follow, guess
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
-from jaxkin.solve.reading import read_off
+from jaxkin.solve.reading import ball_turns, read_off, unwrapped
 from jaxkin.solve.state import assembled, difference, drive, driven
 from jaxkin.solve.status import Status, Tolerance, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 
 FARTHEST_CORRECTION = 0.1
 """Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
-GROUP = 256
+GROUP, CHUNK = 256, 1024
+"""Poses that are settled together, so that hard ones cost only few others; and whose balls are read off at once."""
 MANY = 8192
 """From so many poses on most are interpolated."""
 
@@ -68,9 +69,17 @@ def displacements(
     In radians and lengths of the mechanism; those of least residual where a pose did not close.
     """
     geometry, lengths = scaled(system, joints)
-    poses = lax.stop_gradient(poses)
-    state = attach(system, geometry, inputs / driven(system, lengths), poses.state, is_closed(poses.status))
-    return read_off(system, joints.before, joints.after, state._replace(x=state.x * lengths))
+
+    def read(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
+        inputs, poses = group
+        state = attach(system, geometry, inputs, poses.state, is_closed(poses.status))
+        turns = ball_turns(system, geometry, state)
+        return read_off(system, joints.before, joints.after, state.x * lengths, turns)
+
+    given = inputs / driven(system, lengths), lax.stop_gradient(poses)
+    if not system.balls:
+        return read(given)
+    return unwrapped(system, _in_groups(read, given, CHUNK))  # of all poses at once the matrices leave the cache
 
 
 def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
@@ -146,10 +155,10 @@ def _of_several_inputs(
     return _in_groups(settle, (at[1:], inputs))
 
 
-def _in_groups(function: Callable, poses):
-    """The function of some poses applied to all, in groups of equal size, so that hard ones cost only few others."""
+def _in_groups(function: Callable, poses, size: int = GROUP):
+    """The function of some poses applied to all, in groups of equal size."""
     count = jax.tree.leaves(poses)[0].shape[-1]
-    groups = -(-count // GROUP)
+    groups = -(-count // size)
     if groups <= 1:
         return function(poses)
     length = -(-count // groups)

@@ -6,7 +6,7 @@ coordinates that are driven. Coordinates of all joints stand one after another a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
 from typing import NamedTuple
@@ -14,9 +14,9 @@ from typing import NamedTuple
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.joints.screws import freedoms
 
-EQUATIONS, IN_PLANE = 6, 3
+EQUATIONS, IN_PLANE, CENTRE = 6, 3, 3
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
-one and two."""
+one and two; cut at a ball the latter three."""
 
 
 LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
@@ -30,9 +30,11 @@ class Form(NamedTuple):
 
     plane: tuple[int, ...] | None = None
     """If all joints move in parallel planes, the columns that do; None for loops in space."""
-    spins: tuple[tuple[int, int, int], ...] = ()
-    """Pairs of balls about whose line a rod spins idly: their numbers among the balls, and +1, or -1 where a spin turns
-    them in opposite directions."""
+    spins: tuple[tuple[int, int, int, int], ...] = ()
+    """Pairs of balls about whose line a rod spins idly: their numbers among the balls, and for each +1, or -1 where the
+    rod is part 1 of the pair."""
+    cut: bool = False
+    """Whether loops are cut at a ball where they can be: see `LoopSystem.cuts`."""
 
 
 @dataclass(frozen=True)
@@ -108,15 +110,42 @@ class LoopSystem:
         return self.form.plane
 
     @cached_property
-    def spins(self) -> tuple[tuple[int, int, int], ...]:
+    def cuts(self) -> tuple[int | None, ...]:
+        """For each loop the ball that it is cut at, None where it is whole.
+
+        A ball that is in no other loop turns as the rest of the loop wants it: what remains of the loop is that its
+        centre stays where it is, three equations in three coordinates less.
+        """
+        if self.plane is not None or not self.form.cut:
+            return (None,) * len(self.loops)
+        inside = [{ball for joint, _ in loop for *_, ball in self.chains[joint]} - {None} for loop in self.loops]
+        found: list[int | None] = []
+        for number, here in enumerate(inside):
+            elsewhere = set().union(*inside[:number], *inside[number + 1 :])
+            mine = [ball for ball in sorted(here - elsewhere) if self._may_be_cut(self.balls[ball])]
+            found.append(mine[-1] if mine else None)
+        return tuple(found)
+
+    def _may_be_cut(self, columns: tuple[int, ...]) -> bool:
+        return len(columns) == 3 and columns[0] not in self.driven
+
+    @cached_property
+    def spins(self) -> tuple[tuple[int, int, int, int], ...]:
         """See `Form`; without those of balls that are driven."""
         free = [columns[0] not in self.driven for columns in self.balls]
         return tuple(spin for spin in self.form.spins if free[spin[0]] and free[spin[1]])
 
     @property
+    def whole(self) -> LoopSystem:
+        """The same with no loop cut."""
+        return replace(self, form=self.form._replace(cut=False))
+
+    @property
     def equations(self) -> int:
-        """Number of rows of the Jacobian: those of the loops, then one a spin."""
-        return (EQUATIONS if self.plane is None else IN_PLANE) * len(self.loops) + len(self.spins)
+        """Number of rows of the Jacobian."""
+        if self.plane is not None:
+            return IN_PLANE * len(self.loops)
+        return sum(EQUATIONS if cut is None else CENTRE for cut in self.cuts)
 
     @cached_property
     def free(self) -> tuple[int, ...]:

@@ -26,7 +26,7 @@ def test_a_hexapod_follows_its_legs(shuffled):
 
 
 def test_which_rods_spin_idly():
-    assert rssr_linkage().forms[0].spins == ((0, 1, -1),)
+    assert rssr_linkage().forms[0].spins == ((0, 1, 1, -1),)
     assert len(hexapod().forms[0].spins) == 6 and len(delta().forms[0].spins) == 6
     assert spherical_linkage().forms[0].spins == ()
 

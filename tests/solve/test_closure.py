@@ -9,7 +9,7 @@ from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.geometry.pose import rotation
 from jaxkin.solve import closure as module
 from jaxkin.solve import spatial
-from jaxkin.solve.reading import as_state, read_off
+from jaxkin.solve.reading import as_state, matrix, read_off
 from jaxkin.solve.state import angles, assembled, from_angles, multiply, retract, rotation_matrix
 from jaxkin.solve.system import Form, LoopSystem
 
@@ -123,9 +123,9 @@ def test_what_is_read_off_is_what_was_put_in(loop):
     """However the frames of a chain lie to each other."""
     system, before, after, pitch, q = loop
     given = 0.3 * q  # farther away frames at random can lie so that two angles do not reach
-    read = read_off(system, before, after, as_state(system, before, after, given))
+    found = read(system, before, after, as_state(system, before, after, given))
     for index in range(len(CHAINS)):
-        one, other = (displacement(system, before, after, pitch, x, index) for x in (read, given))
+        one, other = (displacement(system, before, after, pitch, x, index) for x in (found, given))
         np.testing.assert_allclose(one, other, atol=1e-13)  # of lengths of order one, some products
 
 
@@ -144,10 +144,14 @@ def test_balls_roll_anywhere_and_are_read_off_right(off):
     step = jax.jit(retract, static_argnums=0)
     for _ in range(60):
         state = step(system, state, jnp.asarray(0.3 * rng.normal(size=(system.columns, 50))))
-    again = as_state(system, before, before, read_off(system, before, before, state))
+    again = as_state(system, before, before, read(system, before, before, state))
     geometry, _ = loop_geometry(system, before, before, (jnp.zeros(()),) * 2)
     one, other = (closure(system, geometry, each).gap for each in (state, again))
     np.testing.assert_allclose(one, other, rtol=1e-13)
+
+
+def read(system, before, after, state):
+    return read_off(system, before, after, state.x, {ball: matrix(turn) for ball, turn in enumerate(state.turns)})
 
 
 def nudge(rng, size):
