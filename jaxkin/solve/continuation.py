@@ -1,10 +1,10 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
-A step of a single input is predicted by the cubic through the last two states with their slopes, or by the secant
+A step is predicted by the cubic through the last two states with their slopes, or by the secant
 through them where a slope says nothing: it carries the motion through change points, where a plain warm start leaves
 the branch and no tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried,
 by turns with it.
-The motion of several inputs goes along the tangent only, since their way has corners. A step is taken only if the
+A step is taken only if the
 corrector stays near the prediction, and if the Jacobian keeps its orientation: where two branches nearly meet, a long
 step would go straight on to the other one. Where the motion ends (a limit of the range) the damped corrector goes on
 alone, towards the least residual. Where the loops close again behind such a gap the pose has jumped: no motion of the
@@ -14,7 +14,6 @@ substep evaluates the closure at one place, which keeps the compiled code small.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import jax
@@ -25,10 +24,11 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.solve.closure import Closure, Geometry
 from jaxkin.solve.correct import choose, correct, floor, free_jacobian
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.linear import is_turned_over, least_norm, scale
 from jaxkin.solve.state import State, assembled, difference, drive, driven_rate, rate, retract
 from jaxkin.solve.status import Status, classify, is_closed
 from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.way import Way
 
 FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.15
 """Radians, or characteristic lengths. A limit of the motion is approached to the shortest step; the damped corrector
@@ -47,10 +47,6 @@ START, FOLLOW, GAP = range(3)
 """Stages of a lane: closing the assembled pose, following the motion, beyond its limit."""
 
 
-Way = Callable[[Float[Array, " lanes"]], tuple[Float[Array, "driven lanes"], Float[Array, "driven lanes"]]]
-"""The inputs so far along the way, and their change from there on per unit of it."""
-
-
 class Front(NamedTuple):
     """Where the lanes stand."""
 
@@ -64,9 +60,9 @@ class Front(NamedTuple):
     slope: Float[Array, "columns lanes"]
     """Change of the coordinates per unit of that."""
     before: State
-    """The state one step back, of a single input."""
+    """The state one step back."""
     before_rate: State
-    """Its change per unit of the input."""
+    """Its change per unit of the way."""
     width: Float[Array, " lanes"]
     """How far back that was."""
     has_before: Bool[Array, " lanes"]
@@ -174,9 +170,7 @@ def substep(
 
 
 def _predicted(system: LoopSystem, front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:
-    """Where the motion is expected to be: on the cubic through two states with their slopes, or along the tangent."""
-    if len(system.driven) != 1:
-        return jax.tree.map(lambda x, d: x + moved * d, front.state, tangent)
+    """Where the motion is expected: on the cubic through two states with their slopes, or along secant or tangent."""
     s, w = moved / front.width, front.width
 
     def chord(x: Array, x_before: Array) -> Array:
@@ -199,12 +193,14 @@ def _turned_over(
 ) -> Bool[Array, " lanes"]:
     """Whether the determinant of the Jacobian has changed its sign, or what takes its place where it is not square.
 
-    That is `det(J0^T J1)`; a little on the diagonal makes columns count for which the Jacobian lacks rank.
+    That is `det(J0^T J1)`, or `det(J0 J1^T)`, which has the same sign; a little on the diagonal makes columns, or rows,
+    count for which the Jacobian lacks rank.
     """
-    product = jnp.einsum("eil,ejl->lij", before, after)
+    equations, columns, _ = before.shape
+    product = jnp.einsum("eil,ejl->ijl" if columns < equations else "eil,fil->efl", before, after)
     eps = float(jnp.finfo(before.dtype).eps)
     little = 0.1 * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
-    return jnp.linalg.det(product + little[:, None, None] * jnp.eye(before.shape[1], dtype=before.dtype)) < 0
+    return is_turned_over(product + little * jnp.eye(min(columns, equations), dtype=before.dtype)[..., None])
 
 
 def reach(
@@ -232,4 +228,4 @@ def slopes(
     jacobian = free_jacobian(system, closed)
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - least_norm(jacobian, right, floor(jacobian.dtype) * scale(jacobian))
+    return change - least_norm(jacobian, right, floor(jacobian.dtype) * scale(jacobian), system.used)

@@ -77,7 +77,7 @@ def correct(
         trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
         damping = (trust * jnp.minimum(2 * chosen.merit, 1.0) + floor(dtype)) * scale(jacobian)
-        delta = -least_norm(jacobian, chosen.residual, damping)
+        delta = -least_norm(jacobian, chosen.residual, damping, system.used)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))
         # below 32 eps^2 of the merit only rounding is left, as it is in long loops where a step gains nothing

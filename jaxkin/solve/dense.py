@@ -136,7 +136,7 @@ def _solve_nodes(
 def _newton(system: LoopSystem, geometry: Geometry, state: State, closed: Closure) -> tuple[State, Closure]:
     """A step of Newton's method, and the closure that it leads to."""
     jacobian = free_jacobian(system, closed)
-    delta = -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian))
+    delta = -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian), system.used)
     state = retract(system, state, delta)
     return state, closure(system, geometry, state)
 
@@ -146,8 +146,11 @@ def _inverse(
 ) -> Float[Array, "segments columns equations"]:
     """The inverse Jacobian of least norm; zero for what is driven."""
     unit, damping = jnp.eye(system.equations, dtype=jacobian.dtype), floor(jacobian.dtype) * scale(jacobian)
-    columns = jax.vmap(lambda e: least_norm(jacobian, jnp.broadcast_to(e[:, None], jacobian.shape[::2]), damping))(unit)
-    return jnp.transpose(columns, (2, 1, 0))
+
+    def column(unit: Array) -> Array:
+        return least_norm(jacobian, jnp.broadcast_to(unit[:, None], jacobian.shape[::2]), damping, system.used)
+
+    return jnp.transpose(jax.vmap(column)(unit), (2, 1, 0))
 
 
 def _at(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:

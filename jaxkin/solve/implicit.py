@@ -52,6 +52,6 @@ def _attach_jvp(system: LoopSystem, primals, tangents):
         return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_driven)
     jacobian = free_jacobian(system, closure(system, geometry, safe))
     damping = floor(jacobian.dtype) * scale(jacobian)
-    delta = -least_norm(jacobian, d_residual, damping, refine=True)
+    delta = -least_norm(jacobian, d_residual, damping, system.used, refine=True)
     d_state = jax.tree.map(jnp.add, d_driven, rate(system, safe, delta))
     return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_state)

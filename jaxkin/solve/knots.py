@@ -16,15 +16,16 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Geometry
-from jaxkin.solve.continuation import AT_LIMIT, Front, Way, arrived, start, substep
+from jaxkin.solve.continuation import AT_LIMIT, Front, arrived, start, substep
 from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
 from jaxkin.solve.reading import ball_turns
 from jaxkin.solve.state import State, difference, rate, retract
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.way import Way
 
-ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 1024, 4096, 2, 12
+ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 1024, 1024, 2, 12
 """Steps to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
 reach is STALLED. A full turn takes about fifty, and some fifty for each of its limits, several inputs in any order some
 eight a pose."""

@@ -7,24 +7,36 @@ construction: rounding never sets an idle coordinate in motion, as it does in th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 FEW, UNROLLED, MANY = 3, 9, 1024
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
 fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has."""
+PICKED = 0.75
+"""If no more of the columns are used they are picked: to carry a few zeros along costs less."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
 
 
-def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], refine: bool = False) -> Array:
+def least_norm(
+    jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int], *, refine: bool = False
+) -> Array:
     """The x of least norm that minimises |J x - r|^2 + damping |x|^2, for every pose: (columns, poses).
 
-    With `refine` one step of iterative refinement takes the bias of the damping out.
+    All columns but those `used` are zero. With `refine` one step of iterative refinement takes the bias of the damping
+    out.
     """
-    rows, _, poses = jacobian.shape
+    rows, columns, poses = jacobian.shape
+    if len(used) < PICKED * columns:
+        which = np.array(used, np.int32)
+        few = least_norm(jacobian[:, which], right, damping, range(len(used)), refine=refine)
+        return jnp.zeros((columns, poses), few.dtype).at[which].set(few)
     straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
     factored = (_unrolled if straight else _looped)(jacobian, damping)
 
@@ -44,6 +56,24 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
     if refine:
         x = x + transposed(solve(right - forward(x)))
     return x
+
+
+def is_turned_over(matrix: Float[Array, "rows rows poses"]) -> Bool[Array, " poses"]:
+    """Whether the determinants are negative, of matrices that are positive definite but where they have turned over.
+
+    Such need no pivoting; and no library, whose import would take as long as a small sweep.
+    """
+    n = matrix.shape[0]
+
+    def eliminate(k: Array | int, carry: tuple[Array, Array]) -> tuple[Array, Array]:
+        matrix, negative = carry
+        pivot = lax.dynamic_index_in_dim(matrix, k, axis=0, keepdims=False)
+        column = lax.dynamic_index_in_dim(matrix, k, axis=1, keepdims=False)
+        diagonal = lax.dynamic_index_in_dim(column, k, axis=0, keepdims=False)
+        factor = jnp.where(jnp.arange(n)[:, None] > k, column / diagonal, 0.0)
+        return matrix - factor[:, None] * pivot[None], negative ^ (diagonal < 0)
+
+    return lax.fori_loop(0, n, eliminate, (matrix, jnp.zeros(matrix.shape[-1], bool)))[1]
 
 
 def scale(jacobian: Matrix) -> Float[Array, " poses"]:

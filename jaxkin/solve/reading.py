@@ -43,7 +43,7 @@ def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
 def read_off(
     system: LoopSystem, before: Frames, after: Frames, x: Coordinates, turns: dict[int, Rotations]
 ) -> Coordinates:
-    """Displacements of all joints from those that are not of balls, and the turns of balls; lengths as in the frames."""
+    """Displacements of all joints from those that are not of balls, and turns of balls; lengths as in the frames."""
     turns = dict(turns)
     for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
         if columns[0] in system.driven:

@@ -4,7 +4,7 @@ The range of a single input is followed once, from the assembled pose to either 
 Between two knots every pose is predicted by cubic Hermite interpolation with exact slopes and brought to closure by
 Newton steps, all poses at once and in whatever order they come. Poses for which that does not hold are settled by the
 damped corrector alone, in small groups, so that they cost the others nothing. Several inputs are followed in the same
-way along the polyline of the poses in the order in which they are given; what that does not reach is tried in a
+way along a smooth curve through the poses in the order in which they are given; what that does not reach is tried in a
 straight line from the assembled pose.
 """
 
@@ -32,11 +32,13 @@ from jaxkin.solve.reading import ball_turns, read_off, unwrapped
 from jaxkin.solve.state import assembled, difference, drive, driven
 from jaxkin.solve.status import Status, Tolerance, classify, is_closed
 from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.way import curve_through
 
 FARTHEST_CORRECTION = 0.1
 """Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
-GROUP, CHUNK = 256, 1024
-"""Poses that are settled together, so that hard ones cost only few others; and whose balls are read off at once."""
+GROUP, LEAST_GROUP, ENTRIES, CHUNK = 256, 32, 16384, 1024
+"""Poses that are settled together: so few that hard ones cost only few others, and that their matrices, of so many
+entries, stay in the cache; and poses whose balls are read off at once."""
 MANY = 8192
 """From so many poses on most are interpolated."""
 
@@ -120,25 +122,16 @@ def _of_one_input(
         return _settle(system, geometry, knots, values, values[None], tolerance)
 
     if len(values) < MANY:
-        return _in_groups(settled, values)
-    return interpolate(system, geometry, knots, values, partial(_in_groups, settled))
+        return _in_groups(settled, values, _group(system))
+    return interpolate(system, geometry, knots, values, partial(_in_groups, settled, size=_group(system)))
 
 
 def _of_several_inputs(
     system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
 ) -> Poses:
-    """The poses along a polyline, and those that it does not reach."""
-    corners = jnp.concatenate([jnp.zeros_like(inputs[:, :1]), inputs], axis=1)
-    lengths = jnp.max(jnp.abs(jnp.diff(corners, axis=1)), axis=0)
-    at = jnp.concatenate([jnp.zeros_like(lengths[:1]), jnp.cumsum(lengths)])
-
-    def way(here: Float[Array, " lanes"]) -> tuple[Array, Array]:
-        before = jnp.clip(jnp.searchsorted(at, here, side="right") - 1, 0, len(lengths) - 1)
-        length = jnp.where(lengths[before] > 0, lengths[before], 1.0)
-        direction = (corners[:, before + 1] - corners[:, before]) / length
-        return corners[:, before] + (here - at[before]) * direction, direction
-
-    knots = follow(system, geometry, way, at[1:])
+    """The poses along a curve through all of them, and those that it does not reach."""
+    at, way = curve_through(inputs)
+    knots = follow(system, geometry, way, at)
 
     def settle(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
@@ -152,10 +145,15 @@ def _of_several_inputs(
 
         return lax.cond(any_lane(failed), otherwise, lambda: found)
 
-    return _in_groups(settle, (at[1:], inputs))
+    return _in_groups(settle, (at, inputs), _group(system))
 
 
-def _in_groups(function: Callable, poses, size: int = GROUP):
+def _group(system: LoopSystem) -> int:
+    """Poses that are settled together."""
+    return max(LEAST_GROUP, min(GROUP, ENTRIES // system.equations**2))
+
+
+def _in_groups(function: Callable, poses, size: int):
     """The function of some poses applied to all, in groups of equal size."""
     count = jax.tree.leaves(poses)[0].shape[-1]
     groups = -(-count // size)

@@ -153,6 +153,13 @@ class LoopSystem:
         return tuple(column for column in range(self.columns) if column not in self.driven)
 
     @cached_property
+    def used(self) -> tuple[int, ...]:
+        """The columns that are solved for: no others of the Jacobian count."""
+        follows = {column for cut in self.cuts if cut is not None for column in self.balls[cut]}
+        moves = self.free if self.plane is None else [column for column in self.free if column in self.plane]
+        return tuple(column for column in moves if column not in follows)
+
+    @cached_property
     def periodic(self) -> bool:
         """Whether a single coordinate is driven and it is an angle: a full turn more is the same input."""
         if len(self.driven) != 1:
