@@ -26,7 +26,7 @@ from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import least_norm, scale
 from jaxkin.solve.reading import at_rest
 from jaxkin.solve.state import State, assembled, difference, drive, rate, retract
-from jaxkin.solve.status import tolerance
+from jaxkin.solve.status import roundings, tolerance
 from jaxkin.solve.system import LoopSystem
 
 SEGMENTS, WITH_SPINS = 256, 512
@@ -65,7 +65,7 @@ def interpolate(
 ) -> Poses:
     """All poses from those at the nodes of the segments; `settle` finds those of a segment that cannot be trusted."""
     dtype, poses = values.dtype, values.shape[0]
-    eps = float(jnp.finfo(dtype).eps)
+    sharp, closes = roundings(dtype, SHARP), roundings(dtype, CLOSED)
     length = max(2 ** (poses - 1).bit_length() // (WITH_SPINS if system.spins else SEGMENTS), 1)
     # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
@@ -84,9 +84,9 @@ def interpolate(
             return state, closure(system, geometry, state).gap, difference(state, predicted)
 
         state, gap, moved = lax.cond(
-            any_lane(closed.gap > SHARP * eps), corrected, lambda: (predicted, closed.gap, jnp.zeros_like(here))
+            any_lane(closed.gap > sharp), corrected, lambda: (predicted, closed.gap, jnp.zeros_like(here))
         )
-        trusted = solid[number] & jnp.all((gap <= CLOSED * eps) & (moved <= CORRECTION))
+        trusted = solid[number] & jnp.all((gap <= closes) & (moved <= CORRECTION))
         segment = lax.cond(
             any_lane(~trusted),
             lambda: settle(here),

@@ -21,7 +21,7 @@ from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
 from jaxkin.solve.reading import ball_turns
 from jaxkin.solve.state import State, difference, rate, retract
-from jaxkin.solve.status import Status, is_closed
+from jaxkin.solve.status import Status, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import Way
 
@@ -81,7 +81,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     room = max(ROOM, each * min(values.shape[0], MOST_POSES))
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn = jnp.array([-TURN, TURN], dtype)
-    front, enough = start(system, 2, dtype), ENOUGH * float(jnp.finfo(dtype).eps)
+    front, enough = start(system, 2, dtype), roundings(dtype, ENOUGH)
     table = jnp.zeros((2 * room + 2, _row(system, front).shape[1]), dtype)
     nowhere, unknown = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.ones(2, bool)
 

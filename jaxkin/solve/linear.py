@@ -77,8 +77,9 @@ def is_turned_over(matrix: Float[Array, "rows rows poses"]) -> Bool[Array, " pos
 
 
 def scale(jacobian: Matrix) -> Float[Array, " poses"]:
-    """Mean square of the rows of J: what a damping is measured by."""
-    return jnp.sum(jacobian * jacobian, axis=(0, 1)) / jacobian.shape[0]
+    """Mean square of the rows of J: what a damping is measured by; one where nothing moves the loops."""
+    square = jnp.sum(jacobian * jacobian, axis=(0, 1)) / jacobian.shape[0]
+    return jnp.where(square > 0, square, 1.0)
 
 
 def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):

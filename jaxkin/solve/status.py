@@ -42,6 +42,11 @@ def tolerance(dtype) -> float:
     return 1e-12 if jnp.finfo(dtype).bits == 64 else 2e-6
 
 
+def roundings(dtype, times: int) -> float:
+    """So many units of rounding, but less than a closed pose may have as its residual: float32 has few to spare."""
+    return min(times * float(jnp.finfo(dtype).eps), 0.1 * tolerance(dtype))
+
+
 Scalar = Float[Array, ""] | Float[np.ndarray, ""]
 
 
