@@ -20,10 +20,12 @@ from jaxkin.motion.motion import Motion
 from jaxkin.motion.prepared import prepare
 from jaxkin.solve.compiled import Outcome, solve
 from jaxkin.solve.methods import CONTINUATION, METHODS
-from jaxkin.solve.status import Status, Tolerance
+from jaxkin.solve.status import Status, Tolerance, roundings
 from jaxkin.solve.status import tolerance as default_tolerance
 from jaxkin.topology.names import nearest
 
+ROUNDINGS = 16
+"""Units of rounding in the residual of a pose that is improved no further unless a tolerance is asked for."""
 SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
 """Of several loop systems the worst decides the status of the pose."""
 
@@ -61,14 +63,15 @@ def sweep(
     ]
     layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), tuple(element.columns for element in elements))
     inputs, *found = _collect(layout, values, solutions)
-    return Motion(mechanism, dict(zip(prepared.driven, inputs, strict=True)), *found)
+    # under `grad` JAX hands arrays of the host through as they are
+    return Motion(mechanism, dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True)), *found)
 
 
 def _tolerance(asked: float | None) -> Tolerance:
     """The tolerance asked for; without one that of the precision, and poses down to rounding."""
     dtype = dtypes.canonicalize_dtype(float)  # numbers of the host: to make arrays of the device takes longer
     if asked is None:
-        return Tolerance(np.asarray(default_tolerance(dtype), dtype), np.zeros((), dtype))
+        return Tolerance(*(np.asarray(gap, dtype) for gap in (default_tolerance(dtype), roundings(dtype, ROUNDINGS))))
     if not traced(asked) and not float(asked) > 0:
         raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}")
     given = jnp.asarray(asked, dtype) if traced(asked) else np.asarray(asked, dtype)
