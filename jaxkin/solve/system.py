@@ -118,7 +118,9 @@ class LoopSystem:
         """
         if self.plane is not None or not self.form.cut:
             return (None,) * len(self.loops)
-        inside = [{ball for joint, _ in loop for *_, ball in self.chains[joint]} - {None} for loop in self.loops]
+        inside = [
+            {ball for joint, _ in loop for *_, ball in self.chains[joint] if ball is not None} for loop in self.loops
+        ]
         found: list[int | None] = []
         for number, here in enumerate(inside):
             elsewhere = set().union(*inside[:number], *inside[number + 1 :])
