@@ -79,7 +79,7 @@ def _vee(rotation: Rotation) -> Vector:
 def _travel(
     system: LoopSystem, geometry: Spatial, state: State
 ) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
-    """Displacement of the ends of the loops, and the twists that the steps give to them, four a step and a zero."""
+    """Displacement of the ends of the loops, and the twists that the steps give to them, as in `Steps.source`."""
     table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
     turn, slide, screw, sign, side = (
         jnp.asarray(entry, dtype)[..., None]
@@ -108,14 +108,11 @@ def _travel(
     lever = translation - points
     turned = (sign * turn)[:, None] * along
     moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
-    twists = jnp.concatenate([turned, moved], axis=1)[:, None]
-    shape = (len(table.sign), 3, 6, len(system.loops), poses)
+    twists = jnp.concatenate([turned, moved], axis=1)
     if system.balls:
         spins = sign[:, None, None] * axes
         spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
-    else:
-        spins = jnp.zeros(shape, dtype)
-    twists = jnp.concatenate([twists, spins], axis=1).reshape(-1, *shape[2:])
+        twists = jnp.concatenate([twists[:, None], spins], axis=1).reshape(-1, *twists.shape[1:])
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 

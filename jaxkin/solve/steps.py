@@ -49,7 +49,8 @@ class Steps(NamedTuple):
     """(loops,): +1, or -1 where the ball at which it is cut is travelled from part 2 to part 1; 0 for whole loops."""
     source: np.ndarray
     """(columns, loops): the twist that is the column of the Jacobian, counted four a step (z, then the three of a
-    ball); the one behind the last, which is zero, where the loop does not hold the coordinate."""
+    ball), or one where there is no ball; the one behind the last, which is zero, where the loop does not hold the
+    coordinate."""
 
 
 @lru_cache(maxsize=256)
@@ -64,10 +65,11 @@ def steps(system: LoopSystem) -> Steps:
     idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 1, 2, 2 * frames, 2 * frames)
     filled = np.array([rows + [idle] * (length - len(rows)) for rows in loops], np.int32)
     tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
-    source = np.full((system.columns, len(loops)), 4 * length, np.int32)
+    each = 4 if system.balls else 1
+    source = np.full((system.columns, len(loops)), each * length, np.int32)
     for (step, loop), column in np.ndenumerate(tables[0]):
         if column < system.columns:
-            source[column, loop] = 4 * step
+            source[column, loop] = each * step
     for (step, loop), ball in np.ndenumerate(tables[6]):
         if ball < len(system.balls):
             columns = system.balls[ball]

@@ -3,7 +3,7 @@
 Along a polyline the motion would have to begin anew at every corner; along a curve a step may pass many poses. Each
 input is a cubic between any two poses. Its slope at a pose is that of the parabola through three of them, at most three
 times that of either chord if both rise or fall: then it is monotone (Fritsch and Carlson 1980). Where an input turns
-round it may go on by a seventh of its stride.
+round it goes on by a seventh of its stride at most.
 """
 
 from __future__ import annotations
@@ -46,8 +46,11 @@ def _slopes(
     before, behind = lengths[:-1], lengths[1:]
     both = jnp.where(before + behind > 0, before + behind, 1.0)
     parabola = (behind * left + before * right) / both
-    least = 3 * jnp.minimum(jnp.abs(left), jnp.abs(right))
-    inner = jnp.where(left * right > 0, jnp.clip(parabola, -least, least), parabola)
+    stride = jnp.maximum(jnp.abs(left) * before, jnp.abs(right) * behind)
+    turning = stride / jnp.where(before + behind > 0, jnp.maximum(before, behind), 1.0)
+    onward = 3 * jnp.minimum(jnp.abs(left), jnp.abs(right))
+    most = jnp.where(left * right > 0, onward, turning)
+    inner = jnp.clip(parabola, -most, most)
     return jnp.concatenate([chords[:, :1], inner, chords[:, -1:]], axis=1)
 
 

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.linear import is_turned_over, least_norm, scale
 
 
 @pytest.mark.parametrize("rows, columns, rank", [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12)])
@@ -28,3 +28,26 @@ def test_an_idle_coordinate_stays_exactly_at_rest():
     batched = jnp.asarray(jacobian)[..., None]
     x = least_norm(batched, jnp.asarray(jacobian @ rng.normal(size=6))[:, None], 1e-14 * scale(batched), range(6))
     np.testing.assert_allclose(null @ np.asarray(x)[:, 0], 0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("n", [1, 3, 6, 9])
+def test_what_has_turned_over_has_a_negative_determinant(n):
+    """Jacobians of two poses near each other, some with one axis mirrored between them."""
+    rng = np.random.default_rng(n)
+    one = rng.normal(size=(40, n, n))
+    mirror = np.broadcast_to(np.eye(n), one.shape).copy()
+    mirror[::3, 0, 0] = -1.0
+    product = one @ mirror @ np.swapaxes(one + 0.05 * rng.normal(size=one.shape), 1, 2)
+    found = is_turned_over(jnp.moveaxis(jnp.asarray(product), 0, -1))
+    np.testing.assert_array_equal(found, np.linalg.det(product) < 0)
+
+
+def test_only_used_columns_are_solved_for():
+    """The same as with all columns, of which the others are zero."""
+    rng = np.random.default_rng(0)
+    jacobian = rng.normal(size=(6, 20, 7))
+    jacobian[:, 8:] = 0.0
+    right = jnp.asarray(rng.normal(size=(6, 7)))
+    damping = jnp.full(7, 1e-3)
+    one, other = (least_norm(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
+    np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)

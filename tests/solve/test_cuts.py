@@ -1,0 +1,111 @@
+"""Loops cut at a ball against the same loops whole, and rods without spin against trying all spins."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.solve.closure import closure
+from jaxkin.solve.compiled import solve
+from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.spins import without_spin
+from jaxkin.solve.state import assembled, retract
+from jaxkin.solve.status import Status, Tolerance
+from jaxkin.solve.sweep import scaled
+from jaxkin.solve.system import Form, LoopSystem
+from reference.catalogue import delta, hexapod
+from reference.mechanisms import ball_in_bore, rssr_linkage
+
+
+def systems(mechanism, drive, **changed):
+    """The one structure element of a mechanism, cut and whole, and its joints."""
+    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
+    cut = block_system(mechanism, block, inside, form._replace(**changed))
+    return cut, cut.whole, block_joints(mechanism, block)
+
+
+def test_a_cut_leaves_three_equations_and_takes_three_unknowns():
+    cut, whole, _ = systems(rssr_linkage(), ["A"])
+    assert (whole.equations, len(whole.used)) == (6, 7) and (cut.equations, len(cut.used)) == (3, 4)
+    cut, whole, _ = systems(hexapod(), [f"leg {i}" for i in range(6)])
+    assert (whole.equations, len(whole.used)) == (30, 36) and (cut.equations, len(cut.used)) == (15, 21)
+
+
+def test_only_a_ball_of_one_loop_that_nothing_drives_is_cut():
+    cut, _, _ = systems(delta(), [f"motor {i}" for i in range(3)])
+    inside = [{ball for joint, _ in loop for *_, ball in cut.chains[joint]} for loop in cut.loops]
+    for number, (ball, _) in enumerate(zip(cut.cuts, inside, strict=True)):
+        others = set().union(*inside[:number], *inside[number + 1 :])
+        assert ball is None or (ball in inside[number] and ball not in others)
+    assert any(ball is not None for ball in cut.cuts) and any(ball is None for ball in cut.cuts)
+    driven, _, _ = systems(ball_in_bore(), ["A"])
+    free = LoopSystem(driven.movements, driven.loops, driven.balls[0], driven.form)
+    assert free.cuts == (None,)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "make, drive, spins",
+    [(rssr_linkage, {"A": 3.0}, True), (rssr_linkage, {"A": 3.0}, False), (ball_in_bore, {"A": 3.0}, True)]
+    + [(delta, {"motor 0": 0.2, "motor 1": -0.1, "motor 2": 0.15}, True)],
+)
+def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
+    """The same displacements of all joints; without spins taken out, of all but the balls of the rods."""
+    mechanism = make()
+    cut, whole, joints = systems(mechanism, drive, **({} if spins else {"spins": ()}))
+    range_ = np.linspace(0.0, 1.0, 32)
+    inputs = jnp.asarray([upto * range_ for upto in drive.values()])
+    tolerance = Tolerance(np.asarray(1e-12), np.asarray(0.0))
+    one, other = (solve(system, CONTINUATION, joints, inputs, tolerance) for system in (cut, whole))
+    for _, outcome in (one, other):
+        assert np.all(np.asarray(outcome.status) == Status.CLOSED.value)
+    turning = {column for columns in cut.balls for column in columns}
+    compared = [column for column in range(cut.columns) if spins or column not in turning]
+    # residuals of 1e-15 over singular values of some 0.1, lengths of some 100
+    np.testing.assert_allclose(np.asarray(one[0])[compared], np.asarray(other[0])[compared], atol=1e-11)
+
+
+def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual():
+    cut, _, joints = systems(rssr_linkage(), ["A"])
+    geometry, _ = scaled(cut, joints)
+    rng = np.random.default_rng(3)
+    state = retract(cut, assembled(cut, 1, jnp.float64), jnp.asarray(0.3 * rng.normal(size=(cut.columns, 1))))
+    along = jnp.asarray(rng.normal(size=(cut.columns, 1)))
+
+    def residual(t):
+        return closure(cut, geometry, retract(cut, state, t * along)).residual[:, 0]
+
+    found = closure(cut, geometry, state).jacobian[..., 0] @ along[:, 0]
+    # anywhere, not only where the loop closes: the rows are of a point
+    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=1e-14)
+
+
+@pytest.mark.parametrize("sides", [(1, -1), (1, 1), (-1, -1)])
+def test_rods_are_spun_to_where_their_balls_turn_least(sides):
+    system = LoopSystem(
+        (("T_theta_phi_psi",), ("T_theta_phi_psi",)), (((0, 1), (1, 1)),), (), Form(spins=((0, 1, *sides),))
+    )
+    rng = np.random.default_rng(5 + sum(sides))
+    turns = Rotation.random(2, rng)
+    lines = rng.normal(size=(2, 3))
+    lines /= np.linalg.norm(lines, axis=1, keepdims=True)
+
+    def spun(phi):
+        both = (Rotation.from_rotvec(phi * line) for line in lines)
+        return [t * s if side > 0 else s * t for t, s, side in zip(turns, both, sides, strict=True)]
+
+    def turned(rotations):
+        return sum(1 - r.as_quat()[3] ** 2 for r in rotations)
+
+    least = min(turned(spun(phi)) for phi in np.linspace(-np.pi, np.pi, 2001))
+    given = {ball: jnp.asarray(turn.as_matrix())[..., None] for ball, turn in enumerate(turns)}
+    found = without_spin(system, jnp.asarray(lines)[None], given)
+    rested = [Rotation.from_matrix(np.asarray(found[ball])[..., 0]) for ball in (0, 1)]
+    # the best of 2001 is off by (pi / 1000)^2 at most, and never better
+    assert least - 1e-5 < turned(rested) <= least + 1e-14
+    for ball in (0, 1):  # and nothing but a spin was added
+        changed = (turns[ball].inv() * rested[ball]) if sides[ball] > 0 else (rested[ball] * turns[ball].inv())
+        np.testing.assert_allclose(np.cross(changed.as_rotvec(), lines[ball]), 0.0, atol=1e-14)
