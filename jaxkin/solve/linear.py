@@ -36,7 +36,7 @@ def least_norm(
     if len(used) < PICKED * columns:
         which = np.array(used, np.int32)
         few = least_norm(jacobian[:, which], right, damping, range(len(used)), refine=refine)
-        return jnp.zeros((columns, poses), few.dtype).at[which].set(few)
+        return jnp.zeros((columns, poses), few.dtype).at[which].set(few, unique_indices=True)
     straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
     factored = (_unrolled if straight else _looped)(jacobian, damping)
 

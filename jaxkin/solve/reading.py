@@ -57,7 +57,7 @@ def read_off(
             first = columns[2] - 2
             found, moved = _on_plane(_between(before[joint], after[joint], frame - 1), turns[ball])
             x = x.at[first : first + 2].add(moved)
-        x = x.at[np.array(columns)].set(found)
+        x = x.at[np.array(columns)].set(found, unique_indices=True)
     return x
 
 
@@ -65,7 +65,7 @@ def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
     """Displacements without leaps in the angles of balls from pose to pose."""
     for columns in system.balls:
         if columns[0] not in system.driven:
-            x = x.at[np.array(columns)].set(jnp.unwrap(x[np.array(columns)], axis=-1))
+            x = x.at[np.array(columns)].set(jnp.unwrap(x[np.array(columns)], axis=-1), unique_indices=True)
     return x
 
 

@@ -4,6 +4,8 @@ The programs are lowered, not compiled: operations are counted as they are writt
 """
 
 from dataclasses import replace
+from functools import partial
+from unittest.mock import patch
 
 import jax
 import jax.numpy as jnp
@@ -12,6 +14,7 @@ import pytest
 
 from jaxkin.joints.pairs import revolute
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.solve import spatial
 from jaxkin.solve.closure import closure, loop_geometry
 from jaxkin.solve.compiled import _solve, solve
 from jaxkin.solve.state import assembled
@@ -63,19 +66,25 @@ def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None)
     ((system, _, joints, *_),) = solved(mechanism, {joint: RANGE})
     system = system if form is None else replace(system, form=form)
     geometry, _ = loop_geometry(system, *joints)
-    return operations(closure, system, geometry, assembled(system, 100, jnp.zeros(0).dtype))
+    # the travel along a loop written out: XLA counts the body of a loop once
+    with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):
+        return operations(closure, system, geometry, assembled(system, 100, jnp.zeros(0).dtype))
 
 
 @pytest.mark.long
 def test_equations_that_a_planar_loop_lacks_are_absent(solved):
-    """The same four-bar in its plane and in space, where the travel along the loop counts as one step."""
+    """The same four-bar in its plane and in space."""
     assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", Form())
 
 
 @pytest.mark.long
 def test_turns_of_balls_are_absent_where_there_is_none(solved):
-    """Four hinges about one point, and a linkage of as many joints of which two are balls."""
-    assert closures(spherical_linkage(), solved, "A") < 0.75 * closures(rssr_linkage(), solved, "A")
+    """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
+    hinges, cut, whole = (
+        closures(mechanism, solved, "A", form)
+        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), Form()))
+    )
+    assert hinges < 0.75 * whole and cut < 0.75 * whole
 
 
 def test_what_is_not_read_is_not_computed(solved):
