@@ -21,8 +21,14 @@ from jaxkin.solve.status import Tolerance
 from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
 
-OPTIONS = {"xla_cpu_use_fusion_emitters": False, "xla_cpu_experimental_ynn_fusion_type": ""}
-"""With its newer emitters XLA takes 1.7 times as long to compile the solver for the CPU, for a program no faster."""
+OPTIONS = {
+    "xla_cpu_use_fusion_emitters": False,
+    "xla_cpu_experimental_ynn_fusion_type": "",
+    "xla_cpu_multi_thread_eigen": False,
+}
+"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, for a program no faster. It is
+made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads, takes
+longer than they do. (Several cores are used as several devices: each has poses of its own.)"""
 
 
 class Outcome(NamedTuple):
