@@ -26,8 +26,9 @@ OPTIONS = {
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
 }
-"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, for a program no faster. It is
-made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads,
+"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, for a program no faster.
+
+It is made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads,
 takes longer than they do. (Several cores are used as several devices: each has poses of its own.)"""
 
 
