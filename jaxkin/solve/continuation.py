@@ -1,15 +1,13 @@
 """Continuation: from the assembled pose towards a target, in steps as long as they are safe.
 
-A step is predicted by the cubic through the last two states with their slopes, or by the secant
-through them where a slope says nothing: it carries the motion through change points, where a plain warm start leaves
-the branch and no tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried,
-by turns with it.
-A step is taken only if the
-corrector stays near the prediction, and if the Jacobian keeps its orientation: where two branches nearly meet, a long
-step would go straight on to the other one. Where the motion ends (a limit of the range) the damped corrector goes on
-alone, towards the least residual. Where the loops close again behind such a gap the pose has jumped: no motion of the
-input led there. (The orientation would not tell: two circuits can share it.) Several lanes march side by side; each
-substep evaluates the closure at one place, which keeps the compiled code small.
+A step is predicted by the cubic through the last two states with their slopes, or by the secant through them where a
+slope says nothing: it carries the motion through change points, where a plain warm start leaves the branch and no
+tangent is unique. Where that fails, as it does near a limit behind a long step, the tangent is tried, by turns with
+it. A step is taken only if the corrector stays near the prediction, and if the Jacobian keeps its orientation: where
+two branches nearly meet, a long step would go straight on to the other one. Where the motion ends (a limit of the
+range) the damped corrector goes on alone, towards the least residual. Where the loops close again behind such a gap
+the pose has jumped: no motion of the input led there. (The orientation would not tell: two circuits can share it.)
+Several lanes march side by side; each substep evaluates the closure at one place, which keeps the compiled code small.
 """
 
 from __future__ import annotations

@@ -14,8 +14,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure import Geometry
 from jaxkin.solve.spatial import Spatial, cut_turns
-from jaxkin.solve.spins import Rotations, rested, without_spin
-from jaxkin.solve.state import Coordinates, State, angles, from_angles, multiply, rotation_matrix
+from jaxkin.solve.spins import rested, without_spin
+from jaxkin.solve.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply
 from jaxkin.solve.system import LoopSystem
 
 Frames = tuple[Float[Array, "_ 4 4"], ...]
@@ -144,8 +144,3 @@ def _between(before: Float[Array, "frames 4 4"], after: Float[Array, "frames 4 4
     here, there = jnp.asarray(after[frame], float), jnp.asarray(before[frame + 1], float)
     turned = here[:3, :3].T
     return there.at[:3, :3].set(turned @ there[:3, :3]).at[:3, 3].set(turned @ (there[:3, 3] - here[:3, 3]))
-
-
-def matrix(turn: Float[Array, "4 poses"]) -> Rotations:
-    """The rotation matrix of a unit quaternion."""
-    return jnp.stack([jnp.stack(column) for column in rotation_matrix(turn)], axis=1)

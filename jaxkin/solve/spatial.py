@@ -19,7 +19,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.spins import Lines, spin_lines
+from jaxkin.solve.spins import Lines, spin_lines, vee
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
 from jaxkin.solve.system import LoopSystem
@@ -52,7 +52,9 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     loops, whole = np.arange(len(system.loops)), np.flatnonzero(table.cut_sign == 0)
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
-    residual = jnp.concatenate([*jnp.moveaxis(_vee(rotation[:, :, whole]), 1, 0), *jnp.moveaxis(translation, 1, 0)])
+    residual = jnp.concatenate(
+        [*jnp.moveaxis(vee(rotation[:, :, whole].swapaxes(0, 1)), 1, 0), *jnp.moveaxis(translation, 1, 0)]
+    )
     rows = [twists[table.source[:, whole], :3, whole], twists[table.source, 3:, loops]]
     jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), jnp.sum(translation**2, axis=(0, 1))
@@ -68,12 +70,6 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
         if cut is not None:
             found[cut] = rotation[:, :, loop] if sign > 0 else rotation[:, :, loop].swapaxes(0, 1)
     return found
-
-
-def _vee(rotation: Rotation) -> Vector:
-    """Half of what is not symmetric, as a vector: the sine of the angle along the axis."""
-    (_, x1, x2), (y0, _, y2), (z0, z1, _) = rotation
-    return 0.5 * jnp.stack([y2 - z1, z0 - x2, x1 - y0])
 
 
 def _travel(

@@ -16,13 +16,11 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
-from jaxkin.solve.state import State, multiply
+from jaxkin.solve.state import Rotations, State, matrix, multiply
 from jaxkin.solve.system import LoopSystem
 
 Lines = Float[Array, "spins 2 3"]
 """For each spin the line through its two balls, in the frames that they have on the rod, signed as it turns them."""
-Rotations = Float[Array, "3 3 poses"]
-"""[row, column]."""
 
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
@@ -39,52 +37,43 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
     return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(side[..., None], frames.dtype)
 
 
-def spin_angles(
+def _spins(
     system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
-) -> list[tuple[int, int, Float[Array, "3"], Float[Array, " poses"]]]:
-    """Of both balls of each rod: number, side, signed line, and the angle about it that leaves no spin behind."""
+) -> list[tuple[int, int, Float[Array, "4 poses"]]]:
+    """Of both balls of each rod: number, side, and the turn about the line that leaves no spin behind."""
     found = []
     for (one, other, *sides), line in zip(system.spins, lines, strict=True):
         a = b = 0.0
         for ball, n in zip((one, other), line, strict=True):
-            a += n @ _vee(turns[ball])
+            a += n @ vee(turns[ball])
             b += 0.5 * (jnp.trace(turns[ball]) - jnp.einsum("i,ijp,j->p", n, turns[ball], n))
         undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
         phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
-        found += [(ball, side, n, phi) for ball, side, n in zip((one, other), sides, line, strict=True)]
+        cos, sin = jnp.cos(0.5 * phi)[None], jnp.sin(0.5 * phi)
+        spins = [jnp.concatenate([cos, sin * n[:, None]]) for n in line]
+        found += zip((one, other), sides, spins, strict=True)
     return found
 
 
 def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
     """The turns of all balls, by number, with every rod spun to where its balls turn least."""
     turns = dict(turns)
-    for ball, side, n, phi in spin_angles(system, lines, turns):
-        spin = _about(n, phi)
-        turns[ball] = jnp.einsum("ijp,jkp->ikp", *((turns[ball], spin) if side > 0 else (spin, turns[ball])))
+    for ball, side, spin in _spins(system, lines, turns):
+        pair = turns[ball], matrix(spin)
+        turns[ball] = jnp.einsum("ijp,jkp->ikp", *(pair if side > 0 else pair[::-1]))
     return turns
 
 
 def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
     """The state with every rod spun so. `turns` are those of all its balls."""
     quaternions = list(state.turns)
-    for ball, side, n, phi in spin_angles(system, lines, turns):
-        spin = jnp.concatenate([jnp.cos(0.5 * phi)[None], jnp.sin(0.5 * phi) * n[:, None]])
-        quaternions[ball] = multiply(*((quaternions[ball], spin) if side > 0 else (spin, quaternions[ball])))
+    for ball, side, spin in _spins(system, lines, turns):
+        pair = quaternions[ball], spin
+        quaternions[ball] = multiply(*(pair if side > 0 else pair[::-1]))
     return State(state.x, jnp.stack(quaternions)) if quaternions else state
 
 
-def _vee(rotation: Rotations) -> Float[Array, "3 poses"]:
-    """Half of what is not symmetric, as a vector: `2 w v`."""
+def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
+    """Half of what is not symmetric, as a vector: the sine of the angle along the axis, `2 w v` of a quaternion."""
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation
     return 0.5 * jnp.stack([zy - yz, xz - zx, yx - xy])
-
-
-def _about(axis: Float[Array, "3"], angle: Float[Array, " poses"]) -> Rotations:
-    """Rotations about a fixed axis (Rodrigues)."""
-    x, y, z = axis
-    cross = jnp.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]]) * z
-    cross += jnp.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]) * y
-    cross += jnp.array([[0.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]) * x
-    along = jnp.outer(axis, axis)
-    cos, sin = jnp.cos(angle), jnp.sin(angle)
-    return along[..., None] + cos * (jnp.eye(3) - along)[..., None] + sin * cross[..., None]

@@ -18,6 +18,8 @@ from jaxkin.solve.system import LoopSystem
 
 Coordinates = Float[Array, "columns poses"]
 Quaternions = Float[Array, "balls 4 poses"]
+Rotations = Float[Array, "3 3 poses"]
+"""[row, column]."""
 
 
 class State(NamedTuple):
@@ -175,6 +177,11 @@ def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
         [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)],
         [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)],
     ]
+
+
+def matrix(turn: Float[Array, "4 poses"]) -> Rotations:
+    """The rotation matrix of a unit quaternion."""
+    return jnp.stack([jnp.stack(column) for column in rotation_matrix(turn)], axis=1)
 
 
 def angles(rotation: Float[Array, "3 3 poses"]) -> Float[Array, "3 poses"]:

@@ -42,19 +42,14 @@ def _slopes(
     chords: Float[Array, "driven stretches"], lengths: Float[Array, " stretches"]
 ) -> Float[Array, "driven corners"]:
     """Slopes at the corners, from those of the chords on either side: of stretches of no length there are none."""
-    left, right = (jnp.where(length > 0, chord, other) for length, chord, other in _sides(chords, lengths))
     before, behind = lengths[:-1], lengths[1:]
-    both = jnp.where(before + behind > 0, before + behind, 1.0)
-    parabola = (behind * left + before * right) / both
+    left = jnp.where(before > 0, chords[:, :-1], chords[:, 1:])
+    right = jnp.where(behind > 0, chords[:, 1:], chords[:, :-1])
+    still = before + behind == 0
+    parabola = (behind * left + before * right) / jnp.where(still, 1.0, before + behind)
     stride = jnp.maximum(jnp.abs(left) * before, jnp.abs(right) * behind)
-    turning = stride / jnp.where(before + behind > 0, jnp.maximum(before, behind), 1.0)
+    turning = stride / jnp.where(still, 1.0, jnp.maximum(before, behind))
     onward = 3 * jnp.minimum(jnp.abs(left), jnp.abs(right))
     most = jnp.where(left * right > 0, onward, turning)
     inner = jnp.clip(parabola, -most, most)
     return jnp.concatenate([chords[:, :1], inner, chords[:, -1:]], axis=1)
-
-
-def _sides(chords: Array, lengths: Array) -> tuple[tuple[Array, Array, Array], tuple[Array, Array, Array]]:
-    """Length and chord of the stretches before and behind each inner corner, and the other chord."""
-    left, right = chords[:, :-1], chords[:, 1:]
-    return (lengths[:-1], left, right), (lengths[1:], right, left)

@@ -9,8 +9,8 @@ from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
 from jaxkin.geometry.pose import rotation
 from jaxkin.solve import closure as module
 from jaxkin.solve import spatial
-from jaxkin.solve.reading import as_state, matrix, read_off
-from jaxkin.solve.state import angles, assembled, from_angles, multiply, retract, rotation_matrix
+from jaxkin.solve.reading import as_state, read_off
+from jaxkin.solve.state import angles, assembled, from_angles, matrix, multiply, retract
 from jaxkin.solve.system import Form, LoopSystem
 
 closure = jax.jit(module.closure, static_argnums=0)
@@ -176,7 +176,7 @@ def test_angles_at_the_lock_give_the_same_rotation():
 
 
 def matrices(given):
-    return jnp.stack([jnp.stack(column) for column in rotation_matrix(from_angles(given))], axis=1)
+    return matrix(from_angles(given))
 
 
 @pytest.mark.long
