@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.design.problem import HOPELESS, Problem
-from jaxkin.design.solvers import CHUNK, Solver, in_groups, unit_box
+from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.compiled import jit_options
 from jaxkin.solve.outside import jaxopt
 
@@ -22,8 +22,8 @@ HALVINGS = 15
 """Trials of a line search, each 0.4 times as long as the one before."""
 
 
-def bounded(problem: Problem) -> Solver:
-    """Bounded L-BFGS on vectors scaled to 0..1."""
+def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
+    """Bounded L-BFGS on vectors scaled to 0..1, `together` designs in a compiled program."""
     lower, width = unit_box(problem.variables.lower, problem.variables.upper)
     bounds = (jnp.zeros_like(lower), jnp.where(width > 0, 1.0, 0.0))
 
@@ -68,11 +68,11 @@ def bounded(problem: Problem) -> Solver:
     def begin(vectors, weight):
         span = np.where(width > 0, width, 1.0)
         units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
-        return in_groups(lambda group: first(group, weight), units, np.arange(len(units)))
+        return in_groups(lambda group: first(group, weight), together, units)
 
     def advance(state, weight, active):
         chosen = np.flatnonzero(active)
-        found, values = in_groups(lambda group: further(group, weight), state, chosen)
+        found, values = in_groups(lambda group: further(group, weight), together, state, chosen)
         losses = np.full((CHUNK, len(active)), np.nan)
         losses[:, chosen] = values.T
 
@@ -86,7 +86,7 @@ def bounded(problem: Problem) -> Solver:
     judged = jax.jit(jax.vmap(problem.judge), **jit_options())
 
     def judge(vectors):
-        found = in_groups(judged, np.asarray(vectors), np.arange(len(vectors)))
+        found = in_groups(judged, together, np.asarray(vectors))
         losses = found.rows[:, 0]
         return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
 

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin.design.problem import HOPELESS, Problem
-from jaxkin.design.solvers import CHUNK, Solver, in_groups, unit_box
+from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.compiled import jit_options
 
 DAMPING, LEAST_DAMPING = 1e-3, 1e-16
@@ -30,10 +30,10 @@ class _State(NamedTuple):
     """What the damping is multiplied by if the next step is refused."""
 
 
-def least_squares(problem: Problem) -> Solver:
+def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     """Levenberg-Marquardt with projection: each step is that of the variables which are not held by a bound.
 
-    One program is compiled, residuals and Jacobian of a few designs; the small systems are solved in numpy.
+    One program is compiled, residuals and Jacobian of `together` designs; the small systems are solved in numpy.
     """
     lower, width = unit_box(problem.variables.lower, problem.variables.upper)
     count = jax.eval_shape(problem.judge, lower).rows.shape[0]
@@ -50,13 +50,13 @@ def least_squares(problem: Problem) -> Solver:
 
         return jax.vmap(one)(units)
 
-    def evaluated(units, weight, chosen):
-        return in_groups(lambda group: program(group, weight), units, chosen)
+    def evaluated(units, weight):
+        return in_groups(lambda group: program(group, weight), together, units)
 
     def begin(vectors, weight):
         span = np.where(width > 0, width, 1.0)
         units = np.clip((np.asarray(vectors) - lower) / span, 0.0, 1.0)
-        residuals, jacobian = evaluated(units, weight, np.arange(len(units)))
+        residuals, jacobian = evaluated(units, weight)
         damping = DAMPING * _largest(jacobian) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
 
@@ -64,10 +64,9 @@ def least_squares(problem: Problem) -> Solver:
         losses = np.full((CHUNK, len(active)), np.nan)
         chosen = np.flatnonzero(active)
         now = _State(*(each[chosen] for each in state))
-        everyone = np.arange(len(chosen))
         for row in losses:
             units, foreseen = _proposed(now)
-            now = _judged(now, units, foreseen, *evaluated(units, weight, everyone))
+            now = _judged(now, units, foreseen, *evaluated(units, weight))
             row[chosen] = _loss(now.residuals)
         whole = [each.copy() for each in state]
         for each, part in zip(whole, now, strict=True):

@@ -17,7 +17,7 @@ from jaxkin.design.least_squares import least_squares
 from jaxkin.design.objectives import Objective
 from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
-from jaxkin.design.solvers import CHUNK, Solver
+from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
@@ -93,7 +93,7 @@ def optimize(
     checked_shape(problem, jnp.asarray(chosen.start))
     began = time.perf_counter()
     first = _first(problem)
-    solver = (least_squares if squares else bounded)(problem)
+    solver = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
     vectors, weight = _best_of(solver, pool, starts)
     weight = penalty if penalty is not None else weight

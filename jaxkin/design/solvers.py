@@ -13,7 +13,8 @@ from jaxtyping import Array, Bool, Float, Int
 CHUNK = 10
 """Iterations between two looks at the losses."""
 TOGETHER = 8
-"""Starts that go through one call of the compiled program: few wait for the slowest, and none for those retired."""
+"""Designs that go through one call of the compiled program at most: few wait for the slowest, and none for retired
+starts."""
 
 
 class Solver(NamedTuple):
@@ -30,13 +31,19 @@ class Solver(NamedTuple):
     """Losses, nan where not finite, and roots of the sums of squares of violations, of some vectors."""
 
 
-def in_groups(program: Callable[[Any], Any], starts: Any, chosen: Int[np.ndarray, " chosen"]) -> Any:
-    """What a compiled program of few starts gives for the chosen ones of a pytree, in their order, in host memory."""
-    count = len(jax.tree.leaves(starts)[0])
+def in_groups(
+    program: Callable[[Any], Any], size: int, starts: Any, chosen: Int[np.ndarray, " chosen"] | None = None
+) -> Any:
+    """What a compiled program of `size` designs gives for the chosen ones of a pytree, in their order, in host memory.
+
+    The last group is filled up: for each other number of designs the program would be compiled anew.
+    """
+    if chosen is None:
+        chosen = np.arange(len(jax.tree.leaves(starts)[0]))
 
     def found() -> Iterator[Any]:
-        for first in range(0, len(chosen), TOGETHER):
-            group = np.resize(chosen[first : first + TOGETHER], min(TOGETHER, count))
+        for first in range(0, len(chosen), size):
+            group = np.resize(chosen[first : first + size], size)
             yield program(jax.tree.map(lambda leaf, group=group: leaf[group], starts))
 
     return jax.tree.map(lambda *groups: np.concatenate(groups)[: len(chosen)], *found())
