@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
@@ -138,8 +139,8 @@ def optimize(
 
 def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
     """Motion and extras of the design given; refused where the loss is no finite number there."""
-    motion, extras, _ = problem.motion(jnp.asarray(problem.variables.start))
-    judged = problem.of_motion(motion, extras)
+    motion, extras, _ = problem.motion(problem.variables.start)
+    judged = jax.jit(problem.of_motion)(motion, extras)
     if not bool(jnp.all(jnp.isfinite(judged))):
         raise ValueError(
             f"the loss of the design given is {float(jnp.sum(judged))}: it must be a finite number there; mask poses "

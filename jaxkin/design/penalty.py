@@ -12,7 +12,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.motion.drive import resolve
-from jaxkin.motion.motion import Motion, joint_matrix
+from jaxkin.motion.motion import Motion, inverse, joint_matrix
 
 
 def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
@@ -37,7 +37,7 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
         for loop in block.loops:
             pose = jnp.eye(4)
             for joint, sign in loop:
-                pose = pose @ (matrices[joint] if sign > 0 else jnp.linalg.inv(matrices[joint]))
+                pose = pose @ (matrices[joint] if sign > 0 else inverse(matrices[joint]))
             turned = jnp.sum((pose[:, :3, :3] - jnp.eye(3)) ** 2, axis=(1, 2))
             moved = pose[:, :3, 3] + jnp.einsum("pij,j->pi", pose[:, :3, :3] - jnp.eye(3), centre)
             square = square + 0.5 * turned + jnp.sum((moved / size) ** 2, axis=1)

@@ -18,7 +18,8 @@ from jaxkin.motion.writers import whole
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
-POSES = 361
+POSES, PIECE = 361, 32
+"""Of the range, and at least of what is swept at once."""
 STEEP = 100.0
 """Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
 _FORMAT = 1
@@ -194,20 +195,36 @@ def _tuples(value: Any) -> Any:
 
 
 def judged_range(motion: Motion) -> Moves:
-    """The verdict of a fine sweep over the range of the drive; of several inputs, along the poses given."""
-    inputs = {name: np.asarray(values) for name, values in motion.inputs.items()}
-    if len(inputs) == 1:
-        ((name, values),) = inputs.items()
-        inputs = {name: np.linspace(values.min(), values.max(), max(POSES, len(values)))}
-    fine = motion.mechanism.sweep(inputs)
-    status = np.asarray(fine.status)
+    """The verdict of a fine sweep over the range of the drive; of several inputs, along the poses given.
+
+    It is swept in pieces as long as the motion is: the program for these is compiled already, and one for the whole
+    range takes a hundred times as long to compile as to run.
+    """
+    if len(motion.inputs) > 1:
+        status, steepest = np.asarray(motion.status), _steepest(motion)
+    else:
+        ((name, given),) = motion.inputs.items()
+        values = np.linspace(np.min(given), np.max(given), max(POSES, len(motion)))
+        size = min(max(PIECE, len(motion)), len(values))
+        status, steepest = np.zeros(len(values), int), 0.0
+        for first in range(0, len(values) - 1, size - 1):  # neighbours share a pose
+            piece = slice(min(first, len(values) - size), first + size)
+            found = motion.mechanism.sweep({name: values[piece]})
+            status[piece], steepest = found.status, max(steepest, _steepest(found))
     counts = {each.name: int(np.sum(status == each)) for each in Status if np.any(status == each)}
-    pace = np.sqrt(sum(np.diff(values) ** 2 for values in inputs.values()))
-    origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in motion.mechanism.all_joints])
+    return Moves(len(status), counts, steepest)
+
+
+def _steepest(motion: Motion) -> float:
+    """Largest change of any joint from closed pose to closed pose over that of the drive."""
+    joints = motion.mechanism.all_joints
+    pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
+    origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in joints])
     size = float(np.sqrt(np.mean(np.sum((origins - origins.mean(axis=0)) ** 2, axis=1)))) or 1.0
-    steepest, both = 0.0, (status[1:] == 0) & (status[:-1] == 0) & (pace > 0)
-    for joint, moved in zip(motion.mechanism.all_joints, fine.displacements, strict=True):
+    closed = np.asarray(motion.closed)
+    steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)
+    for joint, moved in zip(joints, motion.displacements, strict=True):
         for name, column in zip(joint.coordinates, np.asarray(moved).T, strict=True):
             steps = np.abs(np.diff(column)) / (size if name.rstrip("0123456789") in ("x", "y", "z") else 1.0)
             steepest = max(steepest, float(np.max(steps[both] / pace[both], initial=0.0)))
-    return Moves(len(fine), counts, steepest)
+    return steepest

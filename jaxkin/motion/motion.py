@@ -125,7 +125,7 @@ def _transforms(
     found = dict.fromkeys(structure.fixed, identity)
     for part, parent, joint, sign in structure.tree:
         matrix = joint_matrix(joints[joint], displacements[joint])
-        found[part] = found[parent] @ (matrix if sign > 0 else _inverse(matrix))
+        found[part] = found[parent] @ (matrix if sign > 0 else inverse(matrix))
     return tuple(found[part] for part in structure.part_names)
 
 
@@ -136,12 +136,13 @@ def joint_matrix(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "pose
         count = len(MOVEMENTS[movement].coordinates)
         turned = movement_matrix(movement, q[:, first : first + count], jnp.asarray(joint.pitch, q.dtype))
         before, after = (jnp.asarray(side[frame], q.dtype) for side in (joint.before, joint.after))
-        matrix = matrix @ before @ turned @ _inverse(after)
+        matrix = matrix @ before @ turned @ inverse(after)
         first += count
     return jnp.broadcast_to(matrix, (q.shape[0], 4, 4))
 
 
-def _inverse(pose: Float[Array, "*poses 4 4"]) -> Float[Array, "*poses 4 4"]:
+def inverse(pose: Float[Array, "*poses 4 4"]) -> Float[Array, "*poses 4 4"]:
+    """Of displacements."""
     turned = jnp.swapaxes(pose[..., :3, :3], -1, -2)
     moved = -jnp.einsum("...ij,...j->...i", turned, pose[..., :3, 3])
     return pose.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)
