@@ -223,12 +223,18 @@ def race() -> None:
             return _scipy(problem, chosen, weight, target, vector)
 
         scipy_from(vectors[0], target=np.inf)  # compiled
+
+        def side_by_side(vectors=vectors, together=together, downhill=downhill):
+            reached, judged = downhill(vectors, together)
+            return len(vectors) if reached else None, judged
+
+        def in_turn(alone=alone, downhill=downhill, one_by_one=one_by_one):
+            return one_by_one(lambda vector: downhill(vector[None], alone))
+
         for label, run in {
-            "all starts together": lambda vectors=vectors: (
-                lambda found: (len(vectors) if found[0] else None, found[1])
-            )(downhill(vectors, together)),
-            "one start at a time": lambda: one_by_one(lambda vector: downhill(vector[None], alone)),
-            "SciPy, finite differences": lambda: one_by_one(scipy_from),
+            "all starts together": side_by_side,
+            "one start at a time": in_turn,
+            "SciPy, finite differences": lambda one_by_one=one_by_one, way=scipy_from: one_by_one(way),
         }.items():
             began = time.process_time()
             taken, judged = run()
