@@ -17,6 +17,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
 from jaxkin.solve.lanes import all_designs
+from jaxkin.solve.pieces import pieces, side_by_side
 from jaxkin.solve.status import Tolerance
 from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
@@ -46,8 +47,15 @@ def solve(
     Compiled once for a system, a method and a number of poses.
     """
     if not traced((joints, inputs, tolerance)):
-        given, order = (inputs, None) if method != CONTINUATION else _in_order(np.asarray(inputs))
-        found = _program(_solve)(system, method, joints, given, tolerance)
+        if method != CONTINUATION:
+            return _program(_solve)(system, method, joints, inputs, tolerance)
+        given, order = _in_order(np.asarray(inputs))
+        number = pieces(system, given.shape[1], inputs.device)
+
+        def solved(piece: np.ndarray):
+            return _program(_solve)(system, method, joints, piece, tolerance, share=number)
+
+        found = side_by_side(system, solved, given, number)
         return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     # options are for whole programs only: inside one that is being traced the search becomes part of that
@@ -59,8 +67,15 @@ def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Arr
     return all_designs(partial(find_poses, system, method))(joints, inputs, tolerance)
 
 
-def _solve(system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance):
-    poses = find_poses(system, method, joints, inputs, tolerance)
+def _solve(
+    system: LoopSystem,
+    method: str,
+    joints: Joints,
+    inputs: Float[Array, "driven poses"],
+    tolerance: Tolerance,
+    share: int = 1,
+) -> tuple[Float[Array, "columns poses"], Outcome]:
+    poses = find_poses(system, method, joints, inputs, tolerance, share)
     return displacements(system, joints, inputs, poses), Outcome(poses.status, poses.gap)
 
 
@@ -84,7 +99,7 @@ def _program(function):
 
 
 def _static(function) -> tuple[str, ...]:
-    return tuple(name for name in ("system", "method") if name in signature(function).parameters)
+    return tuple(name for name in ("system", "method", "share") if name in signature(function).parameters)
 
 
 @cache

@@ -62,11 +62,16 @@ def interpolate(
     knots: Knots,
     values: Float[Array, " poses"],
     settle: Callable[[Float[Array, " segment"]], Poses],
+    share: int,
 ) -> Poses:
-    """All poses from those at the nodes of the segments; `settle` finds those of a segment that cannot be trusted."""
+    """All poses from those at the nodes of the segments; `settle` finds those of a segment that cannot be trusted.
+
+    The values are one of so many pieces of a range.
+    """
     dtype, poses = values.dtype, values.shape[0]
     sharp, closes = roundings(dtype, SHARP), roundings(dtype, CLOSED)
-    length = max(2 ** (poses - 1).bit_length() // (WITH_SPINS if system.spins else SEGMENTS), 1)
+    segments = max((WITH_SPINS if system.spins else SEGMENTS) // share, 1)
+    length = max(2 ** (poses - 1).bit_length() // segments, 1)
     # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
     begin, end = values[first], values[first + length - 1]

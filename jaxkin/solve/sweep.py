@@ -52,15 +52,20 @@ class Joints(NamedTuple):
 
 
 def find_poses(
-    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+    system: LoopSystem,
+    method: str,
+    joints: Joints,
+    inputs: Float[Array, "driven poses"],
+    tolerance: Tolerance,
+    share: int = 1,
 ) -> Poses:
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
-    `method` is one of `methods.METHODS`.
+    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
-    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance)
+    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share)
 
 
 def displacements(
@@ -91,7 +96,12 @@ def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "
 
 
 def _search(
-    system: LoopSystem, method: str, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+    system: LoopSystem,
+    method: str,
+    geometry: Geometry,
+    inputs: Float[Array, "driven poses"],
+    tolerance: Tolerance,
+    share: int,
 ) -> Poses:
     """The same in lengths over the characteristic length; NONFINITE where an input is."""
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
@@ -104,7 +114,7 @@ def _search(
         state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
         poses = Poses(state, status, gap)
     elif len(system.driven) == 1:
-        poses = _of_one_input(system, geometry, inputs[0], tolerance)
+        poses = _of_one_input(system, geometry, inputs[0], tolerance, share)
     elif system.driven:
         poses = _of_several_inputs(system, geometry, inputs, tolerance)
     else:
@@ -113,7 +123,7 @@ def _search(
 
 
 def _of_one_input(
-    system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"], tolerance: Tolerance
+    system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"], tolerance: Tolerance, share: int
 ) -> Poses:
     """A few poses by themselves, the many between them by interpolation."""
     knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values)
@@ -123,7 +133,8 @@ def _of_one_input(
 
     if len(values) < MANY:
         return _in_groups(settled, values, _group(system))
-    return interpolate(system, geometry, knots, values, partial(_in_groups, settled, size=_group(system)))
+    settle = partial(_in_groups, settled, size=_group(system))
+    return interpolate(system, geometry, knots, values, settle, share)
 
 
 def _of_several_inputs(

@@ -1,0 +1,76 @@
+"""Many poses of a single input in pieces, one for each core.
+
+A compiled program of the solver runs on one thread, since its operations take microseconds. Each piece of a range is
+followed to from the assembled pose, in a thread and a program of its own.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache, partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.solve.system import LoopSystem
+
+LEAST = 2**14
+"""Poses of a piece: of fewer, to follow the motion takes longer than to find them."""
+TURN = 2 * np.pi
+
+
+def pieces(system: LoopSystem, poses: int, device: object) -> int:
+    """Number of pieces of so many poses: one where several inputs lead from each to the next, or off the CPU."""
+    if len(system.driven) != 1 or getattr(device, "platform", "") != "cpu":
+        return 1
+    return max(1, min(_cores(), poses // LEAST))
+
+
+def side_by_side(
+    system: LoopSystem, function: Callable, inputs: Float[np.ndarray, "driven poses"], number: int
+) -> tuple:
+    """What a function makes of inputs in order: displacements of poses in rows of columns, and what else there is."""
+    if number == 1:
+        return function(inputs)
+    poses = inputs.shape[1]
+    length = -(-poses // number)
+    # all of one length, for which one program is compiled: the last one overlaps the one before it
+    first = [min(i * length, poses - length) for i in range(number)]
+    x64, device = jax.config.jax_enable_x64, jax.config.jax_default_device
+
+    def run(begin: int):
+        with jax.enable_x64(x64), jax.default_device(device):  # settings that hold for the thread that made them
+            return jax.block_until_ready(function(inputs[:, begin : begin + length]))
+
+    begun = function(inputs[:, :length])  # compiled, and begun, by the thread that asks for it
+    return _joined(system, first[-2] + length - first[-1], [begun, *_threads().map(run, first[1:])])
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def _joined(system: LoopSystem, overlap: int, found: list[tuple]) -> tuple:
+    """One array of each of those of the pieces; angles of balls go on without a leap."""
+    free = [column for columns in system.balls if columns[0] not in system.driven for column in columns]
+    shift = jnp.zeros_like(found[0][0][:, :1])
+    whole = [found[0]]
+    for before, here in zip(found, found[1:], strict=False):
+        here = jax.tree.map(lambda rows: rows[..., overlap:], here) if here is found[-1] else here
+        if free:
+            leap = jnp.round((before[0][:, -1:] - here[0][:, :1]) / TURN)
+            shift = shift + TURN * leap * jnp.isin(jnp.arange(system.columns), jnp.array(free))[:, None]
+            here = (here[0] + shift, *here[1:])
+        whole.append(here)
+    return jax.tree.map(lambda *rows: jnp.concatenate(rows, axis=-1), *whole)
+
+
+@cache
+def _threads() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(_cores(), thread_name_prefix="jaxkin")
+
+
+def _cores() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
