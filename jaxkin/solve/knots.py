@@ -1,8 +1,9 @@
 """The way through all inputs, followed once from the assembled pose to either end at as few knots as are safe.
 
 Whatever lies between two knots is predicted by cubic Hermite interpolation with exact slopes. An angle comes back after
-a full turn: where the mechanism does so too, one turn is all that is followed; and a value beyond a gap that is a whole
-number of turns away from where the motion got without one is that same pose, and no jump.
+a full turn: where the mechanism does so too, which shows where the ways forwards and backwards meet, one turn is all
+that is followed; and a value beyond a gap that is a whole number of turns away from where the motion got without one is
+that same pose, and no jump.
 """
 
 from __future__ import annotations
@@ -32,10 +33,13 @@ eight a pose."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9
-"""Coordinates that differ by less after a full turn have come back (1e-4 in float32)."""
+"""Coordinates that differ by less where the two ways meet are the same (1e-4 in float32)."""
 ENOUGH = 64
 """Times the unit of rounding: the gap of a knot, which is only a place to begin from."""
 TURN = 2 * np.pi
+MEETING = (3.0 - TURN, 3.0)
+"""Where the ways backwards and forwards meet: a full turn apart, and half a turn from the assembled pose, but where no
+designer puts a change point."""
 
 
 class Knot(NamedTuple):
@@ -56,10 +60,10 @@ class Knots(NamedTuple):
     """All of a knot in one row, so that it is written, and read, at one stroke."""
     first: Int[Array, ""]
     last: Int[Array, ""]
-    repeats: Bool[Array, "2"]
-    """Whether after a full turn in the falling and in the rising direction the mechanism is where it began."""
-    winding: Float[Array, "columns 2"]
-    """What its coordinates then are."""
+    repeats: Bool[Array, ""]
+    """Whether after a full turn the mechanism is where it began."""
+    winding: Float[Array, " columns"]
+    """By how much its coordinates are then larger."""
 
 
 class Guess(NamedTuple):
@@ -80,57 +84,57 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     dtype, each = values.dtype, ONE_INPUT if len(system.driven) == 1 else SEVERAL_INPUTS
     room = max(ROOM, each * min(values.shape[0], MOST_POSES))
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
-    turn = jnp.array([-TURN, TURN], dtype)
+    turn, meeting = jnp.array([-TURN, TURN], dtype), jnp.array(MEETING, dtype)
+    beyond = (ends[0] < meeting[0]) | (ends[1] > meeting[1])
     front, enough = start(system, 2, dtype), roundings(dtype, ENOUGH)
     table = jnp.zeros((2 * room + 2, _row(system, front).shape[1]), dtype)
-    nowhere, unknown = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.ones(2, bool)
+    nowhere, no = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.asarray(False)
 
-    def target(limits: Float[Array, "2"], repeats: Bool[Array, "2"]) -> Float[Array, "2"]:
+    def target(front: Front, limits: Float[Array, "2"], parted: Array) -> Float[Array, "2"]:
         if not system.periodic:
             return ends
         around = (limits - turn)[::-1]
-        wider = jnp.stack([jnp.minimum(ends[0], around[0]), jnp.maximum(ends[1], around[1])])
-        return jnp.where(jnp.isfinite(around), wider, jnp.where(repeats, jnp.clip(ends, -TURN, TURN), ends))
+        outer = jnp.where(jnp.isfinite(around), around, ends)
+        wider = jnp.stack([jnp.minimum(ends[0], outer[0]), jnp.maximum(ends[1], outer[1])])
+        goal = jnp.where(beyond & ~parted & ~jnp.any(jnp.isfinite(limits)), meeting, wider)
+        return jnp.stack([jnp.minimum(goal[0], front.at[0]), jnp.maximum(goal[1], front.at[1])])  # nobody turns back
 
     def running(carry) -> Array:
-        front, count, limits, repeats, _ = carry
-        return (count < room) & any_lane(~arrived(front, target(limits, repeats)))
+        front, count, limits, parted, _ = carry
+        return (count < room) & any_lane(~arrived(front, target(front, limits, parted)))
 
     def step(carry):
-        front, count, limits, repeats, table = carry
-        front = substep(system, geometry, way, front, target(limits, repeats), enough)
+        front, count, limits, parted, table = carry
+        front = substep(system, geometry, way, front, target(front, limits, parted), enough)
         # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
         # so that all lanes, those of other designs too, write at one place
         row = _row(system, front)
         table = write_row(write_row(table, row[0], room - count), row[1], room + 1 + count)
         ended = front.anchored & (front.status != Status.CLOSED.value) & ~jnp.isfinite(limits)
         if system.periodic:
-            there = front.at == turn
-            repeats &= ~there | lax.cond(
-                any_lane(there), lambda: _came_back(system, geometry, front.state), lambda: jnp.zeros_like(there)
-            )
-        return front, count + 1, jnp.where(ended, front.at, limits), repeats, table
+            there = jnp.all(front.at == meeting)
+            apart = lax.cond(any_lane(there), lambda: ~_same(system, geometry, front.state), lambda: no)
+            parted |= there & apart
+        return front, count + 1, jnp.where(ended, front.at, limits), parted, table
 
-    front, count, limits, repeats, table = lax.while_loop(
-        running, step, (front, jnp.asarray(0), nowhere, unknown, table)
-    )
+    front, count, limits, parted, table = lax.while_loop(running, step, (front, jnp.asarray(0), nowhere, no, table))
     number, first, last = jnp.arange(2 * room + 2), room + 1 - count, room + count
     at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[:, 0]))
-    repeats &= (front.at == turn) & ~jnp.isfinite(limits)
-    return Knots(at, table, first, last, repeats, jnp.where(repeats, _wound(system, front.state), 0.0))
+    repeats = ~parted & jnp.all(front.at == meeting) & ~jnp.any(jnp.isfinite(limits)) & system.periodic
+    return Knots(at, table, first, last, repeats, _winding(system, front.state))
 
 
-def _wound(system: LoopSystem, state: State) -> Float[Array, "columns lanes"]:
-    """The full turns in the coordinates."""
-    return jnp.where(np.array(system.is_length)[:, None], 0.0, TURN * jnp.round(state.x / TURN))
+def _winding(system: LoopSystem, state: State) -> Float[Array, " columns"]:
+    """The full turns in the coordinates between the two lanes."""
+    return jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round((state.x[:, 1] - state.x[:, 0]) / TURN))
 
 
-def _came_back(system: LoopSystem, geometry: Geometry, state: State) -> Bool[Array, " lanes"]:
-    """Whether this is the assembled pose, but for full turns, and for spins of rods."""
+def _same(system: LoopSystem, geometry: Geometry, state: State) -> Bool[Array, ""]:
+    """Whether the two lanes are in one pose, but for full turns, and for spins of rods."""
     same = SAME if jnp.finfo(state.x.dtype).bits == 64 else 1e-4
-    rest = jnp.max(jnp.abs(state.x - _wound(system, state)), axis=0)
+    rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - _winding(system, state)))
     for turn in ball_turns(system, geometry, state).values():
-        rest = jnp.maximum(rest, jnp.max(jnp.abs(turn - jnp.eye(3)[..., None]), axis=(0, 1)))
+        rest = jnp.maximum(rest, jnp.max(jnp.abs(turn[..., 1] - turn[..., 0])))
     return rest <= same
 
 
@@ -157,9 +161,8 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
     """The poses for these inputs as far as the knots tell; the driven coordinates are not set to the inputs."""
     if system.periodic:
         values = _unturned(knots, values)
-        side = (values > 0).astype(jnp.int32)
-        turns = jnp.where(knots.repeats[side], jnp.floor(jnp.abs(values) / TURN), 0.0)
-        values = jnp.where(turns > 0, values - jnp.sign(values) * TURN * turns, values)
+        turns = jnp.where(knots.repeats, jnp.ceil((values - MEETING[1]) / TURN), 0.0)
+        values = values - TURN * turns
     number = jnp.clip(jnp.searchsorted(knots.at, values, side="left") - 1, knots.first, knots.last - 1)
     left, right = _knot(system, knots, number), _knot(system, knots, number + 1)
     left_closed, right_closed = is_closed(left.status), is_closed(right.status)
@@ -175,7 +178,7 @@ def guess(system: LoopSystem, knots: Knots, values: Float[Array, " poses"]) -> G
     state = choose(between, _hermite(system, left, right, values), choose(from_left, left.state, right.state))
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
     if system.periodic:
-        state = State(state.x + turns * knots.winding[:, side], state.turns)
+        state = State(state.x + turns * knots.winding[:, None], state.turns)
     least, most = (knots.at.at[end].get(mode="promise_in_bounds") for end in (knots.first, knots.last))
     return Guess(state, status, (values >= least - BEYOND) & (values <= most + BEYOND))
 
