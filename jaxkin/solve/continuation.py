@@ -28,7 +28,7 @@ from jaxkin.solve.status import Status, classify, is_closed
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import Way
 
-FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.15, 1e-6, 0.15
+FIRST_STEP, LONGEST_STEP, SHORTEST_STEP, GAP_STEP = 1e-3, 0.3, 1e-6, 0.15
 """Radians, or characteristic lengths. A limit of the motion is approached to the shortest step; the damped corrector
 settles what lies beyond it."""
 SHORTEST_FIRST_STEP = 1e-10
@@ -40,6 +40,9 @@ CROSSING = 1e-3
 branches miss each other by less than this, as they do for lengths that are off by 1e-6."""
 CORRECTOR_STEPS, GAP_STEPS, RESCUE_STEPS = 8, 16, 200
 """Of the corrector at most: following, crossing a gap, and where a pose is to be closed or to have least residual."""
+
+WANTED, MOST = 0.1, 0.25
+"""By how much of the way travelled a prediction is to be off, and may be."""
 
 START, FOLLOW, GAP = range(3)
 """Stages of a lane: closing the assembled pose, following the motion, beyond its limit."""
@@ -109,7 +112,7 @@ def substep(
 ) -> Front:
     """One step of every lane that has not arrived; a lane whose step was refused stands where it stood.
 
-    Poses whose gap is no larger than `enough` are not improved any more.
+    Poses whose gap is no larger than `enough` are not improved any more; of them the gap may be foreseen, not measured.
     """
     dtype = target.dtype
     left = jnp.abs(target - front.at)
@@ -126,10 +129,10 @@ def substep(
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     most = jnp.where(starting, RESCUE_STEPS, jnp.where(in_gap, GAP_STEPS, CORRECTOR_STEPS))
-    found = correct(system, geometry, predicted, most, enough)
+    found = correct(system, geometry, predicted, most, enough, foresee=enough > 0)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
-    status = classify(found.closure.gap, found.stationary, ~front.anchored | beside)
+    status = classify(found.gap, found.stationary, ~front.anchored | beside)
     closed = is_closed(status)
 
     # following: near the prediction, or, without one, within a tiny step
@@ -138,9 +141,10 @@ def substep(
     slack = 50 * float(jnp.finfo(dtype).eps)
     jacobian = free_jacobian(system, found.closure)
     crossed = _turned_over(front.jacobian, jacobian) & (distance > CROSSING)
-    good = following & closed & (deviation <= 0.25 * travel + slack) & ~crossed
-    easy = good & (~sloped | (deviation <= 0.02 * travel + slack))
-    step = jnp.where(easy, jnp.minimum(2.0 * front.step, LONGEST_STEP), front.step)
+    good = following & closed & (deviation <= MOST * travel + slack) & ~crossed
+    # a cubic is off by the fourth power of the step
+    growth = jnp.where(sloped, jnp.cbrt(WANTED * travel / jnp.maximum(deviation - slack, 1e-30)), 2.0)
+    step = jnp.where(good, jnp.minimum(jnp.clip(growth, 0.5, 4.0) * front.step, LONGEST_STEP), front.step)
     step = jnp.where(following & ~good, 0.35 * distance, step)
     shortest = jnp.where(front.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
     lost = following & ~good & front.tangent & (distance <= shortest)
@@ -152,7 +156,7 @@ def substep(
     return Front(
         state=choose(final, found.state, front.state),
         status=jnp.where(starting | in_gap, status, front.status),  # a branch is kept while it is followed
-        gap=jnp.where(final, found.closure.gap, front.gap),
+        gap=jnp.where(final, found.gap, front.gap),
         jacobian=jnp.where(final, jacobian, front.jacobian),
         at=jnp.where(final, at, front.at),
         slope=jnp.where(final, slope, front.slope),
