@@ -7,12 +7,15 @@ back along it to designs that close, and through designs that do not.
 
 from __future__ import annotations
 
+from functools import reduce
+
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.rigid import inverse, product
 from jaxkin.motion.drive import resolve
-from jaxkin.motion.motion import Motion, inverse, joint_matrix
+from jaxkin.motion.motion import Motion, joint_motion
 
 
 def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
@@ -33,13 +36,12 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
         centre = origins.mean(axis=0)
         spread = jnp.mean(jnp.sum((origins - centre) ** 2, axis=1))
         size = jnp.sqrt(jnp.where(spread > 0, spread, 1.0))
-        matrices = {joint: joint_matrix(mechanism.all_joints[joint], held[joint]) for joint in block.joints}
+        motions = {joint: joint_motion(mechanism.all_joints[joint], held[joint]) for joint in block.joints}
         for loop in block.loops:
-            pose = jnp.eye(4)
-            for joint, sign in loop:
-                pose = pose @ (matrices[joint] if sign > 0 else inverse(matrices[joint]))
-            turned = jnp.sum((pose[:, :3, :3] - jnp.eye(3)) ** 2, axis=(1, 2))
-            moved = pose[:, :3, 3] + jnp.einsum("pij,j->pi", pose[:, :3, :3] - jnp.eye(3), centre)
-            square = square + 0.5 * turned + jnp.sum((moved / size) ** 2, axis=1)
+            along = [motions[joint] if sign > 0 else inverse(motions[joint]) for joint, sign in loop]
+            end = reduce(product, along)
+            turned = end[:, :3] - jnp.eye(3)[..., None]
+            moved = end[:, 3] + jnp.einsum("ijp,j->ip", turned, centre)
+            square = square + 0.5 * jnp.sum(turned**2, axis=(0, 1)) + jnp.sum((moved / size) ** 2, axis=0)
     failed = ~motion.closed & (square > 1e-24)
     return jnp.where(failed, jnp.sqrt(jnp.where(failed, square, 1.0)), 0.0)

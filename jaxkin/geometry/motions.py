@@ -16,6 +16,9 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.rigid import Rigid, as_matrices
+from jaxkin.geometry.trig import cos_sin
+
 Matrices = Float[Array, "*poses 4 4"]
 
 
@@ -73,19 +76,26 @@ def movement_matrix(movement: str, q: Float[Array, "*poses k"], pitch: Float[Arr
     Angles in radians, translations in the unit of the mechanism, `pitch` in that unit per turn (only `T_screw`).
     """
     q = jnp.asarray(q)
-    matrix = jnp.broadcast_to(jnp.eye(4, dtype=q.dtype), (*q.shape[:-1], 4, 4))
+    start = jnp.eye(4, dtype=q.dtype)[:3].reshape(3, 4, *[1] * (q.ndim - 1))
+    rigid = displaced(start, movement, jnp.moveaxis(q, -1, 0), pitch)
+    return as_matrices(jnp.broadcast_to(rigid, (3, 4, *q.shape[:-1])))
+
+
+def displaced(
+    frame: Rigid, movement: str, q: Float[Array, "k *#poses"], pitch: Float[Array, ""] | float = 0.0
+) -> Rigid:
+    """The frame followed by its movement, elementary ones one by one: each changes two columns at most."""
     for element in MOVEMENTS[movement].elements:
-        matrix = matrix @ _element_matrix(element, q[..., element.coordinate], pitch)
-    return matrix
+        frame = _displaced(frame, element, q[element.coordinate], pitch)
+    return frame
 
 
-def _element_matrix(element: Element, q: Float[Array, "*poses"], pitch: Float[Array, ""] | float) -> Matrices:
+def _displaced(frame: Rigid, element: Element, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float) -> Rigid:
     i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
-    matrix = jnp.broadcast_to(jnp.eye(4, dtype=q.dtype), (*q.shape, 4, 4))
-    if element.kind == "translate":
-        return matrix.at[..., i, 3].set(q)
-    cos, sin = jnp.cos(q), jnp.sin(q)
-    matrix = matrix.at[..., j, j].set(cos).at[..., j, k].set(-sin).at[..., k, j].set(sin).at[..., k, k].set(cos)
-    if element.kind == "screw":
-        matrix = matrix.at[..., i, 3].set(q * pitch / (2 * jnp.pi))
-    return matrix
+    columns = [frame[:, column] for column in range(4)]
+    if element.kind != "rotate":
+        columns[3] = columns[3] + columns[i] * (q if element.kind == "translate" else q * pitch / (2 * jnp.pi))
+    if element.kind != "translate":
+        cos, sin = cos_sin(q)
+        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+    return jnp.stack(jnp.broadcast_arrays(*columns), axis=1)

@@ -13,7 +13,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
+from jaxkin.geometry.motions import MOVEMENTS, displaced
+from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.motion import writers
 from jaxkin.motion.dead_ends import left_free
@@ -120,29 +121,31 @@ def _transforms(
     structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
     """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
-    poses = displacements[0].shape[0]
-    identity = jnp.broadcast_to(jnp.eye(4, dtype=displacements[0].dtype), (poses, 4, 4))
-    found = dict.fromkeys(structure.fixed, identity)
+    poses, dtype = displacements[0].shape[0], displacements[0].dtype
+    found: dict[str, Rigid] = {}  # without the fixed parts
     for part, parent, joint, sign in structure.tree:
-        matrix = joint_matrix(joints[joint], displacements[joint])
-        found[part] = found[parent] @ (matrix if sign > 0 else inverse(matrix))
-    return tuple(found[part] for part in structure.part_names)
+        moved = joint_motion(joints[joint], displacements[joint])
+        moved = moved if sign > 0 else inverse(moved)
+        found[part] = product(found[parent], moved) if parent in found else moved
+    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
+    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
 
 
+@jax.jit
 def joint_matrix(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "poses 4 4"]:
     """Displacement J of part 2 relative to part 1 in world coordinates: product of `before T after^-1` (Table 2)."""
-    matrix, first = jnp.eye(4, dtype=q.dtype), 0
+    return as_matrices(joint_motion(joint, q))
+
+
+def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
+    """The same, poses last."""
+    found, first = None, 0
     for frame, movement in enumerate(joint.movements):
         count = len(MOVEMENTS[movement].coordinates)
-        turned = movement_matrix(movement, q[:, first : first + count], jnp.asarray(joint.pitch, q.dtype))
-        before, after = (jnp.asarray(side[frame], q.dtype) for side in (joint.before, joint.after))
-        matrix = matrix @ before @ turned @ inverse(after)
+        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.before, joint.after))
+        begin = before if found is None else product(found, before)
+        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
+        found = product(moved, inverse(after))
         first += count
-    return jnp.broadcast_to(matrix, (q.shape[0], 4, 4))
-
-
-def inverse(pose: Float[Array, "*poses 4 4"]) -> Float[Array, "*poses 4 4"]:
-    """Of displacements."""
-    turned = jnp.swapaxes(pose[..., :3, :3], -1, -2)
-    moved = -jnp.einsum("...ij,...j->...i", turned, pose[..., :3, 3])
-    return pose.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)
+    still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
+    return jnp.broadcast_to(still, (3, 4, q.shape[0]))

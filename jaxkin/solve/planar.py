@@ -19,7 +19,7 @@ from jaxtyping import Array, Float
 from jaxkin.solve.spatial import Spatial
 from jaxkin.solve.steps import steps
 from jaxkin.solve.system import LoopSystem
-from jaxkin.solve.trig import cos_sin
+from jaxkin.geometry.trig import cos_sin
 
 
 class Planar(NamedTuple):

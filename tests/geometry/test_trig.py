@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from jaxkin.solve.trig import cos_sin
+from jaxkin.geometry.trig import cos_sin
 
 EPS = np.finfo(float).eps
 compiled = jax.jit(cos_sin)
