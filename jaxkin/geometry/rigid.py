@@ -25,12 +25,13 @@ def as_matrices(rigid: Float[Array, "3 4 *poses"]) -> Float[Array, "*poses 4 4"]
 
 def product(a: Rigid, b: Rigid) -> Rigid:
     """a b: first b, then a."""
-    turned = sum(a[:, k, None] * b[None, k] for k in range(3))
+    x, y, z = (a[:, k, None] * b[None, k] for k in range(3))
+    turned = x + y + z
     return jnp.concatenate([turned[:, :3], turned[:, 3:] + a[:, 3:]], axis=1)
 
 
 def inverse(a: Rigid) -> Rigid:
     """The displacement back."""
     turned = a[:, :3].swapaxes(0, 1)
-    moved = -sum(turned[:, k] * a[k, 3] for k in range(3))
-    return jnp.concatenate([turned, moved[:, None]], axis=1)
+    x, y, z = (turned[:, k] * a[k, 3] for k in range(3))
+    return jnp.concatenate([turned, -(x + y + z)[:, None]], axis=1)

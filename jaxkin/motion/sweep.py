@@ -120,23 +120,24 @@ def _collect(
     return tuple(map(jnp.asarray, values)), tuple(displacements), status, jnp.sqrt(square)
 
 
-def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
+def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
 
-    A power of two from 32 to 512 poses, above that a multiple of an eighth of one. Traced inputs are left alone: their
-    program is compiled for their length anyway. Without a drive: one pose for all.
+    A power of two from 32 to 256 poses, above that a multiple of an eighth of one, of many a 32nd. Traced inputs are
+    left alone: their program is compiled for their length anyway. Without a drive: one pose for all.
     """
     if not rows:
-        return jnp.zeros((0, 1), float)
+        return np.zeros((0, 1), dtypes.canonicalize_dtype(float))
     poses = rows[0].shape[0]
     power = 2 ** max(5, (poses - 1).bit_length())
-    length = power if power <= 512 else -(-poses // (power // 16)) * (power // 16)
+    part = power if power <= 256 else power // (8 if power <= 2**15 else 32)
+    length = -(-poses // part) * part
     if not traced(rows):
         # on the host: there it costs a copy, not a program for every length
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        return jax.device_put(padded)
+        return padded
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 

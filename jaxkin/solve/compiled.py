@@ -40,7 +40,7 @@ class Outcome(NamedTuple):
 
 
 def solve(
-    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array | np.ndarray, "driven poses"], tolerance: Tolerance
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Displacements of all joints, and what became of the poses.
 
@@ -50,7 +50,7 @@ def solve(
         if method != CONTINUATION:
             return _program(_solve)(system, method, joints, inputs, tolerance)
         given, order = _in_order(np.asarray(inputs))
-        number = pieces(system, given.shape[1], inputs.device)
+        number = pieces(system, given.shape[1])
 
         def solved(piece: np.ndarray):
             return _program(_solve)(system, method, joints, piece, tolerance, share=number)

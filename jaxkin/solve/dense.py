@@ -36,11 +36,11 @@ NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
 """Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial."""
 NARROWEST = 1e-4
 """Half the width of the narrowest segment, radians or characteristic lengths: repeated inputs have no width."""
-NEWTON = 2
-"""Steps from where the knots put a node."""
+NEWTON = 4
+"""Steps at most from where the knots put a node."""
 CORRECTION = 1e-6
 """A pose farther from the polynomial than this is not trusted."""
-NEAR = 1e-3
+NEAR = 1e-2
 """A node farther from where the knots put it is not trusted."""
 SHARP, CLOSED = 32, 64
 """Times the unit of rounding: a segment whose poses do not all close as well as this is corrected, or after that left
@@ -116,8 +116,11 @@ def _solve_nodes(
     values = (middle[:, None] + half[:, None] * jnp.asarray(NODES, half.dtype)).reshape(-1)
     begin = guess(system, knots, values)
     state = drive(system, begin.state, values[None])
-    state, closed = lax.fori_loop(
-        0, NEWTON, lambda _, at: _newton(system, geometry, *at), (state, closure(system, geometry, state))
+    enough = roundings(values.dtype, CLOSED)
+    _, state, closed = lax.while_loop(
+        lambda at: (at[0] < NEWTON) & any_lane(at[2].gap > enough),
+        lambda at: (at[0] + 1, *_newton(system, geometry, *at[1:])),
+        (jnp.asarray(0), state, closure(system, geometry, state)),
     )
     inverse = _inverse(system, free_jacobian(system, closed)[..., len(NODES) // 2 :: len(NODES)])
     basis = jnp.asarray(_coefficients(), values.dtype)

@@ -10,10 +10,12 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
+from itertools import pairwise
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import dtypes
 from jaxtyping import Float
 
 from jaxkin.solve.system import LoopSystem
@@ -23,9 +25,10 @@ LEAST = 2**14
 TURN = 2 * np.pi
 
 
-def pieces(system: LoopSystem, poses: int, device: object) -> int:
+def pieces(system: LoopSystem, poses: int) -> int:
     """Number of pieces of so many poses: one where several inputs lead from each to the next, or off the CPU."""
-    if len(system.driven) != 1 or getattr(device, "platform", "") != "cpu":
+    device = getattr(jax.config, "jax_default_device", None) or jax.default_backend()
+    if len(system.driven) != 1 or getattr(device, "platform", device) != "cpu":
         return 1
     return max(1, min(_cores(), poses // LEAST))
 
@@ -40,7 +43,8 @@ def side_by_side(
     length = -(-poses // number)
     # all of one length, for which one program is compiled: the last one overlaps the one before it
     first = [min(i * length, poses - length) for i in range(number)]
-    x64, device = jax.config.jax_enable_x64, jax.config.jax_default_device
+    x64 = dtypes.canonicalize_dtype(float) == jnp.float64
+    device = getattr(jax.config, "jax_default_device", None)
 
     def run(begin: int):
         with jax.enable_x64(x64), jax.default_device(device):  # settings that hold for the thread that made them
@@ -56,7 +60,7 @@ def _joined(system: LoopSystem, overlap: int, found: list[tuple]) -> tuple:
     free = [column for columns in system.balls if columns[0] not in system.driven for column in columns]
     shift = jnp.zeros_like(found[0][0][:, :1])
     whole = [found[0]]
-    for before, here in zip(found, found[1:], strict=False):
+    for before, here in pairwise(found):
         here = jax.tree.map(lambda rows: rows[..., overlap:], here) if here is found[-1] else here
         if free:
             leap = jnp.round((before[0][:, -1:] - here[0][:, :1]) / TURN)

@@ -16,10 +16,10 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.spatial import Spatial
 from jaxkin.solve.steps import steps
 from jaxkin.solve.system import LoopSystem
-from jaxkin.geometry.trig import cos_sin
 
 
 class Planar(NamedTuple):

@@ -19,11 +19,11 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.spins import Lines, spin_lines, vee
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
 from jaxkin.solve.system import LoopSystem
-from jaxkin.geometry.trig import cos_sin
 
 Rotation = Float[Array, "3 3 *poses"]
 """[column, row]: the first index picks one of the three axes."""
