@@ -120,14 +120,14 @@ def _collect(
     return tuple(map(jnp.asarray, values)), tuple(displacements), status, jnp.sqrt(square)
 
 
-def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
+def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
     """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
 
     A power of two from 32 to 256 poses, above that a multiple of an eighth of one, of many a 32nd. Traced inputs are
     left alone: their program is compiled for their length anyway. Without a drive: one pose for all.
     """
     if not rows:
-        return np.zeros((0, 1), dtypes.canonicalize_dtype(float))
+        return jnp.zeros((0, 1), float)
     poses = rows[0].shape[0]
     power = 2 ** max(5, (poses - 1).bit_length())
     part = power if power <= 256 else power // (8 if power <= 2**15 else 32)
@@ -137,7 +137,7 @@ def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        return padded
+        return jax.device_put(padded)  # inside a function that is being traced it counts as such
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 

@@ -40,7 +40,7 @@ class Outcome(NamedTuple):
 
 
 def solve(
-    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array | np.ndarray, "driven poses"], tolerance: Tolerance
+    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Displacements of all joints, and what became of the poses.
 

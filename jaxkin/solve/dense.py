@@ -23,7 +23,7 @@ from jaxkin.solve.continuation import slopes
 from jaxkin.solve.correct import floor, free_jacobian
 from jaxkin.solve.knots import Knots, guess
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.linear import inverse, least_norm, scale
 from jaxkin.solve.reading import at_rest
 from jaxkin.solve.state import State, assembled, difference, drive, rate, retract
 from jaxkin.solve.status import roundings, tolerance
@@ -76,7 +76,7 @@ def interpolate(
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
     begin, end = values[first], values[first + length - 1]
     middle, half = 0.5 * (begin + end), jnp.maximum(0.5 * jnp.abs(end - begin), NARROWEST)
-    status, solid, polynomials, inverse = _solve_nodes(system, geometry, knots, middle, half)
+    status, solid, polynomials, back = _solve_nodes(system, geometry, knots, middle, half)
 
     def one(number: Array, found: Poses) -> Poses:
         here = lax.dynamic_slice_in_dim(values, first[number], length)
@@ -85,7 +85,7 @@ def interpolate(
         closed = closure(system, geometry, predicted)
 
         def corrected() -> tuple[State, Array, Array]:
-            state = retract(system, predicted, -inverse[number] @ closed.residual)
+            state = retract(system, predicted, -back[number] @ closed.residual)
             return state, closure(system, geometry, state).gap, difference(state, predicted)
 
         state, gap, moved = lax.cond(
@@ -122,7 +122,8 @@ def _solve_nodes(
         lambda at: (at[0] + 1, *_newton(system, geometry, *at[1:])),
         (jnp.asarray(0), state, closure(system, geometry, state)),
     )
-    inverse = _inverse(system, free_jacobian(system, closed)[..., len(NODES) // 2 :: len(NODES)])
+    middles = free_jacobian(system, closed)[..., len(NODES) // 2 :: len(NODES)]
+    back = inverse(middles, floor(values.dtype) * scale(middles), system.used)
     basis = jnp.asarray(_coefficients(), values.dtype)
 
     def polynomial(x: Array, d: Array) -> Array:
@@ -138,7 +139,7 @@ def _solve_nodes(
     status = begin.status.reshape(-1, len(NODES))
     good = (closed.gap <= tolerance(values.dtype)) & (difference(state, begin.state) <= NEAR) & begin.covered
     solid = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)
-    return status[:, 0], solid, polynomials, inverse
+    return status[:, 0], solid, polynomials, back
 
 
 def _newton(system: LoopSystem, geometry: Geometry, state: State, closed: Closure) -> tuple[State, Closure]:
@@ -147,18 +148,6 @@ def _newton(system: LoopSystem, geometry: Geometry, state: State, closed: Closur
     delta = -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian), system.used)
     state = retract(system, state, delta)
     return state, closure(system, geometry, state)
-
-
-def _inverse(
-    system: LoopSystem, jacobian: Float[Array, "equations columns segments"]
-) -> Float[Array, "segments columns equations"]:
-    """The inverse Jacobian of least norm; zero for what is driven."""
-    unit, damping = jnp.eye(system.equations, dtype=jacobian.dtype), floor(jacobian.dtype) * scale(jacobian)
-
-    def column(unit: Array) -> Array:
-        return least_norm(jacobian, jnp.broadcast_to(unit[:, None], jacobian.shape[::2]), damping, system.used)
-
-    return jnp.transpose(jax.vmap(column)(unit), (2, 1, 0))
 
 
 def _at(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:

@@ -7,7 +7,7 @@ construction: rounding never sets an idle coordinate in motion, as it does in th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import jax.numpy as jnp
 import numpy as np
@@ -32,13 +32,12 @@ def least_norm(
     All columns but those `used` are zero. With `refine` one step of iterative refinement takes the bias of the damping
     out.
     """
-    rows, columns, poses = jacobian.shape
+    _, columns, poses = jacobian.shape
     if len(used) < PICKED * columns:
         which = np.array(used, np.int32)
         few = least_norm(jacobian[:, which], right, damping, range(len(used)), refine=refine)
         return jnp.zeros((columns, poses), few.dtype).at[which].set(few, unique_indices=True)
-    straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
-    factored = (_unrolled if straight else _looped)(jacobian, damping)
+    factored = _factored(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(jacobian * y[:, None], axis=0)
@@ -56,6 +55,17 @@ def least_norm(
     if refine:
         x = x + transposed(solve(right - forward(x)))
     return x
+
+
+def inverse(
+    jacobian: Matrix, damping: Float[Array, " poses"], used: Sequence[int]
+) -> Float[Array, "poses columns rows"]:
+    """What `least_norm` multiplies right-hand sides by."""
+    rows, columns, poses = jacobian.shape
+    which = np.array(used, np.int32)
+    unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
+    found = jnp.einsum("rcp,rkp->pck", jacobian[:, which], _factored(jacobian[:, which], damping)(unit))
+    return jnp.zeros((poses, columns, rows), found.dtype).at[:, which].set(found, unique_indices=True)
 
 
 def is_turned_over(matrix: Float[Array, "rows rows poses"]) -> Bool[Array, " poses"]:
@@ -82,6 +92,13 @@ def scale(jacobian: Matrix) -> Float[Array, " poses"]:
     return jnp.where(square > 0, square, 1.0)
 
 
+def _factored(jacobian: Matrix, damping: Float[Array, " poses"]) -> Callable[[Array], Array]:
+    """The solution of (J J^T + damping) y = r, for right-hand sides of shape (rows, poses) or (rows, number, poses)."""
+    rows, _, poses = jacobian.shape
+    straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
+    return (_unrolled if straight else _looped)(jacobian, damping)
+
+
 def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
     """L D L^T of J J^T + damping, every entry an array over the poses."""
     n = jacobian.shape[0]
@@ -96,7 +113,7 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
         for i in range(j + 1, n):
             lower[i, j] = column[i - j] / pivots[j]
 
-    def solve(right: Vector) -> Vector:
+    def solve(right: Array) -> Array:
         y = list(right)
         for i in range(n):
             y[i] = y[i] - sum(lower[i, k] * y[k] for k in range(i))
@@ -113,13 +130,14 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     n = jacobian.shape[0]
     gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
-    def solve(right: Vector) -> Vector:
+    def solve(right: Array) -> Array:
         def eliminate(k: Array | int, matrix: Array) -> Array:
             pivot = lax.dynamic_index_in_dim(matrix, k, axis=0, keepdims=False)
             column = lax.dynamic_index_in_dim(matrix, k, axis=1, keepdims=False)
             pivot = pivot / lax.dynamic_index_in_dim(column, k, axis=0, keepdims=False)
             return lax.dynamic_update_index_in_dim(matrix - column[:, None] * pivot[None], pivot, k, axis=0)
 
-        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, right[:, None]], axis=1))[:, -1]
+        sides = right.reshape(n, -1, right.shape[-1])
+        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, sides], axis=1))[:, n:].reshape(right.shape)
 
     return solve

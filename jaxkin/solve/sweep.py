@@ -19,10 +19,11 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.solve.chords import TOGETHER, shared_steps
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
 from jaxkin.solve.continuation import RESCUE_STEPS, reach
 from jaxkin.solve.correct import choose, correct
-from jaxkin.solve.dense import Poses, interpolate
+from jaxkin.solve.dense import CLOSED, SHARP, Poses, interpolate
 from jaxkin.solve.implicit import attach
 from jaxkin.solve.knots import Knots, follow, guess
 from jaxkin.solve.lanes import any_lane
@@ -30,13 +31,13 @@ from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
 from jaxkin.solve.reading import ball_turns, read_off, unwrapped
 from jaxkin.solve.state import assembled, difference, drive, driven
-from jaxkin.solve.status import Status, Tolerance, classify, is_closed
+from jaxkin.solve.status import Status, Tolerance, classify, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import curve_through
 
 FARTHEST_CORRECTION = 0.1
 """Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
-GROUP, LEAST_GROUP, ENTRIES, CHUNK = 256, 32, 16384, 1024
+GROUP, LEAST_GROUP, ENTRIES, CHUNK = 256, 32, 16384, 256
 """Poses that are settled together: so few that hard ones cost only few others, and that their matrices, of so many
 entries, stay in the cache; and poses whose balls are read off at once."""
 MANY = 8192
@@ -144,7 +145,7 @@ def _of_several_inputs(
     at, way = curve_through(inputs)
     knots = follow(system, geometry, way, at)
 
-    def settle(group: tuple[Array, Array]) -> Poses:
+    def settled(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
         found = _settle(system, geometry, knots, at, inputs, tolerance)
         failed = found.status != Status.CLOSED.value
@@ -156,7 +157,23 @@ def _of_several_inputs(
 
         return lax.cond(any_lane(failed), otherwise, lambda: found)
 
-    return _in_groups(settle, (at, inputs), _group(system))
+    if len(at) < MANY:
+        return _in_groups(settled, (at, inputs), _group(system))
+
+    def neighbours(group: tuple[Array, Array]) -> Poses:
+        at, inputs = group
+        begin = guess(system, knots, at)
+        begun = drive(system, begin.state, inputs)
+        state, gap = shared_steps(system, geometry, begun, roundings(at.dtype, SHARP))
+        near = difference(state, begun) <= FARTHEST_CORRECTION
+        good = (gap <= roundings(at.dtype, CLOSED)) & near & begin.covered & (begin.status == Status.CLOSED.value)
+        return lax.cond(
+            any_lane(~good),
+            lambda: _in_groups(settled, group, _group(system)),
+            lambda: Poses(state, begin.status, gap),
+        )
+
+    return _in_groups(neighbours, (at, inputs), TOGETHER)
 
 
 def _group(system: LoopSystem) -> int:
