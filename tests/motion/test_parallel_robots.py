@@ -5,6 +5,7 @@ import pytest
 
 from jaxkin.joints.pairs import prismatic, revolute, spherical
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.solve.sweep import MANY
 from reference import parallel
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import rssr_linkage, spherical_linkage
@@ -23,6 +24,22 @@ def test_a_hexapod_follows_its_legs(shuffled):
     assert np.all(motion.closed)
     # mm and radians: rounding of lengths of 300 mm, through a Jacobian of condition 100
     np.testing.assert_allclose(motion.transforms["platform"], moved[which], atol=1e-10)
+
+
+@pytest.mark.long
+def test_many_poses_of_a_hexapod():
+    """So many that neighbours share an inverse; there and back along the curve."""
+    mechanism = hexapod()
+    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    moved, legs = (part.reshape(MANY, *part.shape[2:]) for part in _twice(home))
+    motion = mechanism.sweep(dict(zip(LEGS, legs.T, strict=True)))
+    assert np.all(motion.closed)
+    np.testing.assert_allclose(motion.transforms["platform"], moved, atol=1e-10)  # as above
+
+
+def _twice(home):
+    moved, legs = parallel.curve(parallel.hexapod().base, home, MANY // 2)
+    return np.stack([moved, moved[::-1]]), np.stack([legs, legs[::-1]])
 
 
 def test_which_rods_spin_idly():

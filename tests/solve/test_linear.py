@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear import is_turned_over, least_norm, scale
+from jaxkin.solve.linear import inverse, is_turned_over, least_norm, scale
 
 
 @pytest.mark.parametrize("rows, columns, rank", [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12)])
@@ -51,3 +51,16 @@ def test_only_used_columns_are_solved_for():
     damping = jnp.full(7, 1e-3)
     one, other = (least_norm(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
     np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)
+
+
+@pytest.mark.parametrize("rows, poses", [(3, 5), (6, 5), (6, 1024)])
+def test_the_inverse_does_what_solutions_are(rows, poses):
+    """By straight-line code and in a loop, with columns left out and without."""
+    rng = np.random.default_rng(rows)
+    jacobian, right = jnp.asarray(rng.normal(size=(rows, 12, poses))), jnp.asarray(rng.normal(size=(rows, poses)))
+    damping = jnp.full(poses, 1e-3)
+    for used in (range(12), range(2, 9)):
+        only = jacobian * np.isin(np.arange(12), used)[:, None]
+        expected = least_norm(only, right, damping, used)
+        found = jnp.einsum("pcr,rp->cp", inverse(only, damping, used), right)
+        np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-13)  # conditions up to a thousand

@@ -1,0 +1,56 @@
+"""A long range in pieces, one a core, is the range in one: poses, full turns and order.
+
+Tolerance 1e-12: what is left of the closure after the last step is rounding, and the knots of a piece are its own.
+"""
+
+import jax
+import numpy as np
+import pytest
+
+from jaxkin.motion.prepared import prepare
+from jaxkin.solve import pieces
+from reference.mechanisms import planar_fourbar, rssr_linkage
+
+POSES = 3000
+RANGES = {
+    "four turns": np.linspace(-5.0, 20.0, POSES),
+    "falling": np.linspace(8.0, 1.0, POSES),
+    "shuffled": np.random.default_rng(0).permutation(np.linspace(-5.0, 20.0, POSES)),
+}
+
+
+def swept(mechanism, angles, cores, monkeypatch):
+    monkeypatch.setattr(pieces, "_cores", lambda: cores)
+    monkeypatch.setattr(pieces, "LEAST", POSES // 4)
+    monkeypatch.setattr("jaxkin.solve.compiled.MANY", POSES)  # put in order, as longer ranges are
+    return mechanism.sweep({"A": angles})
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("order", RANGES)
+@pytest.mark.parametrize("linkage", [planar_fourbar, rssr_linkage])
+def test_pieces_are_the_range(linkage, order, monkeypatch):
+    """Three pieces, of which the last overlaps the second; in balls full turns are counted across their ends."""
+    mechanism = linkage()
+    whole, split = (swept(mechanism, RANGES[order], cores, monkeypatch) for cores in (1, 3))
+    assert np.all(whole.closed) and np.all(split.closed)
+    assert np.max(split.residual) < 1e-12
+    for one, other in zip(whole.displacements, split.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-12)
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+def test_settings_of_a_thread_hold_in_those_of_its_pieces(monkeypatch):
+    with jax.enable_x64(False):
+        motion = swept(planar_fourbar(), RANGES["falling"], 2, monkeypatch)
+    assert {array.dtype for array in motion.displacements} == {np.dtype(np.float32)}
+    assert np.all(motion.closed)
+
+
+def test_how_many_pieces(monkeypatch):
+    monkeypatch.setattr(pieces, "_cores", lambda: 8)
+    (element,) = prepare(planar_fourbar(), ("A",)).elements
+    assert pieces.pieces(element.system, pieces.LEAST - 1) == 1
+    assert pieces.pieces(element.system, 3 * pieces.LEAST) == 3
+    assert pieces.pieces(element.system, 100 * pieces.LEAST) == 8
