@@ -28,8 +28,8 @@ from jaxkin.solve.way import Way
 
 ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 1024, 1024, 2, 12
 """Steps to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
-reach is STALLED. A full turn takes about fifty, and some fifty for each of its limits, several inputs in any order some
-eight a pose."""
+reach is STALLED. A full turn takes some twenty-five, and some fifty for each of its limits, several inputs in any order
+some eight a pose."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9
