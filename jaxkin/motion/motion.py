@@ -11,6 +11,7 @@ from pathlib import Path
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.motions import MOVEMENTS, displaced
@@ -126,7 +127,8 @@ def _transforms(
     for part, parent, joint, sign in structure.tree:
         moved = joint_motion(joints[joint], displacements[joint])
         moved = moved if sign > 0 else inverse(moved)
-        found[part] = product(found[parent], moved) if parent in found else moved
+        # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
+        found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
     still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
     return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
 
