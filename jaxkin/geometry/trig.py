@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+TURN = 2 * math.pi
 HALF = (float.fromhex("0x1.921fb544p+1"), float.fromhex("0x1.0b4611a6p-33"), float.fromhex("0x1.3198a2e037073p-68"))
 """Half a turn as a sum: the first two parts hold 33 bits each, so that multiples up to a million are exact; beyond, the
 angle itself is not given to more digits than are lost."""

@@ -18,6 +18,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.motions import is_length
 from jaxkin.geometry.traced import traced
+from jaxkin.geometry.trig import TURN
 from jaxkin.motion.drive import resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion, placed
@@ -30,7 +31,6 @@ radians or over the size of the mechanism."""
 SAME = 1e-4
 """Radians, or over the size: where a pose is reached in two ways. At a singular one the two may differ by the root of
 rounding, or a higher one."""
-TURN = 2 * np.pi
 
 
 class _Pose(NamedTuple):

@@ -16,6 +16,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closure import Geometry
 from jaxkin.solve.continuation import AT_LIMIT, Front, arrived, start, substep
 from jaxkin.solve.correct import choose
@@ -36,7 +37,6 @@ SAME = 1e-9
 """Coordinates that differ by less where the two ways meet are the same (1e-4 in float32)."""
 ENOUGH = 64
 """Times the unit of rounding: the gap of a knot, which is only a place to begin from."""
-TURN = 2 * np.pi
 MEETING = (3.0 - TURN, 3.0)
 """Where the ways backwards and forwards meet: a full turn apart, and half a turn from the assembled pose, but where no
 designer puts a change point."""

@@ -18,11 +18,11 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Float
 
+from jaxkin.geometry.trig import TURN
 from jaxkin.solve.system import LoopSystem
 
 LEAST = 2**14
 """Poses of a piece: of fewer, to follow the motion takes longer than to find them."""
-TURN = 2 * np.pi
 
 
 def pieces(system: LoopSystem, poses: int) -> int:
@@ -57,14 +57,16 @@ def side_by_side(
 @partial(jax.jit, static_argnums=(0, 1))
 def _joined(system: LoopSystem, overlap: int, found: list[tuple]) -> tuple:
     """One array of each of those of the pieces; angles of balls go on without a leap."""
-    free = [column for columns in system.balls if columns[0] not in system.driven for column in columns]
-    shift = jnp.zeros_like(found[0][0][:, :1])
-    whole = [found[0]]
+    *others, last = found
+    found = [*others, jax.tree.map(lambda rows: rows[..., overlap:], last)]
+    free = np.zeros((system.columns, 1), bool)  # angles of balls that are not driven
+    free[[column for columns in system.balls if columns[0] not in system.driven for column in columns]] = True
+    shift = jnp.zeros_like(last[0][:, :1])
+    whole = found[:1]
     for before, here in pairwise(found):
-        here = jax.tree.map(lambda rows: rows[..., overlap:], here) if here is found[-1] else here
-        if free:
+        if np.any(free):
             leap = jnp.round((before[0][:, -1:] - here[0][:, :1]) / TURN)
-            shift = shift + TURN * leap * jnp.isin(jnp.arange(system.columns), jnp.array(free))[:, None]
+            shift = shift + TURN * leap * free
             here = (here[0] + shift, *here[1:])
         whole.append(here)
     return jax.tree.map(lambda *rows: jnp.concatenate(rows, axis=-1), *whole)
