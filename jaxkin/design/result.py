@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from jaxkin.design.objectives import Objective
+from jaxkin.geometry.motions import is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
@@ -225,6 +226,6 @@ def _steepest(motion: Motion) -> float:
     steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)
     for joint, moved in zip(joints, motion.displacements, strict=True):
         for name, column in zip(joint.coordinates, np.asarray(moved).T, strict=True):
-            steps = np.abs(np.diff(column)) / (size if name.rstrip("0123456789") in ("x", "y", "z") else 1.0)
+            steps = np.abs(np.diff(column)) / (size if is_length(name) else 1.0)
             steepest = max(steepest, float(np.max(steps[both] / pace[both], initial=0.0)))
     return steepest
