@@ -2,24 +2,20 @@
 
 Each movement displaces a local frame; `x, y, z` are translations along and `theta, phi, psi` rotations about its axes.
 The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is written
-once, as a product of elementary ones (`MOVEMENTS`); its 4x4 matrix and all that the solver needs follow from that.
+once, as a product of elementary ones (`MOVEMENTS`); displacements and all that the solver needs follow from that.
 `T_screw`, the helical pair, and `I`, no movement, are not in the paper.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import Literal
 
-import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.rigid import Rigid, as_matrices
+from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.trig import cos_sin
-
-Matrices = Float[Array, "*poses 4 4"]
 
 
 @dataclass(frozen=True)
@@ -69,22 +65,14 @@ def is_length(coordinate: str) -> bool:
     return coordinate.rstrip("0123456789") in ("x", "y", "z")
 
 
-@partial(jax.jit, static_argnames="movement")
-def movement_matrix(movement: str, q: Float[Array, "*poses k"], pitch: Float[Array, ""] | float = 0.0) -> Matrices:
-    """The matrix T of a movement for coordinates `q`, whose last axis follows `MOVEMENTS[movement].coordinates`.
-
-    Angles in radians, translations in the unit of the mechanism, `pitch` in that unit per turn (only `T_screw`).
-    """
-    q = jnp.asarray(q)
-    start = jnp.eye(4, dtype=q.dtype)[:3].reshape(3, 4, *[1] * (q.ndim - 1))
-    rigid = displaced(start, movement, jnp.moveaxis(q, -1, 0), pitch)
-    return as_matrices(jnp.broadcast_to(rigid, (3, 4, *q.shape[:-1])))
-
-
 def displaced(
     frame: Rigid, movement: str, q: Float[Array, "k *#poses"], pitch: Float[Array, ""] | float = 0.0
 ) -> Rigid:
-    """The frame followed by its movement, elementary ones one by one: each changes two columns at most."""
+    """The frames F followed by a movement, F T: elementary ones one by one, of which each changes two columns at most.
+
+    `q` has a row for each of `MOVEMENTS[movement].coordinates`: radians, and lengths in the unit of the mechanism; so
+    is `pitch`, per turn, which only `T_screw` has. Frames and `q` may be one for all poses.
+    """
     for element in MOVEMENTS[movement].elements:
         frame = _displaced(frame, element, q[element.coordinate], pitch)
     return frame

@@ -133,14 +133,11 @@ def _transforms(
     return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
 
 
-@jax.jit
-def joint_matrix(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "poses 4 4"]:
-    """Displacement J of part 2 relative to part 1 in world coordinates: product of `before T after^-1` (Table 2)."""
-    return as_matrices(joint_motion(joint, q))
-
-
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
-    """The same, poses last."""
+    """Displacement J of part 2 relative to part 1, in world coordinates: the product of `before T after^-1` (Table 2).
+
+    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
+    """
     found, first = None, 0
     for frame, movement in enumerate(joint.movements):
         count = len(MOVEMENTS[movement].coordinates)

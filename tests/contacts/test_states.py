@@ -1,5 +1,6 @@
 """Tables 1 and 2: every movement keeps its surfaces in contact and spans the freedoms of its state."""
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -7,22 +8,22 @@ import pytest
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.rulings import ruling
 from jaxkin.contacts.states import STATES, find_state
-from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
-from jaxkin.geometry.pose import apply, inverse, perpendicular, rotation
+from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.pose import apply, perpendicular, rotation
+from jaxkin.geometry.rigid import as_matrices
 from jaxkin.geometry.surfaces import Cone, Cylinder, Sphere
+from jaxkin.joints.joint import joint
+from jaxkin.motion.motion import joint_motion
+
+displacements = jax.jit(joint_motion)
 
 KINDS = ("plane", "cylinder", "cone", "sphere")
 
 
 def chain(movements, frames, q):
-    """Displacements of surface 2: the product of F T F^-1 over the frames (ERRATA of Table 2), for a batch of q."""
-    displacement, used = np.eye(4), 0
-    for movement, frame in zip(movements, frames, strict=True):
-        count = len(MOVEMENTS[movement].coordinates)
-        motion = np.asarray(movement_matrix(movement, jnp.asarray(q[:, used : used + count])))
-        displacement = displacement @ frame @ motion @ inverse(frame)
-        used += count
-    return displacement
+    """Displacements of surface 2 (ERRATA of Table 2) for a batch of q."""
+    contact = joint("contact", ("p1", "p2"), "contact", movements, frames)
+    return np.asarray(as_matrices(displacements(contact, jnp.asarray(q))))
 
 
 def a_common_point(state, s1, touch):

@@ -6,7 +6,8 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import frame, rotation, unit
-from jaxkin.motion.motion import joint_matrix
+from jaxkin.geometry.rigid import as_matrices
+from jaxkin.motion.motion import joint_motion
 
 X, Y, Z = np.eye(3)
 ORIGIN = np.zeros(3)
@@ -56,7 +57,7 @@ def test_a_ball_turned_about_any_axis_solves_as_well_as_at_the_start(state, poin
         assert bool(jnp.all(motion.closed))
         assert float(motion.residual.max()) < 1e-13
         # the coordinates of the contact, put into the paper's matrices, give the turn: to rounding, at the lock too
-        found = joint_matrix(mechanism.joints["touch"], motion.coordinates["touch"])
+        found = as_matrices(joint_motion(mechanism.joints["touch"], motion.coordinates["touch"]))
         np.testing.assert_allclose(found, displacement(axis, point, TURN), atol=2e-14)
         # the Jacobian keeps its rank
         np.testing.assert_array_less(0.5 * motion.sigma_min[0], motion.sigma_min)

@@ -5,13 +5,14 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.geometry.motions import MOVEMENTS, movement_matrix
+from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.pose import rotation
 from jaxkin.solve import closure as module
 from jaxkin.solve import spatial
 from jaxkin.solve.reading import as_state, read_off
 from jaxkin.solve.state import angles, assembled, from_angles, matrix, multiply, retract
 from jaxkin.solve.system import Form, LoopSystem
+from reference.movements import matrix as movement_matrix
 
 closure = jax.jit(module.closure, static_argnums=0)
 loop_geometry = jax.jit(module.loop_geometry, static_argnums=0)
@@ -61,7 +62,7 @@ def displacement(system, before, after, pitch, q, index):
     matrix = jnp.eye(4)
     for name, frame, column, _ in system.chains[index]:
         count = len(MOVEMENTS[name].coordinates)
-        turn = movement_matrix(name, q[column : column + count].T, pitch[index])
+        turn = movement_matrix(name, q[column : column + count], pitch[index])
         matrix = matrix @ before[index][frame] @ turn @ jnp.linalg.inv(after[index][frame])
     return matrix
 
