@@ -66,7 +66,7 @@ def test_sweep_takes_degrees_and_says_what_cannot_be_reached(tmp_path):
 
 
 def test_a_long_range_is_written_as_arrays(tmp_path, monkeypatch):
-    monkeypatch.setattr("jaxkin.cli.app.LONG", 4)
+    monkeypatch.setattr("jaxkin.cli.run.LONG", 4)
     done = invoke("sweep", FOURBAR, *CRANK, "--out", tmp_path / "out")
     assert done.exit_code == 0, done.output
     assert "5  CLOSED" in done.output and "arrays only" in done.output

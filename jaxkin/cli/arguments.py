@@ -1,0 +1,81 @@
+"""The arguments and options that commands share, each with its help."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Files = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="FILE...",
+        help="The assembled mechanism: a STEP file or a mesh (.stl, .obj, .ply, .3mf, .glb) of all parts, or several "
+        "files of one part each, called as the files. Or a study: a TOML file that names the geometry and says what is "
+        "fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
+    ),
+]
+Unit = Annotated[
+    str | None,
+    typer.Option("--unit", metavar="UNIT", help="Of lengths, for STL, OBJ and PLY, which have none: mm, m, in, ..."),
+]
+Fixed = Annotated[
+    list[str], typer.Option("--fixed", metavar="PART", help="A part that does not move; may be given several times.")
+]
+Rigid = Annotated[
+    list[str],
+    typer.Option(
+        "--rigid",
+        metavar="PART,PART",
+        help="Parts that do not move relative to each other; may be given several times.",
+    ),
+]
+Ignore = Annotated[
+    list[str],
+    typer.Option(
+        "--ignore",
+        metavar="PART,PART",
+        help="Contacts to leave out: all between two parts, or one, as in 'slider face 3 - stop face 7'; may be given "
+        "several times.",
+    ),
+]
+Drive = Annotated[
+    list[str],
+    typer.Option(
+        "--drive",
+        metavar="JOINT=RANGE",
+        help="A joint, or joint.coordinate, and its displacements from the assembled pose, START:STOP:COUNT or a list "
+        "with commas: degrees for angles, the unit of the file for lengths. May be given several times; all ranges "
+        "need the same number of poses.",
+    ),
+]
+Out = Annotated[Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for the files written.")]
+PerContact = Annotated[
+    bool,
+    typer.Option("--no-combine", help="Keep one joint per contact, as in the paper, not one per pair of parts."),
+]
+
+Picture = Annotated[
+    Path | None,
+    typer.Option(
+        "--png",
+        metavar="FILE",
+        dir_okay=False,
+        help="Draw the assembly with the regions of its contacts and the axes of its joints into this file.",
+    ),
+]
+Drawing = Annotated[
+    Path | None,
+    typer.Option(
+        "--png",
+        metavar="FILE",
+        dir_okay=False,
+        help="Draw the graph of parts and joints with its loops, and their tree, into this file.",
+    ),
+]
+
+WorkPicture = Annotated[
+    Path | None,
+    typer.Option("--png", metavar="FILE", dir_okay=False, help="Draw time against error into this file."),
+]

@@ -1,0 +1,84 @@
+"""What commands do between their options and what they print: the study asked for, its sweep, its files."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from jaxkin.cli.options import Options
+from jaxkin.cli.progress import progress
+
+if TYPE_CHECKING:
+    from jaxkin.io.study import Study
+
+LONG = 200_000
+"""From more poses on a range is written as arrays only, chunk by chunk: pictures and tables of so many say nothing, and
+the displacements of all parts may not fit into memory."""
+
+
+def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
+    """Write the motion that files and options ask for into a folder, and print what became of it."""
+    start = time.perf_counter()
+    import jax
+
+    from jaxkin.cli import report
+    from jaxkin.motion.writers import filenames
+
+    with progress(2) as step:
+        study = found(files, options, step)
+    if len(next(iter(study.drive.values()))) > LONG:
+        said, paths = _streamed(study, out)
+    else:
+        with progress(1 + len(filenames())) as step:
+            step("solving")
+            motion = jax.block_until_ready(study.sweep())
+            said, paths = motion, []
+            for filename in filenames():
+                step(f"writing {filename}")
+                paths += motion.save(out, only=filename)
+    report.say(f"{named(files)}: {study.mechanism.mobility()}")
+    if isinstance(said, str):
+        report.say(said)
+        more = f"More than {LONG} poses: arrays only."
+    else:
+        report.print_motion(said)
+        more = f"Open {out / 'motion.html'} in a browser."
+    report.say()
+    report.print_files(paths)
+    report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. {more}")
+
+
+def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
+    """The motion written chunk by chunk, as arrays only; what became of the poses, and the file."""
+    from jaxkin.io.long_motion import write_stream
+
+    out.mkdir(parents=True, exist_ok=True)
+    stream = study.mechanism.stream(study.drive)
+    with progress(1 + len(stream)) as step:
+        step("writing motion.npz")
+        said = write_stream(stream, out / "motion.npz", lambda: step("writing motion.npz"))
+    return said, [out / "motion.npz"]
+
+
+def named(files: Sequence[Path]) -> str:
+    """The first file by name, and how many more."""
+    return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
+
+
+def found(files: Sequence[Path], options: Options, step: Callable[[str], None]) -> Study:
+    """The study that files and options make, its mechanism found: two steps of the progress."""
+    step(f"reading {named(files)}")
+    study = options.on(files)
+    step("finding contacts and joints")
+    _ = checked(study).mechanism  # found once, here, where its step is shown
+    return study
+
+
+def checked(study: Study) -> Study:
+    """The study, if a part is fixed."""
+    if study.assembly and not study.fixed:
+        names = ", ".join(study.assembly.names)
+        raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
+    return study
