@@ -114,7 +114,7 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
     named: dict[Length, Any] = {}
     for key, wanted in changes.items():
         length = find_length(mechanism, key)
-        wanted = _checked(mechanism, key, length, wanted)
+        wanted = _checked(key, length, wanted)
         same = length._replace(first=min(length[1:3]), second=max(length[1:3]))
         same = length if length.quantity == "offset" else same
         if same in named:
@@ -166,7 +166,7 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
     return replace(joint, **sides, pitch=joint.pitch if pitch is None else pitch)
 
 
-def _checked(mechanism: Mechanism, key: Key, length: Length, wanted):
+def _checked(key: Key, length: Length, wanted):
     if traced(wanted):
         return wanted
     try:
