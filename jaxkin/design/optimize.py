@@ -186,10 +186,8 @@ def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, 
                 f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
                 f"{CHUNK} of them, or too slowly to reach the best one"
             )
-    return (
-        solver.vectors(state),
-        f"all {iterations} iterations were used; {int(active.sum())} starts were still improving",
-    )
+    improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
+    return solver.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
 
 
 def _rank(losses, violations) -> int:

@@ -110,7 +110,7 @@ class Optimum:
             np.arange(1, len(self.history) + 1),
             np.fmin.accumulate(np.nanmin(np.where(np.isnan(self.history), np.inf, self.history), axis=1)),
             color="C0",
-            label="best start",
+            label="best so far",
         )
         axes[0].set_xlabel("iteration")
         axes[0].set_ylabel("loss with penalty")
