@@ -56,12 +56,23 @@ PerContact = Annotated[
     typer.Option("--no-combine", help="Keep one joint per contact, as in the paper, not one per pair of parts."),
 ]
 
+
+def _png(path: Path | None) -> Path | None:
+    """Refused before hours of work that would end in no picture."""
+    if path is not None and path.suffix.lower() != ".png":
+        raise typer.BadParameter(f"the picture is a PNG: name a file that ends in .png, got {path}")
+    if path is not None and not path.parent.is_dir():
+        raise typer.BadParameter(f"there is no folder {path.parent} for {path.name}: make it, or name another")
+    return path
+
+
 Picture = Annotated[
     Path | None,
     typer.Option(
         "--png",
         metavar="FILE",
         dir_okay=False,
+        callback=_png,
         help="Draw the assembly with the regions of its contacts and the axes of its joints into this file.",
     ),
 ]
@@ -71,11 +82,14 @@ Drawing = Annotated[
         "--png",
         metavar="FILE",
         dir_okay=False,
+        callback=_png,
         help="Draw the graph of parts and joints with its loops, and their tree, into this file.",
     ),
 ]
 
 WorkPicture = Annotated[
     Path | None,
-    typer.Option("--png", metavar="FILE", dir_okay=False, help="Draw time against error into this file."),
+    typer.Option(
+        "--png", metavar="FILE", dir_okay=False, callback=_png, help="Draw time against error into this file."
+    ),
 ]

@@ -86,6 +86,8 @@ def optimize(
     """
     if method not in (None, "least-squares", "l-bfgs"):
         raise ValueError(f'method must be "least-squares" or "l-bfgs", got {method!r}')
+    if not (callable(loss) or isinstance(loss, Objective)):
+        raise ValueError(f"the loss must be an objective of jk.design, or a function of the motion, got {loss!r}")
     if starts < 1 or iterations < 1:
         raise ValueError(f"starts and iterations must be at least 1, got {starts} and {iterations}")
     chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})

@@ -14,7 +14,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.motion.drive import resolve
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
+from jaxkin.motion.motion import Motion, as_point
 from jaxkin.motion.sweep import sweep
 from jaxkin.topology.names import nearest
 
@@ -54,7 +54,7 @@ class Rates:
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Velocity (or acceleration) of a point of a part, given where it is in the assembled pose; world axes."""
         matrices = self.transforms[_known(self.motion, part)]
-        return jnp.einsum("pij,j->pi", matrices[:, :3, :3], jnp.asarray(point, float)) + matrices[:, :3, 3]
+        return jnp.einsum("pij,j->pi", matrices[:, :3, :3], as_point(point)) + matrices[:, :3, 3]
 
     def angular(self, part: str) -> Float[Array, "poses 3"]:
         """Angular velocity (or acceleration) of a part, world axes, radians per time (or its square)."""
@@ -102,6 +102,11 @@ def _place(mechanism: Mechanism, inputs: Inputs):
 
 
 def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
+    if not isinstance(motion, Motion):
+        raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    if not isinstance(rates, Mapping):
+        example = next(iter(motion.inputs))
+        raise ValueError(f"say whose rates they are, as in {{{example!r}: 1.0}}, got {rates!r}")
     given = {}
     for key, rate in rates.items():
         value = rate if isinstance(rate, jax.Array) else np.asarray(rate, float)

@@ -41,6 +41,10 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
         )
     parts, units = [], {}
     for name, file in source.items():
+        if not isinstance(file, str | Path):
+            raise ValueError(
+                f"part {name!r}: expected the path of a file, as in {{'crank': 'crank.stl'}}; got {file!r}"
+            )
         found, units[f"{name} ({Path(file).name})"] = _read(Path(file), name)
         parts += found
     agreed = _agreed(units, unit)  # first: numbers in different units tell nothing about the same place
@@ -50,6 +54,8 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
 def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
     """The parts in a file, or the one part that it is with a name."""
     suffix = path.suffix.lower()
+    if path.is_dir():
+        raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
     if suffix in MESHES:
         return read_mesh(path, name)
     if suffix not in STEP:

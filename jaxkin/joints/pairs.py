@@ -70,6 +70,8 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
 
 def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float | int | jax.Array) -> Joint:
     """A helical pair that advances by `pitch` a turn (positive: right-handed). Coordinate: phi."""
+    if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
+        raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
     return joint(name, (part1, part2), "screw", ("T_screw",), [_frame(name, point, axis)], pitch)
 
 
@@ -129,7 +131,10 @@ def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.nda
         return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
     checked = {}
     for label, value in (("point", point), (what, axis)):
-        array = np.asarray(value, float)
+        try:
+            array = np.asarray(value, float)
+        except (TypeError, ValueError):
+            array = np.array(np.nan)
         if array.shape != (3,) or not np.all(np.isfinite(array)):
             raise ValueError(f"joint {name!r}: {label} must be three finite numbers (x, y, z), got {value!r}")
         checked[label] = array

@@ -33,9 +33,16 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
     numbers that are not finite, and a ball of which only some angles are driven.
     """
-    driven = coordinates(mechanism, tuple(drive))
+    driven = coordinates(mechanism, named(drive))
     given = given_values(driven, drive)
     return {name: Driven(*place, values) for (name, place), values in zip(driven.items(), given, strict=True)}
+
+
+def named(drive: Mapping[str, object]) -> tuple[str, ...]:
+    """What a drive names; ValueError where it names nothing, but is numbers alone."""
+    if not isinstance(drive, Mapping):
+        raise ValueError(f"the drive must say which joint moves how, as in {{'A': angles}}, got {drive!r}")
+    return tuple(drive)
 
 
 def coordinates(mechanism: Mechanism, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
@@ -66,6 +73,8 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
 def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
     """The joint and the coordinate that a name "joint" or "joint.coordinate" means; ValueError where it means none."""
     names = [joint.name for joint in mechanism.all_joints]
+    if not isinstance(key, str):
+        raise ValueError(f"a drive names 'joint' or 'joint.coordinate', as in {{{names[0]!r}: angles}}, got {key!r}")
     if key in names:
         joint = mechanism.all_joints[names.index(key)]
         if joint.freedoms != 1:
@@ -96,9 +105,11 @@ def _values(key: str, values: Any) -> Given:
         values = jnp.asarray(values, dtype)
     else:
         try:
+            if np.iscomplexobj(values):
+                raise TypeError
             values = np.asarray(values, dtype)
         except (TypeError, ValueError):
-            raise ValueError(f"drive {key!r}: the displacements must be numbers, got {values!r}") from None
+            raise ValueError(f"drive {key!r}: the displacements must be real numbers, got {values!r}") from None
     if values.ndim != 1:
         raise ValueError(
             f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import closest, nearest
 
 Sides = tuple[tuple[str, str], tuple[str, str]]
 """What each of the two sides of a contact may be called: its part, and the part with the face."""
@@ -48,6 +48,6 @@ def _instead(sides: Sequence[Sides], one: str, other: str) -> str:
     known = dict.fromkeys(name for pair in sides for side in pair for name in side)
     for name in (one, other):
         if name not in known:
-            return nearest(name, known)
+            return closest(name, known) or nearest(name, dict.fromkeys(part for pair in sides for part, _ in pair))
     touching = [second for pair in sides for first, second in (pair, pair[::-1]) if one in first]
     return f"; {one!r} touches {', '.join(dict.fromkeys(repr(part) for part, _ in touching))}"

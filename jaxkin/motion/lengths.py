@@ -109,6 +109,8 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
     Where the lengths asked for and those to be kept cannot hold together, the nearest place of the joints is given, and
     the misfit (relative to the size of the part) is a differentiable measure of it.
     """
+    if not isinstance(changes, Mapping):
+        raise ValueError(f"lengths are given by name, as in {{('coupler', 'B', 'C'): 3.6}}, got {changes!r}")
     bodies: dict[tuple[Feature, ...], list[tuple[Length, Any]]] = {}
     pitches: dict[int, Any] = {}
     named: dict[Length, Any] = {}
@@ -170,6 +172,8 @@ def _checked(key: Key, length: Length, wanted):
     if traced(wanted):
         return wanted
     try:
+        if isinstance(wanted, str):
+            raise TypeError
         number = np.asarray(wanted, float)
     except (TypeError, ValueError):
         raise ValueError(f"length {key!r} must be a number, got {wanted!r}") from None

@@ -15,6 +15,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.motion.forms import forms
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.system import Form
+from jaxkin.topology.names import nearest
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ class Mechanism:
 
         Raises ValueError where names repeat, a fixed part is in no joint, or a part hangs on nothing.
         """
+        if (wrong := _no_joint(joints)) is not None:
+            raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         described = [(joint.name, *joint.parts) for joint in joints]
         return Mechanism(tuple(joints), structure(parts, described, fixed), unit)
@@ -81,7 +84,10 @@ class Mechanism:
         return {joint.name: joint for joint in self.all_joints}
 
     def joints_between(self, part1: str, part2: str) -> tuple[str, ...]:
-        """Names of the joints between two parts, in whichever order."""
+        """Names of the joints between two parts, in whichever order. ValueError for an unknown part."""
+        for part in (part1, part2):
+            if part not in self.parts:
+                raise ValueError(f"there is no part {part!r}{nearest(part, self.parts)}")
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
     def sweep(
@@ -190,6 +196,15 @@ class Mechanism:
         from jaxkin.motion.describe import describe_mechanism
 
         return describe_mechanism(self)
+
+
+def _no_joint(joints: Any) -> str | None:
+    """What stands where joints should, in words; None where all is well."""
+    if isinstance(joints, Joint):
+        return f"the joint {joints.name!r} alone"
+    if not isinstance(joints, Iterable):
+        return repr(joints)
+    return next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
 
 
 # by hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only

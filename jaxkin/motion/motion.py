@@ -79,10 +79,7 @@ class Motion:
         if part not in self.transforms:
             raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
         transforms = self.transforms[part]
-        point = jnp.asarray(point, float)
-        if point.shape != (3,):
-            raise ValueError(f"a point must be three numbers (x, y, z), got shape {point.shape}")
-        return jnp.einsum("pij,j->pi", transforms[:, :3, :3], point) + transforms[:, :3, 3]
+        return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
 
     def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
         """Write tables, animation and pictures into a directory; returns the paths. See `motion.writers.save`."""
@@ -92,6 +89,17 @@ class Motion:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
         closed = np.asarray(self.residual)[np.asarray(self.closed)]
         return tally(self.mechanism, self.inputs, counts, float(closed.max(initial=0.0)))
+
+
+def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
+    """Three numbers, in the unit of the mechanism; ValueError where they are none."""
+    try:
+        found = jnp.asarray(point, float)
+    except (TypeError, ValueError):
+        raise ValueError(f"a point must be three numbers (x, y, z), got {point!r}") from None
+    if found.shape != (3,):
+        raise ValueError(f"a point must be three numbers (x, y, z), got shape {found.shape}")
+    return found
 
 
 def tally(mechanism: Mechanism, inputs: Collection[str], counts: Int[np.ndarray, " status"], largest: float) -> str:

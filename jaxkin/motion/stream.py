@@ -19,7 +19,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.geometry.motions import is_length
 from jaxkin.geometry.traced import traced
 from jaxkin.geometry.trig import TURN
-from jaxkin.motion.drive import resolve
+from jaxkin.motion.drive import named, resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion, placed
 from jaxkin.motion.sweep import sweep
@@ -46,9 +46,9 @@ class Stream:
     def __init__(
         self, mechanism: Mechanism, drive: Mapping[str, object], chunk: int, tolerance: float | None, method: str
     ) -> None:
-        if traced(mechanism, dict(drive)):
+        if traced(mechanism, {name: drive[name] for name in named(drive)}):
             raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
-        if chunk < 1:
+        if not isinstance(chunk, int | np.integer) or chunk < 1:
             raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
         self.mechanism = mechanism
         self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism, drive).items()}

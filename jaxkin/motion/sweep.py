@@ -14,7 +14,7 @@ from jax import dtypes, lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
-from jaxkin.motion.drive import Given, given_values
+from jaxkin.motion.drive import Given, given_values, named
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.prepared import prepare
@@ -22,7 +22,7 @@ from jaxkin.solve.compiled import Outcome, solve
 from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance, roundings
 from jaxkin.solve.status import tolerance as default_tolerance
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import closest
 
 ROUNDINGS = 16
 """Units of rounding in the residual of a pose that is improved no further unless a tolerance is asked for."""
@@ -48,13 +48,13 @@ def sweep(
     an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that the
     loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
     """
-    prepared = prepare(mechanism, tuple(drive))
+    prepared = prepare(mechanism, named(drive))
     values = given_values(prepared.driven, drive)
     if prepared.refused:
         raise ValueError(prepared.refused)
     asked = _tolerance(tolerance)
     if method not in METHODS:
-        raise ValueError(f"there is no method {method!r}{nearest(method, METHODS)}; there are {', '.join(METHODS)}")
+        raise ValueError(f"there is no method {method!r} among {', '.join(METHODS)}{closest(method, METHODS)}")
     _warn_of_float32()
     elements = prepared.elements if values[0].shape[0] else ()
     solutions = [
@@ -72,9 +72,14 @@ def _tolerance(asked: float | None) -> Tolerance:
     dtype = dtypes.canonicalize_dtype(float)  # numbers of the host: to make arrays of the device takes longer
     if asked is None:
         return Tolerance(*(np.asarray(gap, dtype) for gap in (default_tolerance(dtype), roundings(dtype, ROUNDINGS))))
-    if not traced(asked) and not float(asked) > 0:
-        raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}")
-    given = jnp.asarray(asked, dtype) if traced(asked) else np.asarray(asked, dtype)
+    if traced(asked):
+        return Tolerance(*[jnp.asarray(asked, dtype)] * 2)
+    try:
+        given = np.asarray(asked, dtype)
+        if given.shape or not given > 0:
+            raise ValueError
+    except (TypeError, ValueError):
+        raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}") from None
     return Tolerance(given, given)
 
 

@@ -80,8 +80,11 @@ def _write(motion: Motion, directory: Path, filename: str) -> Path:
 def whole(target: Path) -> Iterator[Path]:
     """A draft of a file, which takes its place when it is written, and never does where that fails.
 
-    It lies in a folder beside the file, on the same disk, so that the move is a mere renaming.
+    It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
+    where the folder of the file is not there.
     """
+    if not target.parent.is_dir():
+        raise FileNotFoundError(f"cannot write {target}: there is no folder {target.parent}; make it, or name another")
     with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
         draft = Path(folder) / target.name
         yield draft

@@ -19,7 +19,8 @@ from reference.mechanisms import cam, planar_fourbar, rssr_linkage
         ({"A": 0.5}, r"one value a pose, got shape \(\); write \[value\]"),
         ({"A": [[0.5]]}, r"got shape \(1, 1\)"),
         ({"A": [0.0, float("nan")]}, "drive 'A': pose 1 is nan"),
-        ({"A": ["x"]}, "must be numbers"),
+        ({"A": ["x"]}, "must be real numbers"),
+        ({"A": [1j]}, "must be real numbers"),
     ],
 )
 def test_refused(drive, message):

@@ -114,6 +114,7 @@ def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
         ({"ignore": ["crank"]}, '[["slider", "stop"]]'),
         ({"ignore": [["crank", "rocker"]]}, "no contact between 'crank' and 'rocker' to ignore; 'crank' touches"),
         ({"ignore": [["crank", "grund"]]}, "did you mean 'ground'?"),
+        ({"ignore": [["crank", "xyz"]]}, "to ignore; there is 'ground', 'crank', 'rocker', 'coupler'"),
         ({"joints": [jk.fixed("weld", "ground", "cranc")]}, "joint 'weld' names the unknown part 'cranc'; did you"),
         (
             {"joints": [jk.fixed("weld", "coupler", "crank")], "rigid": [["coupler", "crank"]]},

@@ -1,0 +1,70 @@
+"""What is no drive, joint, point or loss at all is refused in words: what arrived, and what to write.
+
+In a process of its own, since here the types in signatures are executed, which refuses it in words of another kind.
+"""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+BEGIN = """
+import json, sys
+import numpy as np
+import jax
+import jaxkin as jk
+from jaxkin.effects.rates import velocities
+
+jax.config.update("jax_enable_x64", True)
+hinge = jk.revolute("A", "ground", "arm", point=(0, 0, 0), axis=(0, 0, 1))
+arm = jk.Mechanism.build(fixed=["ground"], joints=[hinge])
+angles = np.linspace(0, 1, 3)
+motion = arm.sweep({"A": angles})
+said = {}
+for line in json.loads(sys.argv[1]):
+    try:
+        eval(line)
+    except ValueError as error:
+        said[line] = str(error)
+print(json.dumps(said))
+"""
+
+REFUSED = {
+    "arm.sweep(angles)": "must say which joint moves how, as in {'A': angles}, got array(",
+    "arm.sweep(None)": "as in {'A': angles}, got None",
+    "arm.stream(angles)": "as in {'A': angles}, got array(",
+    "arm.sweep({0: angles})": "a drive names 'joint' or 'joint.coordinate', as in {'A': angles}, got 0",
+    "arm.sweep({'A': angles + 1j})": "drive 'A': the displacements must be real numbers, got array(",
+    "arm.sweep({'A': angles}, tolerance='small')": "tolerance must be a positive number such as 1e-9, got 'small'",
+    "arm.sweep({'A': angles}, tolerance=[1e-9])": "tolerance must be a positive number such as 1e-9, got [1e-09]",
+    "arm.sweep({'A': angles}, method='newton')": "there is no method 'newton' among continuation, gauss-newton,",
+    "arm.stream({'A': angles}, chunk=1.5)": "chunk must be a number of poses, 1 or more, got 1.5",
+    "arm.with_lengths(3.0)": "lengths are given by name, as in {('coupler', 'B', 'C'): 3.6}, got 3.0",
+    "arm.joints_between('ground', 'amr')": "there is no part 'amr'; did you mean 'arm'?",
+    "motion.points('arm', None)": "a point must be three numbers (x, y, z), got None",
+    "motion.points('arm', 'tip')": "a point must be three numbers (x, y, z), got 'tip'",
+    "velocities(motion, {'A': 1.0}).points('arm', (0, 0))": "three numbers (x, y, z), got shape (2,)",
+    "velocities(motion, 1.0)": "as in {'A.phi': 1.0}, got 1.0",
+    "velocities(arm, {'A': 1.0})": "rates are those of a motion, mechanism.sweep(drive), got Mechanism",
+    "jk.Mechanism.build(fixed=['ground'], joints=hinge)": "be a list of joints, such as [jk.revolute(...)], got the",
+    "jk.Mechanism.build(fixed=['ground'], joints=[hinge, 'B'])": "got 'B' among them",
+    "jk.Mechanism.build(fixed=['ground'], joints=3)": "got 3",
+    "jk.revolute('A', 'ground', 'arm', point=(0, 0, 0), axis='z')": "must be three finite numbers (x, y, z), got 'z'",
+    "jk.screw('A', 'p', 'q', point=(0, 0, 0), axis=(0, 0, 1), pitch='3')": "pitch must be a finite number, the advance",
+    "jk.screw('A', 'p', 'q', point=(0, 0, 0), axis=(0, 0, 1), pitch=np.nan)": "pitch must be a finite number, the",
+    "jk.optimize(None, arm, drive={'A': angles})": "an objective of jk.design, or a function of the motion, got None",
+    "jk.load({'crank': 5})": "part 'crank': expected the path of a file, as in {'crank': 'crank.stl'}; got 5",
+    "jk.load('.')": ". is a folder: give the path of a STEP file in it",
+}
+
+
+@pytest.mark.long
+def test_what_is_of_no_use_is_refused_in_words():
+    done = subprocess.run(
+        [sys.executable, "-c", BEGIN, json.dumps(list(REFUSED))], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    said = json.loads(done.stdout)
+    missing = {line: said.get(line) for line, words in REFUSED.items() if words not in said.get(line, "")}
+    assert not missing
