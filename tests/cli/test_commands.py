@@ -28,7 +28,7 @@ def run(*arguments, **environment):
     program = "from jaxkin.cli import main; main()"
     return subprocess.run(
         [sys.executable, "-c", program, *map(str, arguments)],
-        env=os.environ | environment,
+        env={name: value for name, value in os.environ.items() if name != "JAX_COMPILATION_CACHE_DIR"} | environment,
         capture_output=True,
         text=True,
         check=False,
