@@ -11,10 +11,11 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.solve.blocks import blocks
 from jaxkin.solve.closure import Geometry, closure
-from jaxkin.solve.correct import floor, free_jacobian
+from jaxkin.solve.correct import floor
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import inverse, scale
+from jaxkin.solve.linear import inverse
 from jaxkin.solve.state import State, retract
 from jaxkin.solve.system import LoopSystem
 
@@ -29,8 +30,8 @@ def shared_steps(
     poses = state.x.shape[-1]
     groups = -(-poses // NEIGHBOURS)
     middles = np.minimum(np.arange(groups) * NEIGHBOURS + NEIGHBOURS // 2, poses - 1)
-    jacobian = free_jacobian(system, closure(system, geometry, State(*(part[..., middles] for part in state))))
-    back = inverse(jacobian, floor(jacobian.dtype) * scale(jacobian), system.used)
+    jacobian = closure(system, geometry, State(*(part[..., middles] for part in state))).jacobian
+    back = inverse(jacobian, floor(jacobian.dtype), blocks(system))
 
     def moved(residual: Float[Array, "equations poses"]) -> Float[Array, "columns poses"]:
         filled = jnp.pad(residual, ((0, 0), (0, groups * NEIGHBOURS - poses))).reshape(-1, groups, NEIGHBOURS)

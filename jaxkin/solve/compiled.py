@@ -26,11 +26,13 @@ OPTIONS = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
+    "xla_llvm_disable_expensive_passes": True,
 }
-"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, for a program no faster.
+"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the costlier passes of
+LLVM 1.4 times, for a program no faster.
 
 It is made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads,
-takes longer than they do. (Several cores are used as several devices: each has poses of its own.)"""
+takes longer than they do. Several cores have poses of their own: see `pieces`; or are several devices."""
 
 
 class Outcome(NamedTuple):

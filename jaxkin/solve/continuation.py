@@ -19,12 +19,15 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin.solve.blocks import blocks
 from jaxkin.solve.closure import Closure, Geometry
-from jaxkin.solve.correct import choose, correct, floor, free_jacobian
+from jaxkin.solve.correct import Corrected, choose, correct, floor
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import is_turned_over, least_norm, scale
+from jaxkin.solve.linear import solve_blocks
+from jaxkin.solve.newton import newton
+from jaxkin.solve.orientation import turned_over
 from jaxkin.solve.state import State, assembled, difference, drive, driven_rate, rate, retract
-from jaxkin.solve.status import Status, classify, is_closed
+from jaxkin.solve.status import Status, classify, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import Way
 
@@ -44,8 +47,15 @@ CORRECTOR_STEPS, GAP_STEPS, RESCUE_STEPS = 8, 16, 200
 WANTED, MOST = 0.1, 0.25
 """By how much of the way travelled a prediction is to be off, and may be."""
 
-START, FOLLOW, GAP = range(3)
-"""Stages of a lane: closing the assembled pose, following the motion, beyond its limit."""
+ENOUGH = 64
+"""Times the unit of rounding: the gap of a pose on the way, which is only a place to begin from."""
+START_NEAR = 1e-2
+"""An assembled pose that is closed farther away than this is closed with care."""
+CAREFUL = 1e-2
+"""A longer step that Newton's method does not close is shortened; a shorter one closed with care: a change point."""
+
+START, FOLLOW, GAP, ARRIVED = range(4)
+"""Stages of a lane: closing the assembled pose, following the motion, beyond its limit; none of these any more."""
 
 
 class Front(NamedTuple):
@@ -55,7 +65,6 @@ class Front(NamedTuple):
     status: Int[Array, " lanes"]
     gap: Float[Array, " lanes"]
     jacobian: Float[Array, "equations columns lanes"]
-    """That of the free coordinates."""
     at: Float[Array, " lanes"]
     """How far along the way: the input itself if it is a single one."""
     slope: Float[Array, "columns lanes"]
@@ -108,15 +117,14 @@ def substep(
     way: Way,
     front: Front,
     target: Float[Array, " lanes"],
-    enough: float = 0.0,
 ) -> Front:
     """One step of every lane that has not arrived; a lane whose step was refused stands where it stood.
 
-    Poses whose gap is no larger than `enough` are not improved any more; of them the gap may be foreseen, not measured.
+    A lane is closed to some roundings, no better; its gap may be foreseen, not measured.
     """
     dtype = target.dtype
     left = jnp.abs(target - front.at)
-    stage = jnp.where(arrived(front, target), -1, front.stage)
+    stage = jnp.where(arrived(front, target), ARRIVED, front.stage)
     starting, following, in_gap = stage == START, stage == FOLLOW, stage == GAP
     moved = jnp.where(following, jnp.minimum(front.step, left), jnp.where(in_gap, jnp.minimum(GAP_STEP, left), 0.0))
     moved = jnp.where(target < front.at, -moved, moved)
@@ -128,8 +136,9 @@ def substep(
     predicted = _predicted(system, front, tangent, jnp.where(following & sloped, moved, 0.0))
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
-    most = jnp.where(starting, RESCUE_STEPS, jnp.where(in_gap, GAP_STEPS, CORRECTOR_STEPS))
-    found = correct(system, geometry, predicted, most, enough, foresee=enough > 0)
+    travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
+    slack = 50 * float(jnp.finfo(dtype).eps)
+    found = _corrected(system, geometry, predicted, distance, stage)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.gap, found.stationary, ~front.anchored | beside)
@@ -137,10 +146,8 @@ def substep(
 
     # following: near the prediction, or, without one, within a tiny step
     deviation = difference(found.state, predicted)
-    travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
-    slack = 50 * float(jnp.finfo(dtype).eps)
-    jacobian = free_jacobian(system, found.closure)
-    crossed = _turned_over(front.jacobian, jacobian) & (distance > CROSSING)
+    jacobian = found.closure.jacobian
+    crossed = turned_over(front.jacobian, jacobian, blocks(system)) & (distance > CROSSING)
     good = following & closed & (deviation <= MOST * travel + slack) & ~crossed
     # a cubic is off by the fourth power of the step
     growth = jnp.where(sloped, jnp.cbrt(WANTED * travel / jnp.maximum(deviation - slack, 1e-30)), 2.0)
@@ -171,6 +178,27 @@ def substep(
     )
 
 
+def _corrected(
+    system: LoopSystem,
+    geometry: Geometry,
+    predicted: State,
+    distance: Float[Array, " lanes"],
+    stage: Int[Array, " lanes"],
+) -> Corrected:
+    """Lanes brought to closure by Newton's method; by the damped corrector where that is of use and Newton's fails."""
+    enough = roundings(predicted.x.dtype, ENOUGH)
+    state, closed, gap = newton(system, geometry, predicted, enough, foresee=True)
+    quick = Corrected(state, closed, gap, jnp.zeros(gap.shape, bool))
+    near = (gap <= enough) & (difference(state, predicted) <= START_NEAR)
+    hard = (stage == GAP) | (stage == START) & ~near | (stage == FOLLOW) & ~(gap <= enough) & (distance <= CAREFUL)
+
+    def with_care() -> Corrected:
+        steps = jnp.where(stage == START, RESCUE_STEPS, jnp.where(stage == GAP, GAP_STEPS, CORRECTOR_STEPS))
+        return choose(hard, correct(system, geometry, predicted, steps, enough), quick)
+
+    return lax.cond(any_lane(hard), with_care, lambda: quick)
+
+
 def _predicted(system: LoopSystem, front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:
     """Where the motion is expected: on the cubic through two states with their slopes, or along secant or tangent."""
     s, w = moved / front.width, front.width
@@ -190,21 +218,6 @@ def _predicted(system: LoopSystem, front: Front, tangent: State, moved: Float[Ar
     return choose(front.tangent | ~front.has_before, along, choose(smooth, curve, straight))
 
 
-def _turned_over(
-    before: Float[Array, "equations columns lanes"], after: Float[Array, "equations columns lanes"]
-) -> Bool[Array, " lanes"]:
-    """Whether the determinant of the Jacobian has changed its sign, or what takes its place where it is not square.
-
-    That is `det(J0^T J1)`, or `det(J0 J1^T)`, which has the same sign; a little on the diagonal makes columns, or rows,
-    count for which the Jacobian lacks rank.
-    """
-    equations, columns, _ = before.shape
-    product = jnp.einsum("eil,ejl->ijl" if columns < equations else "eil,fil->efl", before, after)
-    eps = float(jnp.finfo(before.dtype).eps)
-    little = 0.1 * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
-    return is_turned_over(product + little * jnp.eye(min(columns, equations), dtype=before.dtype)[..., None])
-
-
 def reach(
     system: LoopSystem, geometry: Geometry, targets: Float[Array, "driven lanes"]
 ) -> tuple[State, Int[Array, " lanes"], Float[Array, " lanes"]]:
@@ -220,14 +233,15 @@ def reach(
         lambda front: substep(system, geometry, way, front, distance),
         start(system, targets.shape[-1], targets.dtype),
     )
-    return front.state, front.status, front.gap
+    state, _, gap = newton(system, geometry, front.state, roundings(distance.dtype, 1))
+    closed = is_closed(front.status)
+    return choose(closed, state, front.state), front.status, jnp.where(closed, gap, front.gap)
 
 
 def slopes(
     system: LoopSystem, state: State, closed: Closure, direction: Float[Array, "driven poses"]
 ) -> Float[Array, "columns poses"]:
     """Change of all coordinates while the inputs change in a direction."""
-    jacobian = free_jacobian(system, closed)
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - least_norm(jacobian, right, floor(jacobian.dtype) * scale(jacobian), system.used)
+    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), blocks(system))

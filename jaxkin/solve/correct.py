@@ -24,15 +24,12 @@ LONGEST_STEP = 0.5
 """Radians, or characteristic lengths: what a linear model of a rotation is good for."""
 STAGNANT = 1e-9
 """Relative decrease of the merit in one step below which it has reached its least value."""
-QUADRATIC = 1e-2
-"""A step that leaves less of the gap than this was Newton's: where a motion ends a step leaves a quarter at best."""
 
 
 class Corrected(NamedTuple):
     state: State
     closure: Closure
     gap: Float[Array, " poses"]
-    """That of the state, or what was foreseen."""
     stationary: Bool[Array, " poses"]
     """The residual cannot be lessened any more to first order."""
 
@@ -43,8 +40,6 @@ class _Iterate(NamedTuple):
     closure: Closure
     trust: Float[Array, " poses"]
     done: Bool[Array, " poses"]
-    foreseen: Float[Array, " poses"]
-    """Gap of the trial if convergence is quadratic, else infinite."""
     trial: State
 
 
@@ -64,14 +59,8 @@ def correct(
     state: State,
     iterations: Int[Array, " poses"] | int,
     enough: Scalar | float = 0.0,
-    *,
-    foresee: bool = False,
 ) -> Corrected:
-    """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done.
-
-    With `foresee` the last step is not looked back at where convergence is quadratic: the state then is one step ahead
-    of the closure returned.
-    """
+    """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
     dtype = state.x.dtype
     eps = float(jnp.finfo(dtype).eps)
 
@@ -96,15 +85,8 @@ def correct(
         exhausted = ~taken & ((length < 4 * eps) | (chosen.merit < 0.5 * (64 * eps) ** 2))
         # a residual that nothing lessens any more, though no damping is in the way: the loops cannot close
         least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT) * iterate.closure.merit)
-        foreseen = iterate.foreseen
-        if foresee:
-            # Newton's gaps go as the squares of those before: the next is this one times the square of the last ratio
-            shrunk = chosen.gap / iterate.closure.gap
-            quadratic = better & ~first & (shrunk < QUADRATIC)
-            foreseen = jnp.where(iterate.done, foreseen, jnp.where(quadratic, shrunk**2 * chosen.gap, jnp.inf))
         done = (
             iterate.done
-            | (foreseen <= enough)
             | (chosen.gap <= enough)
             | (chosen.merit < 32 * eps**2)
             | exhausted
@@ -112,9 +94,7 @@ def correct(
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == iterations)
         )
-        return _Iterate(
-            iterate.count + 1, chosen_state, chosen, trust, done, foreseen, retract(system, chosen_state, delta)
-        )
+        return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
 
     poses = state.x.shape[-1]
     nothing = Closure(
@@ -123,14 +103,10 @@ def correct(
         jnp.full(poses, jnp.inf, dtype),
         jnp.full(poses, jnp.inf, dtype),
     )
-    unknown, no = jnp.full(poses, jnp.inf, dtype), jnp.zeros(poses, bool)
-    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, unknown, state)
+    no = jnp.zeros(poses, bool)
+    start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state)
     last = lax.while_loop(running, step, start)
-    found, gap = last.state, last.closure.gap
-    if foresee:
-        ahead = last.foreseen <= enough
-        found, gap = choose(ahead, (last.trial, last.foreseen), (found, gap))
-    return Corrected(found, last.closure, gap, _stationary(system, last.closure))
+    return Corrected(last.state, last.closure, last.closure.gap, _stationary(system, last.closure))
 
 
 def _stationary(system: LoopSystem, closed: Closure) -> Bool[Array, " poses"]:

@@ -18,12 +18,14 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure import Closure, Geometry, closure
+from jaxkin.solve.blocks import blocks
+from jaxkin.solve.closure import Geometry, closure
 from jaxkin.solve.continuation import slopes
-from jaxkin.solve.correct import floor, free_jacobian
+from jaxkin.solve.correct import floor
 from jaxkin.solve.knots import Knots, guess
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import inverse, least_norm, scale
+from jaxkin.solve.linear import inverse
+from jaxkin.solve.newton import newton
 from jaxkin.solve.reading import at_rest
 from jaxkin.solve.state import State, assembled, difference, drive, rate, retract
 from jaxkin.solve.status import roundings, tolerance
@@ -36,8 +38,6 @@ NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
 """Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial."""
 NARROWEST = 1e-4
 """Half the width of the narrowest segment, radians or characteristic lengths: repeated inputs have no width."""
-NEWTON = 4
-"""Steps at most from where the knots put a node."""
 CORRECTION = 1e-6
 """A pose farther from the polynomial than this is not trusted."""
 NEAR = 1e-2
@@ -116,14 +116,9 @@ def _solve_nodes(
     values = (middle[:, None] + half[:, None] * jnp.asarray(NODES, half.dtype)).reshape(-1)
     begin = guess(system, knots, values)
     state = drive(system, begin.state, values[None])
-    enough = roundings(values.dtype, CLOSED)
-    _, state, closed = lax.while_loop(
-        lambda at: (at[0] < NEWTON) & any_lane(at[2].gap > enough),
-        lambda at: (at[0] + 1, *_newton(system, geometry, *at[1:])),
-        (jnp.asarray(0), state, closure(system, geometry, state)),
-    )
-    middles = free_jacobian(system, closed)[..., len(NODES) // 2 :: len(NODES)]
-    back = inverse(middles, floor(values.dtype) * scale(middles), system.used)
+    state, closed, _ = newton(system, geometry, state, roundings(values.dtype, CLOSED))
+    middles = closed.jacobian[..., len(NODES) // 2 :: len(NODES)]
+    back = inverse(middles, floor(values.dtype), blocks(system))
     basis = jnp.asarray(_coefficients(), values.dtype)
 
     def polynomial(x: Array, d: Array) -> Array:
@@ -140,14 +135,6 @@ def _solve_nodes(
     good = (closed.gap <= tolerance(values.dtype)) & (difference(state, begin.state) <= NEAR) & begin.covered
     solid = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)
     return status[:, 0], solid, polynomials, back
-
-
-def _newton(system: LoopSystem, geometry: Geometry, state: State, closed: Closure) -> tuple[State, Closure]:
-    """A step of Newton's method, and the closure that it leads to."""
-    jacobian = free_jacobian(system, closed)
-    delta = -least_norm(jacobian, closed.residual, floor(jacobian.dtype) * scale(jacobian), system.used)
-    state = retract(system, state, delta)
-    return state, closure(system, geometry, state)
 
 
 def _at(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:

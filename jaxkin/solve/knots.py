@@ -23,7 +23,7 @@ from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
 from jaxkin.solve.reading import ball_turns
 from jaxkin.solve.state import State, difference, rate, retract
-from jaxkin.solve.status import Status, is_closed, roundings
+from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import Way
 
@@ -35,8 +35,6 @@ BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9
 """Coordinates that differ by less where the two ways meet are the same (1e-4 in float32)."""
-ENOUGH = 64
-"""Times the unit of rounding: the gap of a knot, which is only a place to begin from."""
 MEETING = (3.0 - TURN, 3.0)
 """Where the ways backwards and forwards meet: a full turn apart, and half a turn from the assembled pose, but where no
 designer puts a change point."""
@@ -86,7 +84,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     ends = jnp.stack([jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)])
     turn, meeting = jnp.array([-TURN, TURN], dtype), jnp.array(MEETING, dtype)
     beyond = (ends[0] < meeting[0]) | (ends[1] > meeting[1])
-    front, enough = start(system, 2, dtype), roundings(dtype, ENOUGH)
+    front = start(system, 2, dtype)
     table = jnp.zeros((2 * room + 2, _row(system, front).shape[1]), dtype)
     nowhere, no = jnp.array([-jnp.inf, jnp.inf], dtype), jnp.asarray(False)
 
@@ -105,7 +103,7 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
 
     def step(carry):
         front, count, limits, parted, table = carry
-        front = substep(system, geometry, way, front, target(front, limits, parted), enough)
+        front = substep(system, geometry, way, front, target(front, limits, parted))
         # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
         # so that all lanes, those of other designs too, write at one place
         row = _row(system, front)

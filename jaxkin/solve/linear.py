@@ -3,6 +3,7 @@
 Closure equations are often redundant (parallel axes, several contacts of one pair) and coordinates idle (the spin of a
 rod between two balls). `x = J^T (J J^T + damping)^-1 r` is defined in both cases, and lies in the row space of J by
 construction: rounding never sets an idle coordinate in motion, as it does in the normal equations of the other form.
+Where loops follow from one another, so do their systems: see `blocks`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ from collections.abc import Callable, Sequence
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Float
+
+from jaxkin.solve.blocks import Block
 
 FEW, UNROLLED, MANY = 3, 9, 1024
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
@@ -32,11 +35,11 @@ def least_norm(
     All columns but those `used` are zero. With `refine` one step of iterative refinement takes the bias of the damping
     out.
     """
-    _, columns, poses = jacobian.shape
+    columns = jacobian.shape[1]
     if len(used) < PICKED * columns:
         which = np.array(used, np.int32)
         few = least_norm(jacobian[:, which], right, damping, range(len(used)), refine=refine)
-        return jnp.zeros((columns, poses), few.dtype).at[which].set(few, unique_indices=True)
+        return _placed(few, used, columns)
     factored = _factored(jacobian, damping)
 
     def transposed(y: Vector) -> Array:
@@ -57,33 +60,55 @@ def least_norm(
     return x
 
 
-def inverse(
-    jacobian: Matrix, damping: Float[Array, " poses"], used: Sequence[int]
-) -> Float[Array, "poses columns rows"]:
-    """What `least_norm` multiplies right-hand sides by."""
-    rows, columns, poses = jacobian.shape
-    which = np.array(used, np.int32)
-    unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
-    found = jnp.einsum("rcp,rkp->pck", jacobian[:, which], _factored(jacobian[:, which], damping)(unit))
-    return jnp.zeros((poses, columns, rows), found.dtype).at[:, which].set(found, unique_indices=True)
+def solve_blocks(
+    jacobian: Matrix, right: Vector, floor: float, blocks: Sequence[Block], *, regular: bool = False
+) -> Array:
+    """The x with J x = r, block after block, for every pose: (columns, poses). No derivatives.
 
-
-def is_turned_over(matrix: Float[Array, "rows rows poses"]) -> Bool[Array, " poses"]:
-    """Whether the determinants are negative, of matrices that are positive definite but where they have turned over.
-
-    Such need no pivoting; and no library, whose import would take as long as a small sweep.
+    Of each block that of least norm, damped by so much of the scale of the block. Where all is `regular` blocks of
+    three equations in as many unknowns are solved by Cramer's rule, which costs less.
     """
-    n = matrix.shape[0]
+    return _in_turn(jacobian, right[:, None], floor, blocks, regular)[:, 0]
 
-    def eliminate(k: Array | int, carry: tuple[Array, Array]) -> tuple[Array, Array]:
-        matrix, negative = carry
-        pivot = lax.dynamic_index_in_dim(matrix, k, axis=0, keepdims=False)
-        column = lax.dynamic_index_in_dim(matrix, k, axis=1, keepdims=False)
-        diagonal = lax.dynamic_index_in_dim(column, k, axis=0, keepdims=False)
-        factor = jnp.where(jnp.arange(n)[:, None] > k, column / diagonal, 0.0)
-        return matrix - factor[:, None] * pivot[None], negative ^ (diagonal < 0)
 
-    return lax.fori_loop(0, n, eliminate, (matrix, jnp.zeros(matrix.shape[-1], bool)))[1]
+def inverse(jacobian: Matrix, floor: float, blocks: Sequence[Block]) -> Float[Array, "poses columns rows"]:
+    """What `solve_blocks` multiplies right-hand sides by where all is regular."""
+    rows, _, poses = jacobian.shape
+    unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
+    return jnp.moveaxis(_in_turn(jacobian, unit, floor, blocks, True), -1, 0)
+
+
+def _in_turn(
+    jacobian: Matrix, right: Float[Array, "rows sides poses"], floor: float, blocks: Sequence[Block], regular: bool
+) -> Array:
+    """Solutions for several right-hand sides: (columns, sides, poses)."""
+    known: list[int] = []
+    found = jnp.zeros((0, *right.shape[1:]), right.dtype)
+    for block in blocks:
+        rest = right[np.array(block.rows)]
+        if known:
+            rest = rest - jnp.sum(jacobian[np.ix_(block.rows, known)][:, :, None] * found, axis=1)
+        own = jacobian[np.ix_(block.rows, block.columns)]
+        if regular and own.shape[:2] == (3, 3):
+            here = _cramer(own, rest)
+        else:
+            here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, floor * scale(own))(rest))
+        found = jnp.concatenate([found, here])
+        known += block.columns
+    return _placed(found, known, jacobian.shape[1])
+
+
+def _placed(found: Float[Array, "some *entries"], which: Sequence[int], number: int) -> Float[Array, "number *entries"]:
+    """Rows put into their places among zeros: picked, since XLA writes scattered rows one after another."""
+    place = np.full(number, len(which))
+    place[list(which)] = np.arange(len(which))
+    return jnp.concatenate([found, jnp.zeros_like(found[:1])])[place]
+
+
+def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]) -> Float[Array, "3 sides poses"]:
+    a, b, c = own
+    normals = jnp.stack([jnp.cross(b, c, axis=0), jnp.cross(c, a, axis=0), jnp.cross(a, b, axis=0)])
+    return jnp.sum(normals[:, :, None] * right[:, None], axis=0) / jnp.sum(a * normals[0], axis=0)
 
 
 def scale(jacobian: Matrix) -> Float[Array, " poses"]:

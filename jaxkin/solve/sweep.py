@@ -29,6 +29,7 @@ from jaxkin.solve.knots import Knots, follow, guess
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
+from jaxkin.solve.newton import newton
 from jaxkin.solve.reading import ball_turns, read_off, unwrapped
 from jaxkin.solve.state import assembled, difference, drive, driven
 from jaxkin.solve.status import Status, Tolerance, classify, is_closed, roundings
@@ -210,8 +211,19 @@ def _settle(
     """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
     begin = guess(system, knots, at)
     state = drive(system, begin.state, inputs)
-    found = correct(system, geometry, state, RESCUE_STEPS, tolerance.enough)
-    near = difference(found.state, state) <= FARTHEST_CORRECTION
-    same = near & (begin.status == Status.CLOSED.value)
-    status = classify(found.closure.gap, found.stationary, same, tolerance.closed)
-    return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
+    quick, _, gap = newton(system, geometry, state, jnp.maximum(roundings(at.dtype, SHARP), tolerance.enough))
+    near = difference(quick, state) <= FARTHEST_CORRECTION
+    closes = gap <= jnp.maximum(roundings(at.dtype, CLOSED), tolerance.enough)
+
+    def with_care() -> Poses:
+        found = correct(system, geometry, state, RESCUE_STEPS, tolerance.enough)
+        near = difference(found.state, state) <= FARTHEST_CORRECTION
+        same = near & (begin.status == Status.CLOSED.value)
+        status = classify(found.closure.gap, found.stationary, same, tolerance.closed)
+        return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
+
+    return lax.cond(
+        any_lane(~(closes & near & begin.covered & is_closed(begin.status))),
+        with_care,
+        lambda: Poses(quick, begin.status, gap),
+    )

@@ -78,8 +78,8 @@ class LoopSystem:
         """Joint and frame of each ball -> its number and its columns, by rising number."""
         pairs, locking = {}, {}
         for joint, movements in enumerate(self.movements):
-            first = column = self._first_columns[joint]
-            given = not set(self.driven).isdisjoint(range(first, first + freedoms(movements)))
+            column = self._first_columns[joint]
+            given = not set(self.driven).isdisjoint(self.span(joint))
             for frame, name in enumerate(movements):
                 if MOVEMENTS[name].ball:
                     pairs[joint, frame] = (column, column + 1, column + 2)
@@ -98,6 +98,11 @@ class LoopSystem:
             for movement in movements
             for name in MOVEMENTS[movement].coordinates
         )
+
+    def span(self, joint: int) -> range:
+        """The columns of a joint."""
+        first = self._first_columns[joint]
+        return range(first, first + freedoms(self.movements[joint]))
 
     @property
     def columns(self) -> int:

@@ -1,10 +1,11 @@
-"""Least-norm solutions against numpy's pseudo-inverse."""
+"""Solutions against those of numpy, and against what they are to solve."""
 
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear import inverse, is_turned_over, least_norm, scale
+from jaxkin.solve.linear import inverse, least_norm, scale, solve_blocks
+from reference.matrices import block_triangular
 
 
 @pytest.mark.parametrize("rows, columns, rank", [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12)])
@@ -30,18 +31,6 @@ def test_an_idle_coordinate_stays_exactly_at_rest():
     np.testing.assert_allclose(null @ np.asarray(x)[:, 0], 0.0, atol=1e-13)
 
 
-@pytest.mark.parametrize("n", [1, 3, 6, 9])
-def test_what_has_turned_over_has_a_negative_determinant(n):
-    """Jacobians of two poses near each other, some with one axis mirrored between them."""
-    rng = np.random.default_rng(n)
-    one = rng.normal(size=(40, n, n))
-    mirror = np.broadcast_to(np.eye(n), one.shape).copy()
-    mirror[::3, 0, 0] = -1.0
-    product = one @ mirror @ np.swapaxes(one + 0.05 * rng.normal(size=one.shape), 1, 2)
-    found = is_turned_over(jnp.moveaxis(jnp.asarray(product), 0, -1))
-    np.testing.assert_array_equal(found, np.linalg.det(product) < 0)
-
-
 def test_only_used_columns_are_solved_for():
     """The same as with all columns, of which the others are zero."""
     rng = np.random.default_rng(0)
@@ -53,14 +42,27 @@ def test_only_used_columns_are_solved_for():
     np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)
 
 
-@pytest.mark.parametrize("rows, poses", [(3, 5), (6, 5), (6, 1024)])
-def test_the_inverse_does_what_solutions_are(rows, poses):
-    """By straight-line code and in a loop, with columns left out and without."""
-    rng = np.random.default_rng(rows)
-    jacobian, right = jnp.asarray(rng.normal(size=(rows, 12, poses))), jnp.asarray(rng.normal(size=(rows, poses)))
-    damping = jnp.full(poses, 1e-3)
-    for used in (range(12), range(2, 9)):
-        only = jacobian * np.isin(np.arange(12), used)[:, None]
-        expected = least_norm(only, right, damping, used)
-        found = jnp.einsum("pcr,rp->cp", inverse(only, damping, used), right)
-        np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-13)  # conditions up to a thousand
+@pytest.mark.parametrize("regular", [False, True])
+@pytest.mark.parametrize("poses", [5, 1024])
+def test_blocks_one_after_another_solve_the_whole(regular, poses):
+    rng = np.random.default_rng(poses)
+    jacobian, blocks = block_triangular(rng, poses)
+    right = rng.normal(size=(9, poses))
+    x = solve_blocks(jnp.asarray(jacobian), jnp.asarray(right), 1e-14, blocks, regular=regular)
+    residual = np.einsum("rcp,cp->rp", jacobian, x) - right
+    # J J^T squares condition numbers, up to a thousand here; its damping is a hundredth of that
+    np.testing.assert_allclose(residual, 0.0, atol=1e-7 * np.abs(x).max())
+    assert np.median(np.abs(residual)) < 1e-12
+    idle = np.setdiff1d(np.arange(12), np.concatenate([block.columns for block in blocks]))
+    np.testing.assert_array_equal(np.asarray(x)[idle], 0.0)
+
+
+@pytest.mark.parametrize("poses", [5, 1024])
+def test_the_inverse_does_what_solutions_are(poses):
+    rng = np.random.default_rng(poses)
+    jacobian, blocks = block_triangular(rng, poses)
+    right = jnp.asarray(rng.normal(size=(9, poses)))
+    expected = solve_blocks(jnp.asarray(jacobian), right, 1e-14, blocks, regular=True)
+    found = jnp.einsum("pcr,rp->cp", inverse(jnp.asarray(jacobian), 1e-14, blocks), right)
+    # the same operations in another order, of blocks whose conditions multiply up to 1e6
+    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())

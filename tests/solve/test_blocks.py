@@ -1,0 +1,60 @@
+"""Blocks of loops: a partition in which no block holds an unknown of a later one."""
+
+from dataclasses import replace
+from itertools import permutations
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.solve.blocks import blocks
+from jaxkin.solve.closure import closure, loop_geometry
+from jaxkin.solve.state import State
+from reference.catalogue import hexapod, jansen, watt
+from reference.mechanisms import cam, planar_fourbar, rssr_linkage, spherical_linkage
+
+CASES = {
+    planar_fourbar: [3],
+    watt: [3, 3],
+    jansen: [3, 3, 3],
+    rssr_linkage: [3],
+    cam: [6],
+    spherical_linkage: [6],
+    hexapod: [15],
+}
+
+
+def system_and_joints(mechanism):
+    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    system = block_system(mechanism, block, ((block.joints[0], 0),), form)
+    return system, block_joints(mechanism, block)
+
+
+@pytest.mark.parametrize("make", CASES, ids=lambda make: make.__name__)
+def test_no_block_holds_an_unknown_of_a_later_one(make):
+    """Told by the Jacobian itself, anywhere."""
+    system, joints = system_and_joints(make())
+    found = blocks(system)
+    assert [len(block.rows) for block in found] == CASES[make]
+    assert sorted(row for block in found for row in block.rows) == list(range(system.equations))
+    assert sorted(column for block in found for column in block.columns) == sorted(system.used)
+    x = np.random.default_rng(0).uniform(-0.5, 0.5, (system.columns, 4))
+    turns = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0])[:, None], (len(system.balls), 4, 4))
+
+    @jax.jit
+    def jacobian_of(joints, state):
+        return closure(system, loop_geometry(system, *joints)[0], state).jacobian
+
+    jacobian = np.asarray(jacobian_of(joints, State(jnp.asarray(x), turns)))
+    for number, block in enumerate(found):
+        later = [column for other in found[number + 1 :] for column in other.columns]
+        np.testing.assert_array_equal(jacobian[np.ix_(block.rows, later)], 0.0)
+
+
+def test_blocks_do_not_depend_on_the_order_of_the_loops():
+    system, _ = system_and_joints(jansen())
+    expected = {frozenset(block.columns) for block in blocks(system)}
+    for loops in permutations(system.loops):
+        assert {frozenset(block.columns) for block in blocks(replace(system, loops=loops))} == expected
