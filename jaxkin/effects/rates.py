@@ -16,7 +16,7 @@ from jaxkin.motion.drive import resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion, as_point
 from jaxkin.motion.sweep import sweep
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import by_name, nearest
 
 Inputs = dict[str, Float[Array, " poses"]]
 
@@ -104,11 +104,8 @@ def _place(mechanism: Mechanism, inputs: Inputs):
 def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
     if not isinstance(motion, Motion):
         raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
-    if not isinstance(rates, Mapping):
-        example = next(iter(motion.inputs))
-        raise ValueError(f"say whose rates they are, as in {{{example!r}: 1.0}}, got {rates!r}")
     given = {}
-    for key, rate in rates.items():
+    for key, rate in by_name(rates, "rates", f"{{{next(iter(motion.inputs))!r}: 1.0}}").items():
         value = rate if isinstance(rate, jax.Array) else np.asarray(rate, float)
         if value.ndim > 1 or (value.ndim == 1 and len(value) != len(motion)):
             raise ValueError(

@@ -100,7 +100,7 @@ def contact_joint(
         raise ValueError(f"joint {name!r}: {error}") from None
     if any(np.shape(pose) != (4, 4) for pose in frames):
         shapes = ", ".join(str(np.shape(pose)) for pose in frames)
-        raise ValueError(f"joint {name!r}: frames must be 4x4 poses, got the shapes {shapes}")
+        raise ValueError(f"joint {name!r}: frames must be a list of 4x4 poses, [frame, ...], got the shapes {shapes}")
     if len(frames) != len(movements):
         raise ValueError(
             f"joint {name!r}: contact state ({state}) has {len(movements)} frames (Table 1), got {len(frames)}"

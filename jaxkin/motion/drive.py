@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.traced import traced
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import by_name, nearest
 
 Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
 """Displacements, one a pose: on the host where they are numbers."""
@@ -39,10 +39,8 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
 
 
 def named(drive: Mapping[str, object]) -> tuple[str, ...]:
-    """What a drive names; ValueError where it names nothing, but is numbers alone."""
-    if not isinstance(drive, Mapping):
-        raise ValueError(f"the drive must say which joint moves how, as in {{'A': angles}}, got {drive!r}")
-    return tuple(drive)
+    """What a drive names; ValueError where it is no mapping."""
+    return tuple(by_name(drive, "driven displacements", "{'A': angles}"))
 
 
 def coordinates(mechanism: Mechanism, keys: Sequence[str]) -> dict[str, tuple[int, int]]:

@@ -15,7 +15,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.motion.arrange import Change, Layout, arrange
 from jaxkin.motion.features import Feature, Key, Length, length_table
 from jaxkin.motion.measure import between, moved, value
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import by_name, nearest
 
 if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
@@ -109,12 +109,10 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
     Where the lengths asked for and those to be kept cannot hold together, the nearest place of the joints is given, and
     the misfit (relative to the size of the part) is a differentiable measure of it.
     """
-    if not isinstance(changes, Mapping):
-        raise ValueError(f"lengths are given by name, as in {{('coupler', 'B', 'C'): 3.6}}, got {changes!r}")
     bodies: dict[tuple[Feature, ...], list[tuple[Length, Any]]] = {}
     pitches: dict[int, Any] = {}
     named: dict[Length, Any] = {}
-    for key, wanted in changes.items():
+    for key, wanted in by_name(changes, "lengths", "{('coupler', 'B', 'C'): 3.6}").items():
         length = find_length(mechanism, key)
         wanted = _checked(key, length, wanted)
         same = length._replace(first=min(length[1:3]), second=max(length[1:3]))

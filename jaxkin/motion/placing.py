@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import by_name, nearest
 
 if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
@@ -21,7 +21,7 @@ Place = str | tuple[str, str]
 
 def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any]) -> Mechanism:
     """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
-    for place, pose in frames.items():
+    for place, pose in by_name(frames, "frames", "{'A': pose}").items():
         mechanism = _placed(mechanism, place, _pose(place, pose), lambda _, new: new)
     return mechanism
 
@@ -34,7 +34,7 @@ def with_points(mechanism: Mechanism, points: Mapping[Any, Any]) -> Mechanism:
         column = xp.concatenate([xp.asarray(point), xp.ones(1)])
         return xp.concatenate([xp.asarray(pose)[:, :3], column[:, None]], axis=1)
 
-    for place, point in points.items():
+    for place, point in by_name(points, "points", "{'A': (x, y, z)}").items():
         if not traced(point):
             given = point
             point = np.asarray(point, float)

@@ -1,12 +1,20 @@
-"""Names that were not found: the nearest known one, for messages."""
+"""What is given by name, and names that were not found: the nearest known one, for messages."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from typing import Any
 
 _LISTED = 8
 """Known names that a message lists at most: more are not read."""
+
+
+def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
+    """What was given, if it is a mapping: ValueError with an example otherwise."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{what} are given by name, as in {example}, got {given!r}")
+    return given
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -83,7 +83,7 @@ def test_joints_between_two_parts_in_either_order():
         ),
         (lambda: jk.contact_joint("j", "a", "b", state="q", frames=[np.eye(4)]), "a letter from 'a' to 'p'"),
         (lambda: jk.contact_joint("j", "a", "b", state="b", frames=[np.eye(4)]), r"\(b\) has 2 frames"),
-        (lambda: jk.contact_joint("j", "a", "b", state="a", frames=[np.eye(3)]), "frames must be 4x4 poses"),
+        (lambda: jk.contact_joint("j", "a", "b", state="a", frames=[np.eye(3)]), "frames must be a list of 4x4 poses"),
         (
             lambda: jk.contact_joint("j", "a", "b", state="b", frames=[np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])]),
             "frame 2 is no rigid pose",

@@ -31,7 +31,7 @@ print(json.dumps(said))
 """
 
 REFUSED = {
-    "arm.sweep(angles)": "must say which joint moves how, as in {'A': angles}, got array(",
+    "arm.sweep(angles)": "driven displacements are given by name, as in {'A': angles}, got array(",
     "arm.sweep(None)": "as in {'A': angles}, got None",
     "arm.stream(angles)": "as in {'A': angles}, got array(",
     "arm.sweep({0: angles})": "a drive names 'joint' or 'joint.coordinate', as in {'A': angles}, got 0",
@@ -41,6 +41,8 @@ REFUSED = {
     "arm.sweep({'A': angles}, method='newton')": "there is no method 'newton' among continuation, gauss-newton,",
     "arm.stream({'A': angles}, chunk=1.5)": "chunk must be a number of poses, 1 or more, got 1.5",
     "arm.with_lengths(3.0)": "lengths are given by name, as in {('coupler', 'B', 'C'): 3.6}, got 3.0",
+    "arm.with_points(3)": "points are given by name, as in {'A': (x, y, z)}, got 3",
+    "arm.with_frames(None)": "frames are given by name, as in {'A': pose}, got None",
     "arm.joints_between('ground', 'amr')": "there is no part 'amr'; did you mean 'arm'?",
     "motion.points('arm', None)": "a point must be three numbers (x, y, z), got None",
     "motion.points('arm', 'tip')": "a point must be three numbers (x, y, z), got 'tip'",
