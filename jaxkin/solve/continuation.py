@@ -51,8 +51,6 @@ ENOUGH = 64
 """Times the unit of rounding: the gap of a pose on the way, which is only a place to begin from."""
 START_NEAR = 1e-2
 """An assembled pose that is closed farther away than this is closed with care."""
-CAREFUL = 1e-2
-"""A longer step that Newton's method does not close is shortened; a shorter one closed with care: a change point."""
 
 START, FOLLOW, GAP, ARRIVED = range(4)
 """Stages of a lane: closing the assembled pose, following the motion, beyond its limit; none of these any more."""
@@ -133,7 +131,7 @@ def substep(
 
     sloped = front.has_before | front.tangent
     tangent = rate(system, front.state, front.slope)
-    predicted = _predicted(system, front, tangent, jnp.where(following & sloped, moved, 0.0))
+    predicted = _predicted(front, tangent, jnp.where(following & sloped, moved, 0.0))
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
@@ -185,12 +183,12 @@ def _corrected(
     distance: Float[Array, " lanes"],
     stage: Int[Array, " lanes"],
 ) -> Corrected:
-    """Lanes brought to closure by Newton's method; by the damped corrector where that is of use and Newton's fails."""
+    """Lanes brought to closure by Newton's method; where that fails, and beyond a limit, by the damped corrector."""
     enough = roundings(predicted.x.dtype, ENOUGH)
     state, closed, gap = newton(system, geometry, predicted, enough, foresee=True)
     quick = Corrected(state, closed, gap, jnp.zeros(gap.shape, bool))
     near = (gap <= enough) & (difference(state, predicted) <= START_NEAR)
-    hard = (stage == GAP) | (stage == START) & ~near | (stage == FOLLOW) & ~(gap <= enough) & (distance <= CAREFUL)
+    hard = (stage == GAP) | (stage == START) & ~near | (stage == FOLLOW) & ~(gap <= enough)
 
     def with_care() -> Corrected:
         steps = jnp.where(stage == START, RESCUE_STEPS, jnp.where(stage == GAP, GAP_STEPS, CORRECTOR_STEPS))
@@ -199,7 +197,7 @@ def _corrected(
     return lax.cond(any_lane(hard), with_care, lambda: quick)
 
 
-def _predicted(system: LoopSystem, front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:
+def _predicted(front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:
     """Where the motion is expected: on the cubic through two states with their slopes, or along secant or tangent."""
     s, w = moved / front.width, front.width
 

@@ -84,7 +84,7 @@ def _travel(
     advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
     (cos, sin), travel = cos_sin(turn * q), advance * q
-    balls = _ball_turns(system, state, table) if system.balls else None
+    balls = _ball_turns(state, table) if system.balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
         pose, cos, sin, travel, first_side, ball = given
@@ -112,7 +112,7 @@ def _travel(
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _ball_turns(system: LoopSystem, state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
+def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
     """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))

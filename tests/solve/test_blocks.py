@@ -12,7 +12,7 @@ from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.blocks import blocks
 from jaxkin.solve.closure import closure, loop_geometry
 from jaxkin.solve.state import State
-from reference.catalogue import hexapod, jansen, watt
+from reference.catalogue import hexapod, jansen, parallelogram, sarrus, watt
 from reference.mechanisms import cam, planar_fourbar, rssr_linkage, spherical_linkage
 
 CASES = {
@@ -22,6 +22,7 @@ CASES = {
     rssr_linkage: [3],
     cam: [6],
     spherical_linkage: [6],
+    sarrus: [12],
     hexapod: [15],
 }
 
@@ -58,3 +59,9 @@ def test_blocks_do_not_depend_on_the_order_of_the_loops():
     expected = {frozenset(block.columns) for block in blocks(system)}
     for loops in permutations(system.loops):
         assert {frozenset(block.columns) for block in blocks(replace(system, loops=loops))} == expected
+
+
+def test_a_redundant_loop_is_solved_last():
+    """The third crank of a parallelogram brings two unknowns in three equations."""
+    system, _ = system_and_joints(parallelogram(bars=3))
+    assert [(len(block.rows), len(block.columns)) for block in blocks(system)] == [(3, 3), (3, 2)]
