@@ -22,7 +22,7 @@ CASES = {
     rssr_linkage: [3],
     cam: [6],
     spherical_linkage: [6],
-    sarrus: [12],
+    sarrus: [6],
     hexapod: [15],
 }
 
