@@ -17,7 +17,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.motion.dead_ends import dead_end
 from jaxkin.motion.drive import coordinates
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.motion.systems import Columns, block_joints, block_system
 from jaxkin.solve.sweep import Joints
 from jaxkin.solve.system import LoopSystem
 
@@ -25,9 +25,8 @@ from jaxkin.solve.system import LoopSystem
 class Element(NamedTuple):
     """A structure element that is to be solved."""
 
-    columns: tuple[int, ...]
-    """Its joints, in the order of their columns."""
     system: LoopSystem
+    columns: Columns
     inputs: tuple[int, ...]
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
@@ -77,8 +76,8 @@ def _prepared(mechanism: Mechanism, keys: Sequence[str]) -> Prepared:
         if not inside and not _edited([mechanism.all_joints[joint] for joint in block.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
-        system = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
-        elements.append(Element(block.joints, system, inputs, block_joints(mechanism, block)))
+        system, columns = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
+        elements.append(Element(system, columns, inputs, block_joints(mechanism, block)))
     freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)
     judged = not traced(mechanism) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(mechanism))
     return Prepared(driven, freedoms, tuple(elements), dead_end(mechanism, places) if judged else None)

@@ -10,7 +10,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.traced import traced
 from jaxkin.motion.drive import coordinate
-from jaxkin.motion.systems import block_joints, block_system
+from jaxkin.motion.systems import Columns, block_joints, block_system
 from jaxkin.solve.singular import least_singular_value
 from jaxkin.topology.rates import null_space
 
@@ -27,18 +27,17 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
     for number, (block, form) in enumerate(zip(mechanism.structure.blocks, mechanism.forms, strict=True)):
         inside = tuple(entry for entry in driven if entry[0] in block.joints)
-        system = block_system(mechanism, block, inside, form)
-        if inside and (rank := _rank(mechanism, number, system)):
-            columns = jnp.concatenate([motion.displacements[joint] for joint in block.joints], axis=1).T
-            least = jnp.minimum(least, least_singular_value(system, rank, block_joints(mechanism, block), columns))
+        system, columns = block_system(mechanism, block, inside, form)
+        if inside and (rank := _rank(mechanism, number, system, columns)):
+            rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
+            least = jnp.minimum(least, least_singular_value(system, rank, block_joints(mechanism, block), rows))
     return least
 
 
-def _rank(mechanism: Mechanism, number: int, system: LoopSystem) -> int:
+def _rank(mechanism: Mechanism, number: int, system: LoopSystem, columns: Columns) -> int:
     """Independent equations for the free coordinates where nothing is singular; as many as may be where JAX traces."""
     if traced(mechanism.all_joints):
         return min(system.whole.equations, len(system.free))
-    freedoms, plane = mechanism.loop_freedoms[number], mechanism.forms[number].plane
-    # what leaves the plane is not solved for
-    free = [column for column in system.free if plane is None or column in plane]
+    freedoms = mechanism.loop_freedoms[number]
+    free = [freedoms.columns.index(columns[column]) for column in system.free]
     return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0]

@@ -18,6 +18,7 @@ from jaxkin.motion.drive import Given, given_values, named
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.prepared import prepare
+from jaxkin.motion.systems import Columns
 from jaxkin.solve.compiled import Outcome, solve
 from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance, roundings
@@ -90,8 +91,8 @@ class Layout(NamedTuple):
     """Of every joint."""
     driven: tuple[tuple[int, int], ...]
     """Joint and coordinate of every input."""
-    blocks: tuple[tuple[int, ...], ...]
-    """Joints of every structure element that was solved."""
+    columns: tuple[Columns, ...]
+    """Of every structure element that was solved."""
 
 
 @partial(jax.jit, static_argnums=0)
@@ -113,12 +114,11 @@ def _collect(
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
     worst = jnp.where(jnp.isfinite(values[0]), 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
     square = jnp.zeros(poses, dtype)
-    for joints, (coordinates, found) in zip(layout.blocks, solutions, strict=True):
-        first = 0
-        for joint in joints:
-            rows = coordinates[first : first + layout.freedoms[joint], :poses].T
-            displacements[joint] = jnp.broadcast_to(rows, (poses, layout.freedoms[joint]))
-            first += layout.freedoms[joint]
+    for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
+        for joint in dict.fromkeys(joint for joint, _ in columns):
+            own = [(joint, k) for k in range(layout.freedoms[joint])]
+            rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
+            displacements[joint] = jnp.stack([jnp.broadcast_to(row, (poses,)) for row in rows], axis=1)
         worst = jnp.maximum(worst, rank[found.status[:poses]])
         square = square + found.gap[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]

@@ -23,7 +23,7 @@ class Block(NamedTuple):
 @lru_cache(maxsize=256)
 def blocks(system: LoopSystem) -> tuple[Block, ...]:
     """The blocks in an order in which they can be solved; the last holds all loops that follow from no others."""
-    if system.plane is None:
+    if not system.planar:
         return (Block(tuple(range(system.equations)), system.used),)
     held = [{column for joint, _ in loop for column in system.span(joint)} & set(system.used) for loop in system.loops]
     left, known, found = list(range(len(held))), set(), []

@@ -60,4 +60,4 @@ def loop_geometry(
     frames = frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
     frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
-    return space if system.plane is None else planar_geometry(system, space), length
+    return planar_geometry(system, space) if system.planar else space, length

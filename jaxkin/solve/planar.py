@@ -3,7 +3,7 @@
 Three equations a loop instead of six: the turns add up to none, and the links, each at its absolute angle, to nothing.
 The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of them (for links that
 slide, in their products with the coordinate as well), so that a loop is two products of matrices. Coordinates along
-the normal (those of cylindrical joints) commute with all of this: they rest.
+the normal (those of cylindrical joints) commute with all of this: they rest, and are no columns of the system.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ def _by_terms(
 
 
 def _slides(system: LoopSystem) -> bool:
-    return any(system.is_length[column] for column in system.plane or ())
+    return any(system.is_length)
 
 
 class _Kept(NamedTuple):
@@ -155,7 +155,7 @@ class _Kept(NamedTuple):
 @lru_cache(maxsize=256)
 def _kept(system: LoopSystem) -> _Kept:
     table = steps(system)
-    inside = np.isin(table.column, system.plane or ())
+    inside = table.column < system.columns
     chosen = [np.flatnonzero(column) for column in inside.T]
     length = max(map(len, chosen))
     filled = [np.append(numbers, [len(inside)] * (length - len(numbers))) for numbers in chosen]

@@ -110,9 +110,9 @@ class LoopSystem:
         return len(self.is_length)
 
     @property
-    def plane(self) -> tuple[int, ...] | None:
-        """See `Form`."""
-        return self.form.plane
+    def planar(self) -> bool:
+        """Whether all coordinates act in one plane; those of the joints along its normal are no columns then."""
+        return self.form.plane is not None
 
     @cached_property
     def cuts(self) -> tuple[int | None, ...]:
@@ -121,7 +121,7 @@ class LoopSystem:
         A ball that is in no other loop turns as the rest of the loop wants it: what remains of the loop is that its
         centre stays where it is, three equations in three coordinates less.
         """
-        if self.plane is not None or not self.form.cut:
+        if self.planar or not self.form.cut:
             return (None,) * len(self.loops)
         inside = [
             {ball for joint, _ in loop for *_, ball in self.chains[joint] if ball is not None} for loop in self.loops
@@ -150,7 +150,7 @@ class LoopSystem:
     @property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
-        if self.plane is not None:
+        if self.planar:
             return IN_PLANE * len(self.loops)
         return sum(EQUATIONS if cut is None else CENTRE for cut in self.cuts)
 
@@ -163,8 +163,7 @@ class LoopSystem:
     def used(self) -> tuple[int, ...]:
         """The columns that are solved for: no others of the Jacobian count."""
         follows = {column for cut in self.cuts if cut is not None for column in self.balls[cut]}
-        moves = self.free if self.plane is None else [column for column in self.free if column in self.plane]
-        return tuple(column for column in moves if column not in follows)
+        return tuple(column for column in self.free if column not in follows)
 
     @cached_property
     def periodic(self) -> bool:

@@ -29,7 +29,7 @@ CASES = {
 
 def system_and_joints(mechanism):
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
-    system = block_system(mechanism, block, ((block.joints[0], 0),), form)
+    system, _ = block_system(mechanism, block, ((block.joints[0], 0),), form)
     return system, block_joints(mechanism, block)
 
 

@@ -23,7 +23,7 @@ def systems(mechanism, drive, **changed):
     """The one structure element of a mechanism, cut and whole, and its joints."""
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
     inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
-    cut = block_system(mechanism, block, inside, form._replace(**changed))
+    cut, _ = block_system(mechanism, block, inside, form._replace(**changed))
     return cut, cut.whole, block_joints(mechanism, block)
 
 

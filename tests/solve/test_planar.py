@@ -26,7 +26,7 @@ def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
     for chosen in (form, Form()):
-        system = block_system(mechanism, block, ((block.joints[0], 0),), chosen)
+        system, _ = block_system(mechanism, block, ((block.joints[0], 0),), chosen)
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism, block)))[0]
 
 
