@@ -22,16 +22,20 @@ class Block(NamedTuple):
 
 @lru_cache(maxsize=256)
 def blocks(system: LoopSystem) -> tuple[Block, ...]:
-    """The blocks in an order in which they can be solved; the last holds all loops that follow from no others."""
+    """The blocks in an order in which they can be solved; the last holds all loops that follow from no others.
+
+    Equations in which nothing is left to be solved for are in none.
+    """
     if not system.planar:
-        return (Block(tuple(range(system.equations)), system.used),)
+        return (Block(tuple(range(system.equations)), system.used),) if system.used else ()
     held = [{column for joint, _ in loop for column in system.span(joint)} & set(system.used) for loop in system.loops]
     left, known, found = list(range(len(held))), set(), []
     while left:
         group = next(([loop] for loop in left if len(held[loop] - known) == IN_PLANE), left)
         rows = [IN_PLANE * loop + row for loop in group for row in range(IN_PLANE)]
         unknown = set().union(*(held[loop] for loop in group)) - known
-        found.append(Block(tuple(rows), tuple(sorted(unknown))))
+        if unknown:
+            found.append(Block(tuple(rows), tuple(sorted(unknown))))
         known |= unknown
         left = [loop for loop in left if loop not in group]
     return tuple(found)

@@ -102,7 +102,7 @@ def _placed(found: Float[Array, "some *entries"], which: Sequence[int], number: 
     """Rows put into their places among zeros: picked, since XLA writes scattered rows one after another."""
     place = np.full(number, len(which))
     place[list(which)] = np.arange(len(which))
-    return jnp.concatenate([found, jnp.zeros_like(found[:1])])[place]
+    return jnp.concatenate([found, jnp.zeros((1, *found.shape[1:]), found.dtype)])[place]
 
 
 def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]) -> Float[Array, "3 sides poses"]:

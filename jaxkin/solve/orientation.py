@@ -23,9 +23,10 @@ def turned_over(before: Matrix, after: Matrix, blocks: Sequence[Block]) -> Bool[
     Where a block is not square that is `det(J0^T J1)`, or `det(J0 J1^T)`, which has the same sign; a little on the
     diagonal makes columns, or rows, count for which the Jacobian lacks rank.
     """
-    return jnp.any(
-        jnp.stack([_turned_over(*(all[np.ix_(*block)] for all in (before, after))) for block in blocks]), axis=0
-    )
+    found = jnp.zeros(before.shape[-1], bool)
+    for block in blocks:
+        found |= _turned_over(before[np.ix_(*block)], after[np.ix_(*block)])
+    return found
 
 
 def _turned_over(before: Matrix, after: Matrix) -> Bool[Array, " poses"]:

@@ -9,6 +9,7 @@ the normal (those of cylindrical joints) commute with all of this: they rest, an
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import accumulate
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -28,8 +29,8 @@ class Planar(NamedTuple):
     The terms are the cosines of the links, their sines, both times what the link slides if any does, and one.
     """
 
-    turns: Float[Array, "loops links columns"]
-    """Absolute angle of each link by the coordinates: -1, 0 or 1."""
+    sense: Float[Array, "loops links"]
+    """Of the coordinate by which each link turns against the one before it: -1 or 1; 0 where it slides."""
     moved: Float[Array, "loops 2 terms"]
     """What the terms give to where the loop ends: links from each joint to the next, as in the assembled pose."""
     jacobian: Float[Array, "loops rows terms"]
@@ -45,11 +46,11 @@ def planar_closure(
 ) -> tuple[Array, Array, Array, Array]:
     """Residual (turn and two translations a loop), Jacobian, and squares of Eq. 12: see `closure.Closure`."""
     poses = x.shape[-1]
-    cos, sin = both = cos_sin(jnp.einsum("lkc,cp->lkp", geometry.turns, x))
+    padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
+    cos, sin = both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
     terms = [cos, sin, jnp.ones_like(cos[:, :1])]
     if _slides(system):
-        slid = jnp.concatenate([x, jnp.zeros_like(x[:1])])[_kept(system).slider.T]
-        terms[2:2] = list(slid * both)
+        terms[2:2] = list(padded[_kept(system).slider.T] * both)
     terms = jnp.concatenate(terms, axis=1)
     moved = jnp.einsum("ldt,ltp->ldp", geometry.moved, terms)
     begun_cos, begun_sin = geometry.begun[..., None]
@@ -90,7 +91,8 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     one_hot = jnp.asarray(
         np.arange(system.columns) == np.where(used, table.column[step, loops], -1)[..., None], last.dtype
     )
-    turns = jnp.cumsum((sign * facing)[..., None] * one_hot, axis=0).swapaxes(0, 1)
+    sense = (sign * facing).T
+    turns = jnp.cumsum(sense[..., None] * one_hot.swapaxes(0, 1), axis=1)
 
     arrival = jnp.einsum("di,li->dl", plane, last[:, :3, 3])
     centre = jnp.where(used_, centre, arrival[:, None])  # steps that fill up the shorter loops stand at the end
@@ -102,7 +104,7 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     off = jnp.sum(jnp.where(used_, tilt, 0.0)) + jnp.sum(leaning**2) + jnp.sum((last[:, :3, 3] @ normal) ** 2)
     begun = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
     moved, jacobian = _by_terms(system, turns, links, direction, one_hot.swapaxes(0, 1), centre[:, 0])
-    return Planar(turns, moved, jacobian, begun, off)
+    return Planar(sense, moved, jacobian, begun, off)
 
 
 def _by_terms(
@@ -137,6 +139,11 @@ def _by_terms(
     return moved.swapaxes(0, 1), jacobian.reshape(len(system.loops), 3 * system.columns, -1)
 
 
+def _sums(turned: Float[Array, "loops links poses"]) -> Float[Array, "loops links poses"]:
+    """Absolute angles of the links from those against the one before: one after another, as few as they are."""
+    return jnp.stack(list(accumulate(jnp.moveaxis(turned, 1, 0))), axis=1)
+
+
 def _slides(system: LoopSystem) -> bool:
     return any(system.is_length)
 
@@ -146,6 +153,8 @@ class _Kept(NamedTuple):
 
     step: np.ndarray
     """(links, loops): numbers of the steps; the number of steps, which is none, where a loop is shorter."""
+    turner: np.ndarray
+    """(links, loops): column of the coordinate by which a link turns; the number of columns, which is none."""
     slider: np.ndarray
     """(links, loops): column of the coordinate by which a link slides; the number of columns, which is none."""
     reference: tuple[int, int]
@@ -163,5 +172,7 @@ def _kept(system: LoopSystem) -> _Kept:
     number = np.array(filled, int).T
     used = number < len(inside)
     at = np.minimum(number, len(inside) - 1), np.arange(number.shape[1])
-    slider = np.where(used & (table.slide[at] > 0), table.column[at], system.columns)
-    return _Kept(number, slider, (int(step), int(loop)))
+    turner, slider = (
+        np.where(used & (kind[at] > 0), table.column[at], system.columns) for kind in (table.turn, table.slide)
+    )
+    return _Kept(number, turner, slider, (int(step), int(loop)))

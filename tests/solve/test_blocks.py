@@ -14,6 +14,7 @@ from jaxkin.solve.closure import closure, loop_geometry
 from jaxkin.solve.state import State
 from reference.catalogue import hexapod, jansen, parallelogram, sarrus, watt
 from reference.mechanisms import cam, planar_fourbar, rssr_linkage, spherical_linkage
+from reference.overconstrained import wrist
 
 CASES = {
     planar_fourbar: [3],
@@ -59,6 +60,14 @@ def test_blocks_do_not_depend_on_the_order_of_the_loops():
     expected = {frozenset(block.columns) for block in blocks(system)}
     for loops in permutations(system.loops):
         assert {frozenset(block.columns) for block in blocks(replace(system, loops=loops))} == expected
+
+
+def test_where_all_is_driven_there_is_nothing_to_solve():
+    """A wrist: three driven hinges, and a ball at which the loop is cut."""
+    mechanism = wrist()
+    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    hinges = [joint for joint in block.joints if mechanism.all_joints[joint].freedoms == 1]
+    assert blocks(block_system(mechanism, block, tuple((joint, 0) for joint in hinges), form)[0]) == ()
 
 
 def test_a_redundant_loop_is_solved_last():
