@@ -20,7 +20,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.blocks import blocks
-from jaxkin.solve.closure import Closure, Geometry
+from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.correct import Corrected, choose, correct, floor
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import solve_blocks
@@ -231,9 +231,7 @@ def reach(
         lambda front: substep(system, geometry, way, front, distance),
         start(system, targets.shape[-1], targets.dtype),
     )
-    state, _, gap = newton(system, geometry, front.state, roundings(distance.dtype, 1))
-    closed = is_closed(front.status)
-    return choose(closed, state, front.state), front.status, jnp.where(closed, gap, front.gap)
+    return front.state, front.status, closure(system, geometry, front.state).gap
 
 
 def slopes(

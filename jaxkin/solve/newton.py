@@ -58,7 +58,9 @@ def newton(
             # Newton's gaps go as the squares of those before: the next is this one times the square of the last ratio
             shrunk = closed.gap / at.closure.gap
             foreseen = jnp.where((shrunk < QUADRATIC) & (at.count > 0), shrunk**2 * closed.gap, jnp.inf)
-        return _Iterate(at.count + 1, at.trial, closed, foreseen, retract(system, at.trial, -delta))
+        # what is closed rests: near a singular pose more steps would lead away, and no pose depends on the others
+        delta = jnp.where(closed.gap > enough, -delta, 0.0)
+        return _Iterate(at.count + 1, at.trial, closed, foreseen, retract(system, at.trial, delta))
 
     nothing = jnp.zeros((system.equations, system.columns, poses), dtype)
     start = Closure(nothing[:, 0], nothing, infinite, infinite)
