@@ -49,7 +49,7 @@ WANTED, MOST = 0.1, 0.25
 
 ENOUGH = 64
 """Times the unit of rounding: the gap of a pose on the way, which is only a place to begin from."""
-START_NEAR = 1e-2
+START_NEAR = 0.1
 """An assembled pose that is closed farther away than this is closed with care."""
 
 START, FOLLOW, GAP, ARRIVED = range(4)

@@ -86,7 +86,10 @@ class _Order:
         self.effort = 0
 
     def next(self) -> list[int]:
-        """The lightest set of joints found that can be solved alone, else all that hang together with the first."""
+        """The lightest set of joints found that can be solved alone; else all that hang together with the first.
+
+        If that cannot either (circuits that share parts, but no joints, may need each other) all that is left.
+        """
         weights = {joint: len(self.unknown[joint]) for joint in self.remaining}
         circuits = sorted(self.graph.lightest(weights), key=self._weight)
         for joints in self._unions(circuits):
@@ -95,7 +98,7 @@ class _Order:
         together = circuits[0]
         while more := [circuit for circuit in circuits if circuit & together and not circuit <= together]:
             together = together.union(*more)
-        return sorted(together)
+        return sorted(together if self._solvable(sorted(together)) else frozenset().union(*circuits))
 
     def _unions(self, circuits: list[frozenset[int]]) -> Iterator[frozenset[int]]:
         """The circuits, then unions of two that share joints, of three, and so on, the lightest of a kind first."""
