@@ -211,7 +211,7 @@ def _settle(
     """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
     begin = guess(system, knots, at)
     state = drive(system, begin.state, inputs)
-    quick, _, gap = newton(system, geometry, state, jnp.maximum(roundings(at.dtype, SHARP), tolerance.enough))
+    quick, _, gap = newton(system, geometry, state, tolerance.enough)
     near = difference(quick, state) <= FARTHEST_CORRECTION
     closes = gap <= jnp.maximum(roundings(at.dtype, CLOSED), tolerance.enough)
 
