@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from typer.models import OptionInfo
 
 Files = Annotated[
     list[Path],
@@ -66,30 +67,10 @@ def _png(path: Path | None) -> Path | None:
     return path
 
 
-Picture = Annotated[
-    Path | None,
-    typer.Option(
-        "--png",
-        metavar="FILE",
-        dir_okay=False,
-        callback=_png,
-        help="Draw the assembly with the regions of its contacts and the axes of its joints into this file.",
-    ),
-]
-Drawing = Annotated[
-    Path | None,
-    typer.Option(
-        "--png",
-        metavar="FILE",
-        dir_okay=False,
-        callback=_png,
-        help="Draw the graph of parts and joints with its loops, and their tree, into this file.",
-    ),
-]
+def _drawn(what: str) -> OptionInfo:
+    return typer.Option("--png", metavar="FILE", dir_okay=False, callback=_png, help=f"Draw {what} into this file.")
 
-WorkPicture = Annotated[
-    Path | None,
-    typer.Option(
-        "--png", metavar="FILE", dir_okay=False, callback=_png, help="Draw time against error into this file."
-    ),
-]
+
+Picture = Annotated[Path | None, _drawn("the assembly with the regions of its contacts and the axes of its joints")]
+Drawing = Annotated[Path | None, _drawn("the graph of parts and joints with its loops, and their tree,")]
+WorkPicture = Annotated[Path | None, _drawn("time against error")]

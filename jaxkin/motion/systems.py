@@ -26,7 +26,7 @@ def block_system(
     every = [(index, k) for index in block.joints for k in range(mechanism.all_joints[index].freedoms)]
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
     plane = None if form.plane is None else {every[column] for column in form.plane}
-    if plane is None or not plane.issuperset(driven):
+    if plane is not None and not plane.issuperset(driven):
         plane = None
     columns, movements = [], []
     for index in block.joints:

@@ -136,7 +136,7 @@ def substep(
     distance = jnp.abs(moved)
     travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
     slack = 50 * float(jnp.finfo(dtype).eps)
-    found = _corrected(system, geometry, predicted, distance, stage)
+    found = _corrected(system, geometry, predicted, stage)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.gap, found.stationary, ~front.anchored | beside)
@@ -180,7 +180,6 @@ def _corrected(
     system: LoopSystem,
     geometry: Geometry,
     predicted: State,
-    distance: Float[Array, " lanes"],
     stage: Int[Array, " lanes"],
 ) -> Corrected:
     """Lanes brought to closure by Newton's method; where that fails, and beyond a limit, by the damped corrector."""
