@@ -17,7 +17,7 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     batched = jnp.moveaxis(jnp.asarray(jacobian), 0, -1)
     found = least_norm(batched, jnp.asarray(right).T, 1e-14 * scale(batched), range(columns), refine=True)
     # rounding is amplified by the square of the condition number, here below 1e3
-    np.testing.assert_allclose(found.T, expected, atol=1e-9 * np.abs(expected).max())
+    np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
 
 def test_an_idle_coordinate_stays_exactly_at_rest():
@@ -51,7 +51,7 @@ def test_blocks_one_after_another_solve_the_whole(regular, poses):
     x = solve_blocks(jnp.asarray(jacobian), jnp.asarray(right), 1e-14, blocks, regular=regular)
     residual = np.einsum("rcp,cp->rp", jacobian, x) - right
     # J J^T squares condition numbers, up to a thousand here; its damping is a hundredth of that
-    np.testing.assert_allclose(residual, 0.0, atol=1e-7 * np.abs(x).max())
+    np.testing.assert_allclose(residual, 0.0, atol=1e-9 * np.abs(x).max())
     assert np.median(np.abs(residual)) < 1e-12
     idle = np.setdiff1d(np.arange(12), np.concatenate([block.columns for block in blocks]))
     np.testing.assert_array_equal(np.asarray(x)[idle], 0.0)
@@ -65,4 +65,4 @@ def test_the_inverse_does_what_solutions_are(poses):
     expected = solve_blocks(jnp.asarray(jacobian), right, 1e-14, blocks, regular=True)
     found = jnp.einsum("pcr,rp->cp", inverse(jnp.asarray(jacobian), 1e-14, blocks), right)
     # the same operations in another order, of blocks whose conditions multiply up to 1e6
-    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
+    np.testing.assert_allclose(found, expected, atol=1e-11 * np.abs(expected).max())
