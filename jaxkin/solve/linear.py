@@ -17,9 +17,10 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.blocks import Block
 
-FEW, UNROLLED, MANY = 3, 9, 1024
+FEW, UNROLLED, MANY, LARGE = 3, 9, 1024, 24
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
-fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has."""
+fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has. From so many
+rows on a library is several times as fast, which takes longer to import than smaller systems to sweep."""
 PICKED = 0.75
 """If no more of the columns are used they are picked: to carry a few zeros along costs less."""
 
@@ -27,26 +28,26 @@ Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
 
 
-def least_norm(
-    jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int], *, refine: bool = False
-) -> Array:
-    """The x of least norm that minimises |J x - r|^2 + damping |x|^2, for every pose: (columns, poses).
+def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int]) -> Array:
+    """The x of least norm that minimises |J x - r|^2 + damping |x|^2, for every pose: (columns, poses). No derivatives.
 
-    All columns but those `used` are zero. With `refine` one step of iterative refinement takes the bias of the damping
-    out.
+    All columns but those `used` are zero.
     """
-    columns = jacobian.shape[1]
-    if len(used) < PICKED * columns:
-        which = np.array(used, np.int32)
-        few = least_norm(jacobian[:, which], right, damping, range(len(used)), refine=refine)
-        return _placed(few, used, columns)
-    factored = _factored(jacobian, damping)
+    own = _picked(jacobian, used)
+    x = jnp.sum(own * _factored(own, damping)(right)[:, None], axis=0)
+    return x if own is jacobian else _placed(x, used, jacobian.shape[1])
+
+
+def refined_least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int]) -> Array:
+    """The same with derivatives, the bias of the damping taken out by one step of iterative refinement."""
+    own = _picked(jacobian, used)
+    factored = _factored(own, damping)
 
     def transposed(y: Vector) -> Array:
-        return jnp.sum(jacobian * y[:, None], axis=0)
+        return jnp.sum(own * y[:, None], axis=0)
 
     def forward(x: Array) -> Vector:
-        return jnp.sum(jacobian * x[None], axis=1)
+        return jnp.sum(own * x[None], axis=1)
 
     def solve(right: Vector) -> Vector:
         # derivatives are solutions of the same system, too: nothing differentiates the elimination
@@ -55,9 +56,13 @@ def least_norm(
         )
 
     x = transposed(solve(right))
-    if refine:
-        x = x + transposed(solve(right - forward(x)))
-    return x
+    x = x + transposed(solve(right - forward(x)))
+    return x if own is jacobian else _placed(x, used, jacobian.shape[1])
+
+
+def _picked(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked poses"]:
+    """The columns used, or all if hardly any is not."""
+    return jacobian[:, np.array(used, np.int32)] if len(used) < PICKED * jacobian.shape[1] else jacobian
 
 
 def solve_blocks(
@@ -120,8 +125,9 @@ def scale(jacobian: Matrix) -> Float[Array, " poses"]:
 def _factored(jacobian: Matrix, damping: Float[Array, " poses"]) -> Callable[[Array], Array]:
     """The solution of (J J^T + damping) y = r, for right-hand sides of shape (rows, poses) or (rows, number, poses)."""
     rows, _, poses = jacobian.shape
-    straight = rows <= FEW or (rows <= UNROLLED and poses >= MANY)
-    return (_unrolled if straight else _looped)(jacobian, damping)
+    if rows <= FEW or (rows <= UNROLLED and poses >= MANY):
+        return _unrolled(jacobian, damping)
+    return (_looped if rows < LARGE else _by_library)(jacobian, damping)
 
 
 def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
@@ -155,14 +161,32 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     n = jacobian.shape[0]
     gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
-    def solve(right: Array) -> Array:
-        def eliminate(k: Array | int, matrix: Array) -> Array:
-            pivot = lax.dynamic_index_in_dim(matrix, k, axis=0, keepdims=False)
-            column = lax.dynamic_index_in_dim(matrix, k, axis=1, keepdims=False)
-            pivot = pivot / lax.dynamic_index_in_dim(column, k, axis=0, keepdims=False)
-            return lax.dynamic_update_index_in_dim(matrix - column[:, None] * pivot[None], pivot, k, axis=0)
+    def eliminate(_, matrix: Array) -> Array:
+        # the first row and column are done with, and roll to the end: inside `vmap` places that move would be gathered
+        pivot = matrix[0, 1:] / matrix[0, 0]
+        rest = matrix[1:, 1:] - matrix[1:, :1] * pivot
+        return jnp.pad(jnp.concatenate([rest, pivot[None]]), ((0, 0), (0, 1), (0, 0)))
 
+    def solve(right: Array) -> Array:
         sides = right.reshape(n, -1, right.shape[-1])
-        return lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, sides], axis=1))[:, n:].reshape(right.shape)
+        done = lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, sides], axis=1))
+        return done[:, : sides.shape[1]].reshape(right.shape)
+
+    return solve
+
+
+def _by_library(jacobian: Matrix, damping: Float[Array, " poses"]):
+    """The same by Cholesky's method. Rounding must not make it fail, so that a little more damping is needed."""
+    n = jacobian.shape[0]
+    rows = jnp.moveaxis(jacobian, -1, 0)
+    enough = damping + 0.25 * n * float(jnp.finfo(damping.dtype).eps) * scale(jacobian)
+    gram = rows @ rows.mT + enough[:, None, None] * jnp.eye(n, dtype=damping.dtype)
+    lower = lax.linalg.cholesky(gram, symmetrize_input=False)
+
+    def solve(right: Array) -> Array:
+        sides = jnp.moveaxis(right.reshape(n, -1, right.shape[-1]), -1, 0)
+        for transposed in (False, True):
+            sides = lax.linalg.triangular_solve(lower, sides, left_side=True, lower=True, transpose_a=transposed)
+        return jnp.moveaxis(sides, 0, -1).reshape(right.shape)
 
     return solve

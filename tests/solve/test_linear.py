@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear import inverse, least_norm, scale, solve_blocks
+from jaxkin.solve.linear import inverse, least_norm, refined_least_norm, scale, solve_blocks
 from reference.matrices import block_triangular
 
 
@@ -15,7 +15,7 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     right = np.einsum("pij,pj->pi", jacobian, rng.normal(size=(7, columns)))
     expected = np.stack([np.linalg.pinv(j, rcond=1e-10) @ r for j, r in zip(jacobian, right, strict=True)])
     batched = jnp.moveaxis(jnp.asarray(jacobian), 0, -1)
-    found = least_norm(batched, jnp.asarray(right).T, 1e-14 * scale(batched), range(columns), refine=True)
+    found = refined_least_norm(batched, jnp.asarray(right).T, 1e-14 * scale(batched), range(columns))
     # rounding is amplified by the square of the condition number, here below 1e3
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
