@@ -25,7 +25,7 @@ from jaxkin.solve.correct import Corrected, choose, correct, floor
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.linear import solve_blocks
 from jaxkin.solve.newton import newton
-from jaxkin.solve.orientation import turned_over
+from jaxkin.solve.orientation import turned
 from jaxkin.solve.state import State, assembled, difference, drive, driven_rate, rate, retract
 from jaxkin.solve.status import Status, classify, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
@@ -73,6 +73,8 @@ class Front(NamedTuple):
     """Its change per unit of the way."""
     width: Float[Array, " lanes"]
     """How far back that was."""
+    turned: Float[Array, "blocks lanes"]
+    """How the Jacobian has turned since."""
     has_before: Bool[Array, " lanes"]
     tangent: Bool[Array, " lanes"]
     """Whether the next step is predicted with the slope alone: where the curve through two states failed."""
@@ -96,6 +98,7 @@ def start(system: LoopSystem, lanes: int, dtype) -> Front:
         nothing,
         nothing,
         jnp.ones(lanes, dtype),
+        jnp.ones((len(blocks(system)), lanes), dtype),
         jnp.zeros(lanes, bool),
         jnp.zeros(lanes, bool),
         jnp.full(lanes, FIRST_STEP, dtype),
@@ -145,7 +148,10 @@ def substep(
     # following: near the prediction, or, without one, within a tiny step
     deviation = difference(found.state, predicted)
     jacobian = found.closure.jacobian
-    crossed = turned_over(front.jacobian, jacobian, blocks(system)) & (distance > CROSSING)
+    turn = turned(front.jacobian, jacobian, blocks(system))
+    # a determinant that falls to zero on the way, but has kept its sign, may have passed a gap
+    falls = front.has_before & (1 + (1 - 1 / front.turned) * moved / front.width < 0)
+    crossed = jnp.any((turn < 0) | falls, axis=0) & (distance > CROSSING)
     good = following & closed & (deviation <= MOST * travel + slack) & ~crossed
     # a cubic is off by the fourth power of the step
     growth = jnp.where(sloped, jnp.cbrt(WANTED * travel / jnp.maximum(deviation - slack, 1e-30)), 2.0)
@@ -168,6 +174,7 @@ def substep(
         before=choose(good, front.state, front.before),
         before_rate=choose(good, tangent, front.before_rate),
         width=jnp.where(good & (moved != 0), moved, front.width),
+        turned=jnp.where(good, turn, front.turned),
         has_before=(front.has_before | good) & (next_stage == FOLLOW) & ~entered,
         tangent=following & ~good & ~front.tangent,
         step=jnp.where(entered, FIRST_STEP, step),
