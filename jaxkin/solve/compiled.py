@@ -11,14 +11,15 @@ from inspect import signature
 from typing import Any, NamedTuple
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.traced import traced
-from jaxkin.solve.lanes import all_designs
+from jaxkin.solve.designs import all_designs
 from jaxkin.solve.pieces import pieces, side_by_side
-from jaxkin.solve.status import Tolerance
+from jaxkin.solve.status import Status, Tolerance
 from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
 from jaxkin.solve.system import LoopSystem
 
@@ -66,7 +67,11 @@ def solve(
 
 
 def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Array, tolerance: Tolerance) -> Poses:
-    return all_designs(partial(find_poses, system, method))(joints, inputs, tolerance)
+    return all_designs(partial(find_poses, system, method), _all_closed)(joints, inputs, tolerance)
+
+
+def _all_closed(poses: Poses) -> Array:
+    return jnp.all(poses.status == Status.CLOSED.value)
 
 
 def _solve(

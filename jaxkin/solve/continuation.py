@@ -112,20 +112,27 @@ def arrived(front: Front, target: Float[Array, " lanes"]) -> Bool[Array, " lanes
     return (front.at == target) & (front.stage != START)
 
 
+def given_up(front: Front, patient: Bool[Array, ""] | bool) -> Bool[Array, " lanes"]:
+    """Lanes that only the patient follow any further: beyond a limit."""
+    return (front.stage == GAP) & ~jnp.asarray(patient)
+
+
 def substep(
     system: LoopSystem,
     geometry: Geometry,
     way: Way,
     front: Front,
     target: Float[Array, " lanes"],
+    patient: Bool[Array, ""] | bool = True,
 ) -> Front:
     """One step of every lane that has not arrived; a lane whose step was refused stands where it stood.
 
-    A lane is closed to some roundings, no better; its gap may be foreseen, not measured.
+    A lane is closed to some roundings, no better; its gap may be foreseen, not measured. Who is not patient does
+    without the damped corrector, and leaves lanes at their limit.
     """
     dtype = target.dtype
     left = jnp.abs(target - front.at)
-    stage = jnp.where(arrived(front, target), ARRIVED, front.stage)
+    stage = jnp.where(arrived(front, target) | given_up(front, patient), ARRIVED, front.stage)
     starting, following, in_gap = stage == START, stage == FOLLOW, stage == GAP
     moved = jnp.where(following, jnp.minimum(front.step, left), jnp.where(in_gap, jnp.minimum(GAP_STEP, left), 0.0))
     moved = jnp.where(target < front.at, -moved, moved)
@@ -139,7 +146,7 @@ def substep(
     distance = jnp.abs(moved)
     travel = jnp.where(sloped, jnp.maximum(difference(predicted, front.state), distance), 80 * distance)
     slack = 50 * float(jnp.finfo(dtype).eps)
-    found = _corrected(system, geometry, predicted, stage)
+    found = _corrected(system, geometry, predicted, stage, patient)
     # a target so near that no step was short enough, just inside a limit
     beside = in_gap & (front.status == Status.CLOSED.value) & (distance <= AT_LIMIT)
     status = classify(found.gap, found.stationary, ~front.anchored | beside)
@@ -188,6 +195,7 @@ def _corrected(
     geometry: Geometry,
     predicted: State,
     stage: Int[Array, " lanes"],
+    patient: Bool[Array, ""] | bool,
 ) -> Corrected:
     """Lanes brought to closure by Newton's method; where that fails, and beyond a limit, by the damped corrector."""
     enough = roundings(predicted.x.dtype, ENOUGH)
@@ -200,7 +208,7 @@ def _corrected(
         steps = jnp.where(stage == START, RESCUE_STEPS, jnp.where(stage == GAP, GAP_STEPS, CORRECTOR_STEPS))
         return choose(hard, correct(system, geometry, predicted, steps, enough), quick)
 
-    return lax.cond(any_lane(hard), with_care, lambda: quick)
+    return lax.cond(any_lane(hard) & patient, with_care, lambda: quick)
 
 
 def _predicted(front: Front, tangent: State, moved: Float[Array, " lanes"]) -> State:

@@ -18,7 +18,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closure import Geometry
-from jaxkin.solve.continuation import AT_LIMIT, Front, arrived, start, substep
+from jaxkin.solve.continuation import AT_LIMIT, Front, arrived, given_up, start, substep
 from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
 from jaxkin.solve.reading import ball_turns
@@ -31,6 +31,8 @@ ROOM, MOST_POSES, ONE_INPUT, SEVERAL_INPUTS = 1024, 1024, 2, 12
 """Steps to either side of the assembled pose: at least so many, and some a pose for so many poses. What they do not
 reach is STALLED. A full turn takes some twenty-five, and some fifty for each of its limits, several inputs in any order
 some eight a pose."""
+IMPATIENT = 48
+"""Steps after which the impatient leave a range: nine of ten that have no limit take no more."""
 BEYOND = 1e-3
 """So far the last knots are extrapolated."""
 SAME = 1e-9
@@ -62,6 +64,8 @@ class Knots(NamedTuple):
     """Whether after a full turn the mechanism is where it began."""
     winding: Float[Array, " columns"]
     """By how much its coordinates are then larger."""
+    whole: Bool[Array, ""]
+    """Whether the whole range was followed, and has no limit."""
 
 
 class Guess(NamedTuple):
@@ -73,11 +77,18 @@ class Guess(NamedTuple):
     """Whether the knots reach as far as the input."""
 
 
-def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array, " poses"]) -> Knots:
+def follow(
+    system: LoopSystem,
+    geometry: Geometry,
+    way: Way,
+    values: Float[Array, " poses"],
+    patient: Bool[Array, ""] | bool = True,
+) -> Knots:
     """Knots from the assembled pose to the least and the greatest of the values, which say how far along the way.
 
     Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
-    a full turn may come back, behind a gap, to poses on the other side of the assembled one.
+    a full turn may come back, behind a gap, to poses on the other side of the assembled one. Who is not patient ends
+    at limits, and after a few steps.
     """
     dtype, each = values.dtype, ONE_INPUT if len(system.driven) == 1 else SEVERAL_INPUTS
     room = max(ROOM, each * min(values.shape[0], MOST_POSES))
@@ -99,11 +110,12 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
 
     def running(carry) -> Array:
         front, count, limits, parted, _ = carry
-        return (count < room) & any_lane(~arrived(front, target(front, limits, parted)))
+        most = jnp.where(patient, room, IMPATIENT)
+        return (count < most) & any_lane(~arrived(front, target(front, limits, parted)) & ~given_up(front, patient))
 
     def step(carry):
         front, count, limits, parted, table = carry
-        front = substep(system, geometry, way, front, target(front, limits, parted))
+        front = substep(system, geometry, way, front, target(front, limits, parted), patient)
         # falling knots before the middle, rising ones behind it; after a step that was refused the same knot again,
         # so that all lanes, those of other designs too, write at one place
         row = _row(system, front)
@@ -118,8 +130,9 @@ def follow(system: LoopSystem, geometry: Geometry, way: Way, values: Float[Array
     front, count, limits, parted, table = lax.while_loop(running, step, (front, jnp.asarray(0), nowhere, no, table))
     number, first, last = jnp.arange(2 * room + 2), room + 1 - count, room + count
     at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[:, 0]))
+    whole = jnp.all(arrived(front, target(front, limits, parted)) & ~jnp.isfinite(limits))
     repeats = ~parted & jnp.all(front.at == meeting) & ~jnp.any(jnp.isfinite(limits)) & system.periodic
-    return Knots(at, table, first, last, repeats, _winding(system, front.state))
+    return Knots(at, table, first, last, repeats, _winding(system, front.state), whole)
 
 
 def _winding(system: LoopSystem, state: State) -> Float[Array, " columns"]:

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.chords import TOGETHER, shared_steps
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
@@ -31,8 +31,8 @@ from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
 from jaxkin.solve.newton import newton
 from jaxkin.solve.reading import ball_turns, read_off, unwrapped
-from jaxkin.solve.state import assembled, difference, drive, driven
-from jaxkin.solve.status import Status, Tolerance, classify, is_closed, roundings
+from jaxkin.solve.state import State, assembled, difference, drive, driven
+from jaxkin.solve.status import Scalar, Status, Tolerance, classify, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import curve_through
 
@@ -41,6 +41,8 @@ FARTHEST_CORRECTION = 0.1
 GROUP, LEAST_GROUP, ENTRIES, CHUNK = 256, 32, 16384, 256
 """Poses that are settled together: so few that hard ones cost only few others, and that their matrices, of so many
 entries, stay in the cache; and poses whose balls are read off at once."""
+FEW = 32
+"""Hard poses that the damped corrector goes on with at once: most groups hold no more."""
 MANY = 8192
 """From so many poses on most are interpolated."""
 
@@ -60,14 +62,16 @@ def find_poses(
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
     share: int = 1,
+    patient: Bool[Array, ""] | bool = True,
 ) -> Poses:
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
-    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`.
+    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`. Who is not patient
+    may find poses STALLED that would close.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
-    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share)
+    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share, patient)
 
 
 def displacements(
@@ -104,6 +108,7 @@ def _search(
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
     share: int,
+    patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """The same in lengths over the characteristic length; NONFINITE where an input is."""
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
@@ -116,39 +121,56 @@ def _search(
         state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
         poses = Poses(state, status, gap)
     elif len(system.driven) == 1:
-        poses = _of_one_input(system, geometry, inputs[0], tolerance, share)
+        poses = _of_one_input(system, geometry, inputs[0], tolerance, share, patient)
     elif system.driven:
-        poses = _of_several_inputs(system, geometry, inputs, tolerance)
+        poses = _of_several_inputs(system, geometry, inputs, tolerance, patient)
     else:
         poses = Poses(*reach(system, geometry, inputs))
     return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
 
 
 def _of_one_input(
-    system: LoopSystem, geometry: Geometry, values: Float[Array, " poses"], tolerance: Tolerance, share: int
+    system: LoopSystem,
+    geometry: Geometry,
+    values: Float[Array, " poses"],
+    tolerance: Tolerance,
+    share: int,
+    patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """A few poses by themselves, the many between them by interpolation."""
-    knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values)
+    knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values, patient)
+    worth = knots.whole | patient
+    values = jnp.where(worth, values, 0.0)
 
     def settled(values: Float[Array, " poses"]) -> Poses:
-        return _settle(system, geometry, knots, values, values[None], tolerance)
+        return _settle(system, geometry, knots, values, values[None], tolerance, patient)
 
-    if len(values) < MANY:
-        return _in_groups(settled, values, _group(system))
     settle = partial(_in_groups, settled, size=_group(system))
-    return interpolate(system, geometry, knots, values, settle, share)
+    poses = settle(values) if len(values) < MANY else interpolate(system, geometry, knots, values, settle, share)
+    return _only(worth, poses)
+
+
+def _only(worth: Bool[Array, ""], poses: Poses) -> Poses:
+    """The poses, STALLED where a range was not worth the while."""
+    return poses._replace(status=jnp.where(worth, poses.status, Status.STALLED.value))
 
 
 def _of_several_inputs(
-    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+    system: LoopSystem,
+    geometry: Geometry,
+    inputs: Float[Array, "driven poses"],
+    tolerance: Tolerance,
+    patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """The poses along a curve through all of them, and those that it does not reach."""
     at, way = curve_through(inputs)
-    knots = follow(system, geometry, way, at)
+    knots = follow(system, geometry, way, at, patient)
+    worth = knots.whole | patient
+    at, inputs = jnp.where(worth, at, 0.0), jnp.where(worth, inputs, 0.0)
 
     def settled(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
-        found = _settle(system, geometry, knots, at, inputs, tolerance)
+        found = _settle(system, geometry, knots, at, inputs, tolerance, patient)
         failed = found.status != Status.CLOSED.value
 
         def otherwise() -> Poses:
@@ -156,10 +178,10 @@ def _of_several_inputs(
             better = failed & ((straight.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
             return choose(better, straight, found)
 
-        return lax.cond(any_lane(failed), otherwise, lambda: found)
+        return lax.cond(any_lane(failed) & patient, otherwise, lambda: found)
 
     if len(at) < MANY:
-        return _in_groups(settled, (at, inputs), _group(system))
+        return _only(worth, _in_groups(settled, (at, inputs), _group(system)))
 
     def neighbours(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
@@ -174,7 +196,7 @@ def _of_several_inputs(
             lambda: Poses(state, begin.status, gap),
         )
 
-    return _in_groups(neighbours, (at, inputs), TOGETHER)
+    return _only(worth, _in_groups(neighbours, (at, inputs), TOGETHER))
 
 
 def _group(system: LoopSystem) -> int:
@@ -207,6 +229,7 @@ def _settle(
     at: Float[Array, " poses"],
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
+    patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
     begin = guess(system, knots, at)
@@ -214,16 +237,45 @@ def _settle(
     quick, _, gap = newton(system, geometry, state, tolerance.enough)
     near = difference(quick, state) <= FARTHEST_CORRECTION
     closes = gap <= jnp.maximum(roundings(at.dtype, CLOSED), tolerance.enough)
+    good = closes & near & begin.covered & is_closed(begin.status)
+    found = Poses(quick, jnp.where(good, begin.status, Status.STALLED.value), gap)
 
     def with_care() -> Poses:
-        found = correct(system, geometry, state, RESCUE_STEPS, tolerance.enough)
-        near = difference(found.state, state) <= FARTHEST_CORRECTION
+        careful, gap, stationary = _correct_few(system, geometry, state, ~good, tolerance.enough)
+        near = difference(careful, state) <= FARTHEST_CORRECTION
         same = near & (begin.status == Status.CLOSED.value)
-        status = classify(found.closure.gap, found.stationary, same, tolerance.closed)
-        return Poses(found.state, jnp.where(begin.covered, status, Status.STALLED.value), found.closure.gap)
+        status = classify(gap, stationary, same, tolerance.closed)
+        status = jnp.where(begin.covered, status, Status.STALLED.value)
+        return choose(good, found, Poses(careful, status, gap))
 
-    return lax.cond(
-        any_lane(~(closes & near & begin.covered & is_closed(begin.status))),
-        with_care,
-        lambda: Poses(quick, begin.status, gap),
-    )
+    return lax.cond(any_lane(~good) & patient, with_care, lambda: found)
+
+
+def _correct_few(
+    system: LoopSystem, geometry: Geometry, state: State, hard: Bool[Array, " poses"], enough: Scalar | float
+) -> tuple[State, Float[Array, " poses"], Bool[Array, " poses"]]:
+    """The hard ones of some poses as `correct` leaves them, a few at a time; their gaps; which are stationary."""
+    poses = hard.shape[0]
+    few = min(FEW, poses)
+    order = jnp.argsort(~hard)
+    count = jnp.sum(hard)
+    begin = jax.tree.map(lambda array: array[..., order], state)
+
+    def running(carry) -> Array:
+        return any_lane(carry[0] < count)
+
+    def step(carry):
+        number, found = carry
+        own = jax.tree.map(lambda array: lax.dynamic_slice_in_dim(array, number, few, axis=-1), begin)
+        here = correct(system, geometry, own, RESCUE_STEPS, enough)
+        found = jax.tree.map(
+            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, number, axis=-1),
+            found,
+            (here.state, here.gap, here.stationary),
+        )
+        return number + few, found
+
+    nothing = begin, jnp.zeros(poses, state.x.dtype), jnp.zeros(poses, bool)
+    found = lax.while_loop(running, step, (jnp.asarray(0), nothing))[1]
+    back = jnp.argsort(order)
+    return jax.tree.map(lambda array: array[..., back], found)
