@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jaxkin.solve import compiled, correct, knots, sweep
+from jaxkin.solve import compiled, correct, knots, newton, sweep
 
 FEW = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
 
@@ -27,14 +27,13 @@ class Count:
     def __init__(self) -> None:
         self.steps = 0
         """Of the continuation, both ways from the assembled pose together with those refused."""
-        self.iterations: list[np.ndarray] = []
-        """Of the damped corrector from the interpolated pose on, for each pose that it was given."""
+        self.newton = 0
+        """Newton's steps, from interpolated poses on, until all of them are closed."""
+        self.damped = 0
+        """Iterations of the damped corrector, the most that any pose took that was left to it."""
 
     def __str__(self) -> str:
-        if not self.iterations:
-            return f"{self.steps} + 0"
-        each = np.concatenate(self.iterations)
-        return f"{self.steps} + {np.median(each):.0f} to {each.max()}"
+        return f"{self.steps} + {self.newton} + {self.damped}"
 
 
 @contextmanager
@@ -50,7 +49,13 @@ def counted() -> Iterator[Count]:
         made = jnp.full(begin.done.shape, -1, jnp.int32)  # the first only evaluates the beginning
         last, made = lax.while_loop(lambda carry: condition(carry[0]), step, (begin, made))
         if settling:
-            jax.debug.callback(lambda made: count.iterations.append(np.asarray(made)), made)
+            jax.debug.callback(_damped, made)
+        return last
+
+    def improved(condition, body, begin):
+        last = lax.while_loop(condition, body, begin)
+        if settling:
+            jax.debug.callback(_newton, last.count - 1)  # the first only evaluates the beginning
         return last
 
     def followed(condition, body, begin):
@@ -64,20 +69,30 @@ def counted() -> Iterator[Count]:
     def _add(made) -> None:
         count.steps += int(made)
 
+    def _newton(made) -> None:
+        count.newton = max(count.newton, int(made))
+
+    def _damped(made) -> None:
+        count.damped = max(count.damped, int(np.max(made)))
+
     settling: list[bool] = []
 
-    def settle(*args, **kwargs):
-        settling.append(True)
-        try:
-            return original(*args, **kwargs)
-        finally:
-            settling.pop()
+    def settle(original):
+        def traced(*args, **kwargs):
+            settling.append(True)
+            try:
+                return original(*args, **kwargs)
+            finally:
+                settling.pop()
 
-    original = sweep.correct
+        return traced
+
     patches: list[tuple[Any, str, Any]] = [
         (correct, "lax", _with(corrected)),
+        (newton, "lax", _with(improved)),
         (knots, "lax", _with(followed)),
-        (sweep, "correct", settle),
+        (sweep, "correct", settle(sweep.correct)),
+        (sweep, "newton", settle(sweep.newton)),
         (compiled, "OPTIONS", compiled.OPTIONS | FEW),
     ]
     before = [(module, name, getattr(module, name)) for module, name, _ in patches]
