@@ -54,9 +54,9 @@ A closed loop is no accurate pose near a dead point or a change point: there the
 error grows as rounding over *sigma_min*.
 
 *steps* are those of the continuation from the assembled pose to either end of the range, refused ones included;
-*Newton* the steps of Newton's method from there until all poses are closed (4 at most); *damped* the most iterations that
-the damped corrector took of any pose which that did not close (200 is its limit: poses that cannot be reached). They are
-counted by `counted.py`, which makes the solver's loops tell.
+*Newton* the steps of Newton's method from there until all poses are closed (4 at most); *damped* the most iterations
+that the damped corrector took of any pose which that did not close (200 is its limit: poses that cannot be reached).
+They are counted by `counted.py`, which makes the solver's loops tell.
 """
 
 
