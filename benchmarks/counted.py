@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jaxkin.solve import compiled, correct, knots, newton, sweep
+from jaxkin.solve import compiled, correct, knots, newton, settle
 
 FEW = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
 
@@ -77,7 +77,7 @@ def counted() -> Iterator[Count]:
 
     settling: list[bool] = []
 
-    def settle(original):
+    def told(original):
         def traced(*args, **kwargs):
             settling.append(True)
             try:
@@ -91,8 +91,8 @@ def counted() -> Iterator[Count]:
         (correct, "lax", _with(corrected)),
         (newton, "lax", _with(improved)),
         (knots, "lax", _with(followed)),
-        (sweep, "correct", settle(sweep.correct)),
-        (sweep, "newton", settle(sweep.newton)),
+        (settle, "correct", told(settle.correct)),
+        (settle, "newton", told(settle.newton)),
         (compiled, "OPTIONS", compiled.OPTIONS | FEW),
     ]
     before = [(module, name, getattr(module, name)) for module, name, _ in patches]

@@ -1,50 +1,40 @@
 """A whole range of inputs for one loop system: continuation, then all poses at once (Section 5.1, Eq. 12 and 13).
 
 The range of a single input is followed once, from the assembled pose to either end, at as few knots as are safe.
-Between two knots every pose is predicted by cubic Hermite interpolation with exact slopes and brought to closure by
-Newton steps, all poses at once and in whatever order they come. Poses for which that does not hold are settled by the
-damped corrector alone, in small groups, so that they cost the others nothing. Several inputs are followed in the same
-way along a smooth curve through the poses in the order in which they are given; what that does not reach is tried in a
-straight line from the assembled pose.
+Between two knots every pose is predicted by cubic Hermite interpolation with exact slopes and brought to closure, all
+poses at once and in whatever order they come: see `settle`; of many most are interpolated: see `dense`. Several inputs
+are followed in the same way along a smooth curve through the poses in the order in which they are given; what that does
+not reach is tried in a straight line from the assembled pose.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.chords import TOGETHER, shared_steps
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
-from jaxkin.solve.continuation import RESCUE_STEPS, reach
-from jaxkin.solve.correct import choose, correct
+from jaxkin.solve.continuation import reach
+from jaxkin.solve.correct import choose
 from jaxkin.solve.dense import CLOSED, SHARP, Poses, interpolate
 from jaxkin.solve.implicit import attach
-from jaxkin.solve.knots import Knots, follow, guess
+from jaxkin.solve.knots import follow, guess
 from jaxkin.solve.lanes import any_lane
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.minimise import minimised
-from jaxkin.solve.newton import newton
 from jaxkin.solve.reading import ball_turns, read_off, unwrapped
-from jaxkin.solve.state import State, assembled, difference, drive, driven
-from jaxkin.solve.status import Scalar, Status, Tolerance, classify, is_closed, roundings
+from jaxkin.solve.settle import FARTHEST_CORRECTION, group_size, in_groups, settle
+from jaxkin.solve.state import assembled, difference, drive, driven
+from jaxkin.solve.status import Status, Tolerance, classify, is_closed, roundings
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import curve_through
 
-FARTHEST_CORRECTION = 0.1
-"""Radians, or characteristic lengths: a pose farther from its prediction is not trusted to be on the branch."""
-GROUP, LEAST_GROUP, ENTRIES, CHUNK = 256, 32, 16384, 256
-"""Poses that are settled together: so few that hard ones cost only few others, and that their matrices, of so many
-entries, stay in the cache; and poses whose balls are read off at once."""
-FEW = 32
-"""Hard poses that the damped corrector goes on with at once: most groups hold no more."""
-MANY = 8192
-"""From so many poses on most are interpolated."""
+MANY, CHUNK = 8192, 256
+"""From so many poses on most are interpolated; poses whose balls are read off at once."""
 
 
 class Joints(NamedTuple):
@@ -92,7 +82,7 @@ def displacements(
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
     if not system.balls:
         return read(given)
-    return unwrapped(system, _in_groups(read, given, CHUNK))  # of all poses at once the matrices leave the cache
+    return unwrapped(system, in_groups(read, given, CHUNK))  # of all poses at once the matrices leave the cache
 
 
 def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
@@ -143,10 +133,11 @@ def _of_one_input(
     values = jnp.where(worth, values, 0.0)
 
     def settled(values: Float[Array, " poses"]) -> Poses:
-        return _settle(system, geometry, knots, values, values[None], tolerance, patient)
+        return settle(system, geometry, knots, values, values[None], tolerance, patient)
 
-    settle = partial(_in_groups, settled, size=_group(system))
-    poses = settle(values) if len(values) < MANY else interpolate(system, geometry, knots, values, settle, share)
+    one_by_one = partial(in_groups, settled, size=group_size(system))
+    few = len(values) < MANY
+    poses = one_by_one(values) if few else interpolate(system, geometry, knots, values, one_by_one, share)
     return _only(worth, poses)
 
 
@@ -170,7 +161,7 @@ def _of_several_inputs(
 
     def settled(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
-        found = _settle(system, geometry, knots, at, inputs, tolerance, patient)
+        found = settle(system, geometry, knots, at, inputs, tolerance, patient)
         failed = found.status != Status.CLOSED.value
 
         def otherwise() -> Poses:
@@ -181,7 +172,7 @@ def _of_several_inputs(
         return lax.cond(any_lane(failed) & patient, otherwise, lambda: found)
 
     if len(at) < MANY:
-        return _only(worth, _in_groups(settled, (at, inputs), _group(system)))
+        return _only(worth, in_groups(settled, (at, inputs), group_size(system)))
 
     def neighbours(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
@@ -192,90 +183,8 @@ def _of_several_inputs(
         good = (gap <= roundings(at.dtype, CLOSED)) & near & begin.covered & (begin.status == Status.CLOSED.value)
         return lax.cond(
             any_lane(~good),
-            lambda: _in_groups(settled, group, _group(system)),
+            lambda: in_groups(settled, group, group_size(system)),
             lambda: Poses(state, begin.status, gap),
         )
 
-    return _only(worth, _in_groups(neighbours, (at, inputs), TOGETHER))
-
-
-def _group(system: LoopSystem) -> int:
-    """Poses that are settled together."""
-    return max(LEAST_GROUP, min(GROUP, ENTRIES // system.equations**2))
-
-
-def _in_groups(function: Callable, poses, size: int):
-    """The function of some poses applied to all, in groups of equal size."""
-    count = jax.tree.leaves(poses)[0].shape[-1]
-    groups = -(-count // size)
-    if groups <= 1:
-        return function(poses)
-    length = -(-count // groups)
-
-    def cut(array: Array) -> Array:
-        padded = jnp.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, groups * length - count)], mode="edge")
-        return jnp.moveaxis(padded.reshape(*array.shape[:-1], groups, length), -2, 0)
-
-    def join(array: Array) -> Array:
-        return jnp.moveaxis(array, 0, -2).reshape(*array.shape[1:-1], groups * length)[..., :count]
-
-    return jax.tree.map(join, lax.map(function, jax.tree.map(cut, poses)))
-
-
-def _settle(
-    system: LoopSystem,
-    geometry: Geometry,
-    knots: Knots,
-    at: Float[Array, " poses"],
-    inputs: Float[Array, "driven poses"],
-    tolerance: Tolerance,
-    patient: Bool[Array, ""] | bool,
-) -> Poses:
-    """Poses so far along the way, begun between the knots and brought to closure by the damped corrector."""
-    begin = guess(system, knots, at)
-    state = drive(system, begin.state, inputs)
-    quick, _, gap = newton(system, geometry, state, tolerance.enough)
-    near = difference(quick, state) <= FARTHEST_CORRECTION
-    closes = gap <= jnp.maximum(roundings(at.dtype, CLOSED), tolerance.enough)
-    good = closes & near & begin.covered & is_closed(begin.status)
-    found = Poses(quick, jnp.where(good, begin.status, Status.STALLED.value), gap)
-
-    def with_care() -> Poses:
-        careful, gap, stationary = _correct_few(system, geometry, state, ~good, tolerance.enough)
-        near = difference(careful, state) <= FARTHEST_CORRECTION
-        same = near & (begin.status == Status.CLOSED.value)
-        status = classify(gap, stationary, same, tolerance.closed)
-        status = jnp.where(begin.covered, status, Status.STALLED.value)
-        return choose(good, found, Poses(careful, status, gap))
-
-    return lax.cond(any_lane(~good) & patient, with_care, lambda: found)
-
-
-def _correct_few(
-    system: LoopSystem, geometry: Geometry, state: State, hard: Bool[Array, " poses"], enough: Scalar | float
-) -> tuple[State, Float[Array, " poses"], Bool[Array, " poses"]]:
-    """The hard ones of some poses as `correct` leaves them, a few at a time; their gaps; which are stationary."""
-    poses = hard.shape[0]
-    few = min(FEW, poses)
-    order = jnp.argsort(~hard)
-    count = jnp.sum(hard)
-    begin = jax.tree.map(lambda array: array[..., order], state)
-
-    def running(carry) -> Array:
-        return any_lane(carry[0] < count)
-
-    def step(carry):
-        number, found = carry
-        own = jax.tree.map(lambda array: lax.dynamic_slice_in_dim(array, number, few, axis=-1), begin)
-        here = correct(system, geometry, own, RESCUE_STEPS, enough)
-        found = jax.tree.map(
-            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, number, axis=-1),
-            found,
-            (here.state, here.gap, here.stationary),
-        )
-        return number + few, found
-
-    nothing = begin, jnp.zeros(poses, state.x.dtype), jnp.zeros(poses, bool)
-    found = lax.while_loop(running, step, (jnp.asarray(0), nothing))[1]
-    back = jnp.argsort(order)
-    return jax.tree.map(lambda array: array[..., back], found)
+    return _only(worth, in_groups(neighbours, (at, inputs), TOGETHER))
