@@ -44,8 +44,9 @@ branches miss each other by less than this, as they do for lengths that are off 
 CORRECTOR_STEPS, GAP_STEPS, RESCUE_STEPS = 8, 16, 200
 """Of the corrector at most: following, crossing a gap, and where a pose is to be closed or to have least residual."""
 
-WANTED, MOST = 0.1, 0.25
-"""By how much of the way travelled a prediction is to be off, and may be."""
+WANTED, MOST, FARTHEST = 0.1, 0.25, 1.0
+"""By how much of the way travelled a prediction is to be off, and may be; and that way at most, in radians or
+characteristic lengths: beside a limit the tangent leads anywhere."""
 
 ENOUGH = 64
 """Times the unit of rounding: the gap of a pose on the way, which is only a place to begin from."""
@@ -159,7 +160,7 @@ def substep(
     # a determinant that falls to zero on the way, but has kept its sign, may have passed a gap
     falls = front.has_before & (1 + (1 - 1 / front.turned) * moved / front.width < 0)
     crossed = jnp.any((turn < 0) | falls, axis=0) & (distance > CROSSING)
-    good = following & closed & (deviation <= MOST * travel + slack) & ~crossed
+    good = following & closed & (deviation <= MOST * travel + slack) & (travel <= FARTHEST) & ~crossed
     # a cubic is off by the fourth power of the step
     growth = jnp.where(sloped, jnp.cbrt(WANTED * travel / jnp.maximum(deviation - slack, 1e-30)), 2.0)
     step = jnp.where(good, jnp.minimum(jnp.clip(growth, 0.5, 4.0) * front.step, LONGEST_STEP), front.step)
