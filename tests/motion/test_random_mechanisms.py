@@ -7,14 +7,14 @@ from reference.hard_case import off_turns
 from reference.random_linkages import LINKAGES
 from reference.random_sweeps import checked, limits, sweeps
 
-FOURBAR = LINKAGES[0]
+FOURBAR, WATT, STEPHENSON = LINKAGES[:3]
 
 
-def fourbar(*points):
-    """Points of A, P0, C0, Q0 as one design, and its mechanism."""
+def planar(linkage, *points):
+    """Points of A, P0, C0, Q0 and so on as one design, and its mechanism."""
     place = np.array([[(x, y, 0.0) for x, y in points]])
     axes = np.broadcast_to([0.0, 0.0, 1.0], place.shape)
-    return place, axes, FOURBAR.build(place[0], axes[0])
+    return place, axes, linkage.build(place[0], axes[0])
 
 
 @pytest.mark.parametrize(
@@ -27,7 +27,7 @@ def fourbar(*points):
     ids=["a gap shorter than a step", "a long step before a limit", "assembled beside a limit"],
 )
 def test_limits_are_found_however_the_steps_fall(points):
-    place, axes, mechanism = fourbar(*points)
+    place, axes, mechanism = planar(FOURBAR, *points)
     low, high = (float(limit[0, 0]) for limit in limits(FOURBAR, place, axes))
     inputs = np.concatenate([np.linspace(low, high, 20)[1:-1], [low - 0.02, high + 0.02]])
     motion = mechanism.sweep({"A": inputs})
@@ -36,6 +36,37 @@ def test_limits_are_found_however_the_steps_fall(points):
     off = off_turns(np.asarray(motion.coordinates["Q0"][:, 0]) - solved.angles["Q0"][0])
     # rounding grows as the inverse root of the margin, which is that of the branches' distance
     assert np.all((off * np.sqrt(np.maximum(solved.margin[0], 0.0)))[:18] < 1e-12)
+
+
+@pytest.mark.parametrize(
+    "linkage, points",
+    [
+        (
+            STEPHENSON,
+            [
+                *((-0.691735154, 0.558422598), (-0.176042331, 0.685412573), (-0.919994952, 0.266279238)),
+                *((-0.158554891, 0.236437107), (-0.392809906, 0.826264212), (0.093289384, 0.537730566)),
+                (-0.570305848, 0.837360138),
+            ],
+        ),
+        (
+            WATT,
+            [
+                *((0.226934309, -0.516411095), (-0.056732842, -0.638430013), (-0.053698326, 0.193528738)),
+                *((-0.025561261, -0.498395206), (-0.141943776, 0.958277984), (0.70312855, 0.563701969)),
+                (0.081622294, 0.852923135),
+            ],
+        ),
+    ],
+    ids=["a gap so shallow that a step passes over it", "a tangent so steep that it leads to another circuit"],
+)
+def test_nothing_behind_a_limit_is_closed(linkage, points):
+    """Two of the 100,000 of `benchmarks/random_mechanisms.py`: each had poses CLOSED that nothing leads to."""
+    place, axes, mechanism = planar(linkage, *points)
+    low, high = (float(limit[0, 0]) for limit in limits(linkage, place, axes))
+    inputs = np.concatenate([np.linspace(low, high, 20)[1:-1], low - np.geomspace(1e-2, 0.6, 12)])
+    motion = mechanism.sweep({"A": inputs})
+    np.testing.assert_array_equal(motion.closed, inputs > low)
 
 
 @pytest.mark.long
