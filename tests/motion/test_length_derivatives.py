@@ -104,6 +104,7 @@ def test_first_derivatives_of_a_fourbar():
     np.testing.assert_allclose(jnp.cos(error - error[0]), 1.0, atol=1e-12)  # both turn fully; the zeros differ
 
 
+@pytest.mark.study
 def test_all_kinds_of_derivatives_of_a_fourbar():
     """jvp, Hessian both ways round, and the Jacobian in either mode."""
     mechanism = planar_fourbar(START)

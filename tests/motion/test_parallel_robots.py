@@ -27,6 +27,7 @@ def test_a_hexapod_follows_its_legs(shuffled):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_many_poses_of_a_hexapod():
     """So many that neighbours share an inverse; there and back along the curve."""
     mechanism = hexapod()

@@ -50,7 +50,7 @@ def test_only_a_ball_of_one_loop_that_nothing_drives_is_cut():
 @pytest.mark.parametrize(
     "make, drive, spins",
     [(rssr_linkage, {"A": 3.0}, True), (rssr_linkage, {"A": 3.0}, False), (ball_in_bore, {"A": 3.0}, True)]
-    + [(delta, {"motor 0": 0.2, "motor 1": -0.1, "motor 2": 0.15}, True)],
+    + [pytest.param(delta, {"motor 0": 0.2, "motor 1": -0.1, "motor 2": 0.15}, True, marks=pytest.mark.study)],
 )
 def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
     """The same displacements of all joints; without spins taken out, of all but the balls of the rods."""
