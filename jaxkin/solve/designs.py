@@ -68,7 +68,9 @@ def _flat(one: Callable, done: Callable, size: int, is_mapped: tuple[bool, ...])
     return run
 
 
-def _in_turn(one: Callable, done: Callable, size: int, is_mapped: tuple[bool, ...], leaves: tuple[Array, ...]):
+def _in_turn(
+    one: Callable[..., Result], done: Callable[[Result], Array], size: int, is_mapped: tuple[bool, ...], leaves: tuple
+) -> Result:
     """All designs, in groups; those that were put off after the others."""
     groups = -(-size // TOGETHER)
     length = -(-size // groups)

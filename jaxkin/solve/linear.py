@@ -35,7 +35,7 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"],
     """
     own = _picked(jacobian, used)
     x = jnp.sum(own * _factored(own, damping)(right)[:, None], axis=0)
-    return x if own is jacobian else _placed(x, used, jacobian.shape[1])
+    return _put_back(x, used, jacobian.shape[1])
 
 
 def refined_least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int]) -> Array:
@@ -57,12 +57,17 @@ def refined_least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " 
 
     x = transposed(solve(right))
     x = x + transposed(solve(right - forward(x)))
-    return x if own is jacobian else _placed(x, used, jacobian.shape[1])
+    return _put_back(x, used, jacobian.shape[1])
 
 
 def _picked(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked poses"]:
     """The columns used, or all if hardly any is not."""
     return jacobian[:, np.array(used, np.int32)] if len(used) < PICKED * jacobian.shape[1] else jacobian
+
+
+def _put_back(x: Array, used: Sequence[int], columns: int) -> Array:
+    """A solution for what `_picked` picked as one for all columns."""
+    return x if len(x) == columns else _placed(x, used, columns)
 
 
 def solve_blocks(

@@ -64,8 +64,10 @@ def settle(
     tolerance: Tolerance,
     patient: Bool[Array, ""] | bool,
 ) -> Poses:
-    """Poses so far along the way, begun between the knots; brought to closure by Newton's method or, if patient, by the
-    damped corrector where that fails."""
+    """Poses so far along the way, begun between the knots and brought to closure by Newton's method.
+
+    Where that fails, the patient go on with the damped corrector; without it such poses are STALLED.
+    """
     begin = guess(system, knots, at)
     state = drive(system, begin.state, inputs)
     quick, _, gap = newton(system, geometry, state, tolerance.enough)
