@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import jax
 import numpy as np
 
 from jaxkin.geometry.traced import traced
+from jaxkin.joints.joint import Joint
 from jaxkin.motion.plane import plane_columns
 from jaxkin.motion.rods import idle_spins
 from jaxkin.solve.system import Form
@@ -33,3 +36,12 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
         inside = [joints[joint] for joint in block.joints]
         found.append(Form(plane_columns(inside), idle_spins(inside, bodies), cut=True))
     return tuple(found)
+
+
+def with_joints(mechanism: Mechanism, joints: Sequence[Joint]) -> Mechanism:
+    """The mechanism with its joints changed; its solids, which do not follow, are left behind.
+
+    While JAX traces the joints the forms stay what they were.
+    """
+    known = mechanism.forms if traced(joints) else None
+    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=known)

@@ -14,6 +14,7 @@ from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.arrange import Change, Layout, arrange
 from jaxkin.motion.features import Feature, Key, Length, length_table
+from jaxkin.motion.forms import with_joints
 from jaxkin.motion.measure import between, moved, value
 from jaxkin.topology.names import by_name, nearest
 
@@ -148,7 +149,7 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
         _with_frames(joint, {key[1:]: pose for key, pose in frames.items() if key[0] == column}, pitches.get(column))
         for column, joint in enumerate(mechanism.all_joints)
     ]
-    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=mechanism.forms), misfits
+    return with_joints(mechanism, joints), misfits
 
 
 def _row(mechanism: Mechanism, body: tuple[Feature, ...]) -> str:

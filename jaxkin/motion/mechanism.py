@@ -46,7 +46,7 @@ class Mechanism:
     contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
     """The contacts that a joint stands for, by its name; none for joints by hand."""
     known_forms: tuple[Form, ...] | None = field(default=None)
-    """What `forms` was while the frames were numbers."""
+    """What `forms` was before JAX took the mechanism apart: to JAX that is what it is, whatever its numbers are now."""
 
     @staticmethod
     def build(*, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "") -> Mechanism:
@@ -207,9 +207,13 @@ def _no_joint(joints: Any) -> str | None:
     return next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
 
 
-# by hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only
+# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only. What is static must not change with
+# the numbers: a gradient, or the zeros that an optimiser begins with, is a tree of the same structure.
 jax.tree_util.register_pytree_node(
     Mechanism,
-    lambda mechanism: ((mechanism.all_joints,), (mechanism.structure, mechanism.unit, mechanism.forms)),
+    lambda mechanism: (
+        (mechanism.all_joints,),
+        (mechanism.structure, mechanism.unit, mechanism.known_forms or mechanism.forms),
+    ),
     lambda static, leaves: Mechanism(*leaves, *static[:2], known_forms=static[2]),
 )

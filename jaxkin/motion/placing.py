@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
+from jaxkin.motion.forms import with_joints
 from jaxkin.topology.names import by_name, nearest
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def _placed(mechanism: Mechanism, place: Place, given, change) -> Mechanism:
         joint = replace(joint, before=stacked) if each == "before" else replace(joint, after=stacked)
     joints: list[Joint] = list(mechanism.all_joints)
     joints[column] = joint
-    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=mechanism.forms)
+    return with_joints(mechanism, joints)
 
 
 def locate(mechanism: Mechanism, place: Place) -> tuple[int, str | None]:

@@ -8,7 +8,7 @@ import pytest
 from jaxkin.geometry.trig import TURN
 from jaxkin.motion.sweep import sweep
 from jaxkin.solve.status import Status
-from reference.mechanisms import cardan_shafts, planar_fourbar
+from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage
 
 
 def test_nothing_is_recompiled_for_new_numbers():
@@ -69,6 +69,26 @@ def test_a_sweep_works_inside_jit_and_vmap():
     np.testing.assert_allclose(found[1], expected, atol=1e-13)
     other = designs[0].sweep({"A": range_}).coordinates["D"][:, 0]
     np.testing.assert_allclose(found[0], other, atol=1e-13)
+
+
+def test_an_optimiser_may_take_mechanism_and_gradient_apart_together():
+    """What is no array is the same in both, though these numbers are no RSSR linkage, nor are the zeros."""
+    mechanism, range_ = rssr_linkage(), np.linspace(0.0, 1.0, 5)
+
+    @jax.jit
+    @jax.value_and_grad
+    def loss(mechanism):
+        return jnp.sum((mechanism.sweep({"A": range_}).coordinates["D"] - 0.1) ** 2)
+
+    before, gradient = loss(mechanism)
+    momentum = jax.tree.map(jnp.zeros_like, mechanism)
+    momentum = jax.tree.map(lambda m, g: 0.9 * m + g, momentum, gradient)
+    little = 1e-3 * before / sum(jnp.sum(g**2) for g in jax.tree.leaves(gradient))
+    better = jax.tree.map(lambda leaf, m: leaf - little * m, mechanism, momentum)
+    after, _ = loss(better)
+    # downhill the loss falls by the step times the square of the gradient, but for the second order of a thousandth
+    np.testing.assert_allclose(1 - after / before, 1e-3, rtol=2e-2)
+    assert np.all(better.sweep({"A": range_}).closed)
 
 
 def test_designs_in_a_batch_are_found_as_each_alone():
