@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.plane import plane_columns
+from jaxkin.motion.plane import plane_columns, turn_about_one_direction
 from jaxkin.motion.rods import idle_spins
 from jaxkin.solve.system import Form
 
@@ -34,7 +34,12 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     found = []
     for block in mechanism.structure.blocks:
         inside = [joints[joint] for joint in block.joints]
-        found.append(Form(plane_columns(inside), idle_spins(inside, bodies), cut=True))
+        directed = tuple(
+            number
+            for number, loop in enumerate(block.loops)
+            if turn_about_one_direction([joints[joint] for joint, _ in loop])
+        )
+        found.append(Form(plane_columns(inside), idle_spins(inside, bodies), directed, cut=True))
     return tuple(found)
 
 

@@ -1,7 +1,7 @@
-"""Which structure elements are planar: all their joints turn about one direction, or slide at right angles to it.
+"""Which structure elements are planar, and which loops turn about one direction (host code, numbers only).
 
-The displacements of such joints form the planar subgroup, in which a loop needs three equations instead of six (host
-code, numbers only).
+Joints that turn about one direction or slide at right angles to it form the planar subgroup, in which a loop needs
+three equations instead of six. Those that slide anywhere form the subgroup of Schoenflies, in which it needs four.
 """
 
 from __future__ import annotations
@@ -24,29 +24,12 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     Translations along the normal are allowed and left out: they commute with all others. Where lengths were changed
     along the normal these may be needed, and the element counts as spatial.
     """
-    if traced(joints):
+    if traced(joints) or (axes := _axes(joints)) is None:
         return None
-    turning: list[tuple[int, np.ndarray, np.ndarray]] = []
-    sliding: list[tuple[int, np.ndarray, np.ndarray]] = []
-    column = 0
-    for joint in joints:
-        sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
-        for frame, name in enumerate(joint.movements):
-            movement = MOVEMENTS[name]
-            if movement.ball:
-                return None
-            for element in movement.elements:
-                if element.kind == "screw":
-                    return None
-                first, second = (side[frame][:3, element.axis] for side in sides)
-                entry = (column + element.coordinate, first, second)
-                (sliding if element.kind == "translate" else turning).append(entry)
-            column += len(movement.coordinates)
-    if not turning:
+    turning, sliding = axes
+    if not _one_direction(turning):
         return None
     normal = turning[0][1]
-    if any(np.linalg.norm(np.cross(normal, axis)) > PARALLEL for _, *axes in turning for axis in axes):
-        return None
     inside = [column for column, *_ in turning]
     for column, *axes in sliding:
         along = np.abs(np.array(axes) @ normal)
@@ -59,3 +42,38 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
     if np.max(np.abs(np.concatenate(shifts))) > PARALLEL * np.ptp(origins, axis=0).max(initial=0.0):
         return None
     return tuple(sorted(inside))
+
+
+def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
+    """Whether all joints that turn at all do so about one direction; where that is traced, no."""
+    axes = None if traced(joints) else _axes(joints)
+    return axes is not None and _one_direction(axes[0])
+
+
+Axes = list[tuple[int, np.ndarray, np.ndarray]]
+"""Of coordinates, counted through, their axes on both parts."""
+
+
+def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
+    """What turns and what slides; None where there are balls or screws."""
+    turning: Axes = []
+    sliding: Axes = []
+    column = 0
+    for joint in joints:
+        sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
+        for frame, name in enumerate(joint.movements):
+            movement = MOVEMENTS[name]
+            if movement.ball or any(element.kind == "screw" for element in movement.elements):
+                return None
+            for element in movement.elements:
+                first, second = (side[frame][:3, element.axis] for side in sides)
+                entry = (column + element.coordinate, first, second)
+                (sliding if element.kind == "translate" else turning).append(entry)
+            column += len(movement.coordinates)
+    return turning, sliding
+
+
+def _one_direction(turning: Axes) -> bool:
+    return bool(turning) and all(
+        np.linalg.norm(np.cross(turning[0][1], axis)) <= PARALLEL for _, *axes in turning for axis in axes
+    )

@@ -4,7 +4,8 @@ A loop is travelled step by step. `R, t` is the displacement accumulated so far;
 Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
 independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
 sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
-cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball.
+cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. Of a
+loop that turns about one direction only, all `vee` have that: their length along it is one equation in place of three.
 
 The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
 compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
@@ -49,15 +50,26 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     """
     rotation, translation, twists = _travel(system, geometry, state)
     table, poses = steps(system), state.x.shape[-1]
-    loops, whole = np.arange(len(system.loops)), np.flatnonzero(table.cut_sign == 0)
+    loops, rotations = np.arange(len(system.loops)), np.array(system.rotations)
+    free, directed, whole = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
-    residual = jnp.concatenate(
-        [*jnp.moveaxis(vee(rotation[:, :, whole].swapaxes(0, 1)), 1, 0), *jnp.moveaxis(translation, 1, 0)]
-    )
-    rows = [twists[table.source[:, whole], :3, whole], twists[table.source, 3:, loops]]
+    residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
+    rows = [twists[table.source[:, free], :3, free]]
+    if directed.size:
+        # the twist of a joint that turns holds the direction
+        turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
+        direction = twists[turning[directed], :3, directed]
+        residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, directed].swapaxes(0, 1))), axis=1))
+        rows.append(jnp.sum(direction * twists[table.source[:, directed], :3, directed], axis=2, keepdims=True))
+    residual = jnp.concatenate([*residual, *_of_loops(translation)])
+    rows.append(twists[table.source, 3:, loops])
     jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), jnp.sum(translation**2, axis=(0, 1))
+
+
+def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
+    return jnp.moveaxis(vectors, 1, 0)
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:

@@ -16,7 +16,7 @@ from jaxkin.joints.screws import freedoms
 
 EQUATIONS, IN_PLANE, CENTRE = 6, 3, 3
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
-one and two; cut at a ball the latter three."""
+one and two; cut at a ball the latter three. Of a loop that turns about one direction only, one and three."""
 
 
 LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
@@ -33,6 +33,8 @@ class Form(NamedTuple):
     spins: tuple[tuple[int, int, int, int], ...] = ()
     """Pairs of balls about whose line a rod spins idly: their numbers among the balls, and for each +1, or -1 where the
     rod is part 1 of the pair."""
+    directed: tuple[int, ...] = ()
+    """Loops, by number, that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
     cut: bool = False
     """Whether loops are cut at a ball where they can be: see `LoopSystem.cuts`."""
 
@@ -147,12 +149,19 @@ class LoopSystem:
         """The same with no loop cut."""
         return replace(self, form=self.form._replace(cut=False))
 
+    @cached_property
+    def rotations(self) -> tuple[int, ...]:
+        """For each loop in space the number of its equations of rotation."""
+        return tuple(
+            0 if cut is not None else 1 if loop in self.form.directed else 3 for loop, cut in enumerate(self.cuts)
+        )
+
     @property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
         if self.planar:
             return IN_PLANE * len(self.loops)
-        return sum(EQUATIONS if cut is None else CENTRE for cut in self.cuts)
+        return sum(rotations + CENTRE for rotations in self.rotations)
 
     @cached_property
     def free(self) -> tuple[int, ...]:
