@@ -20,7 +20,7 @@ from jaxkin.geometry.traced import traced
 from jaxkin.solve.designs import all_designs
 from jaxkin.solve.pieces import pieces, side_by_side
 from jaxkin.solve.status import Status, Tolerance
-from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses
+from jaxkin.solve.sweep import CONTINUATION, MANY, Joints, Poses, displacements, find_poses, piece
 from jaxkin.solve.system import LoopSystem
 
 OPTIONS = {
@@ -55,8 +55,8 @@ def solve(
         given, order = _in_order(np.asarray(inputs))
         number = pieces(system, given.shape[1])
 
-        def solved(piece: np.ndarray):
-            return _program(_solve)(system, method, joints, piece, tolerance, share=number)
+        def solved(given: np.ndarray, begin: np.ndarray | None = None):
+            return _program(_solve)(system, method, joints, given, tolerance, begin, share=number)
 
         found = side_by_side(system, solved, given, number)
         return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
@@ -80,10 +80,11 @@ def _solve(
     joints: Joints,
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
+    begin: Int[Array, ""] | None = None,
     share: int = 1,
-) -> tuple[Float[Array, "columns poses"], Outcome]:
-    poses = find_poses(system, method, joints, inputs, tolerance, share)
-    return displacements(system, joints, inputs, poses), Outcome(poses.status, poses.gap)
+) -> tuple[Float[Array, "columns piece"], Outcome]:
+    poses = find_poses(system, method, joints, inputs, tolerance, share, begin)
+    return displacements(system, joints, piece(inputs, share, begin), poses), Outcome(poses.status, poses.gap)
 
 
 def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:

@@ -1,7 +1,7 @@
-"""Many poses of a single input in pieces, one for each core.
+"""Many poses in pieces, one for each core.
 
 A compiled program of the solver runs on one thread, since its operations take microseconds. Each piece of a range is
-followed to from the assembled pose, in a thread and a program of its own.
+followed to from the assembled pose, in a thread and a program of its own; that of several inputs along all of them.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ LEAST = 2**14
 
 
 def pieces(system: LoopSystem, poses: int) -> int:
-    """Number of pieces of so many poses: one where several inputs lead from each to the next, or off the CPU."""
+    """Number of pieces of so many poses: one off the CPU."""
     device = getattr(jax.config, "jax_default_device", None) or jax.default_backend()
-    if len(system.driven) != 1 or getattr(device, "platform", device) != "cpu":
+    if not system.driven or getattr(device, "platform", device) != "cpu":
         return 1
     return max(1, min(_cores(), poses // LEAST))
 
@@ -36,7 +36,10 @@ def pieces(system: LoopSystem, poses: int) -> int:
 def side_by_side(
     system: LoopSystem, function: Callable, inputs: Float[np.ndarray, "driven poses"], number: int
 ) -> tuple:
-    """What a function makes of inputs in order: displacements of poses in rows of columns, and what else there is."""
+    """What a function makes of inputs in order: displacements of poses in rows of columns, and what else there is.
+
+    A piece of a single input is given as its own inputs, one of several as the number of its first among all.
+    """
     if number == 1:
         return function(inputs)
     poses = inputs.shape[1]
@@ -46,11 +49,16 @@ def side_by_side(
     x64 = dtypes.canonicalize_dtype(float) == jnp.float64
     device = getattr(jax.config, "jax_default_device", None)
 
+    def of(begin: int):
+        if len(system.driven) == 1:
+            return function(inputs[:, begin : begin + length])
+        return function(inputs, np.asarray(begin, np.int32))
+
     def run(begin: int):
         with jax.enable_x64(x64), jax.default_device(device):  # settings that hold for the thread that made them
-            return jax.block_until_ready(function(inputs[:, begin : begin + length]))
+            return jax.block_until_ready(of(begin))
 
-    begun = function(inputs[:, :length])  # compiled, and begun, by the thread that asks for it
+    begun = of(0)  # compiled, and begun, by the thread that asks for it
     return _joined(system, first[-2] + length - first[-1], [begun, *_threads().map(run, first[1:])])
 
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.chords import TOGETHER, shared_steps
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
@@ -52,16 +52,25 @@ def find_poses(
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
     share: int = 1,
+    begin: Int[Array, ""] | None = None,
     patient: Bool[Array, ""] | bool = True,
 ) -> Poses:
     """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
-    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`. Who is not patient
-    may find poses STALLED that would close.
+    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`; or those of the
+    whole range, of which the piece that begins with this number is asked for. Who is not patient may find poses STALLED
+    that would close.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
-    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share, patient)
+    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share, begin, patient)
+
+
+def piece(array: Array, share: int, begin: Int[Array, ""] | None) -> Array:
+    """The piece of the poses that begins with this number; all without one."""
+    if begin is None:
+        return array
+    return lax.dynamic_slice_in_dim(array, begin, -(-array.shape[-1] // share), axis=-1)
 
 
 def displacements(
@@ -98,11 +107,13 @@ def _search(
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
     share: int,
+    begin: Int[Array, ""] | None,
     patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """The same in lengths over the characteristic length; NONFINITE where an input is."""
     finite = jnp.all(jnp.isfinite(inputs), axis=0)
-    inputs = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
+    whole = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
+    inputs, finite = (piece(array, share, begin) for array in (whole, finite))
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
@@ -113,7 +124,7 @@ def _search(
     elif len(system.driven) == 1:
         poses = _of_one_input(system, geometry, inputs[0], tolerance, share, patient)
     elif system.driven:
-        poses = _of_several_inputs(system, geometry, inputs, tolerance, patient)
+        poses = _of_several_inputs(system, geometry, whole, tolerance, share, begin, patient)
     else:
         poses = Poses(*reach(system, geometry, inputs))
     return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
@@ -151,10 +162,13 @@ def _of_several_inputs(
     geometry: Geometry,
     inputs: Float[Array, "driven poses"],
     tolerance: Tolerance,
+    share: int,
+    begin: Int[Array, ""] | None,
     patient: Bool[Array, ""] | bool,
 ) -> Poses:
     """The poses along a curve through all of them, and those that it does not reach."""
     at, way = curve_through(inputs)
+    at, inputs = (piece(array, share, begin) for array in (at, inputs))
     knots = follow(system, geometry, way, at, patient)
     worth = knots.whole | patient
     at, inputs = jnp.where(worth, at, 0.0), jnp.where(worth, inputs, 0.0)
