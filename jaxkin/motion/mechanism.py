@@ -13,6 +13,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.motion.forms import forms
+from jaxkin.motion.named import Named
 from jaxkin.solve.methods import CONTINUATION
 from jaxkin.solve.system import Form
 from jaxkin.topology.names import nearest
@@ -81,7 +82,7 @@ class Mechanism:
     @cached_property
     def joints(self) -> Mapping[str, Joint]:
         """Joints by name."""
-        return {joint.name: joint for joint in self.all_joints}
+        return Named("joint", ((joint.name, joint) for joint in self.all_joints))
 
     def joints_between(self, part1: str, part2: str) -> tuple[str, ...]:
         """Names of the joints between two parts, in whichever order. ValueError for an unknown part."""

@@ -21,6 +21,7 @@ from jaxkin.motion import writers
 from jaxkin.motion.dead_ends import left_free
 from jaxkin.motion.drive import coordinate
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.named import Named
 from jaxkin.solve.status import Status
 from jaxkin.topology.names import listed, nearest
 from jaxkin.topology.structure import Structure
@@ -67,12 +68,12 @@ class Motion:
     @cached_property
     def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
         """Displacements of each joint, in the order of its `coordinates`; angles count full turns."""
-        return dict(zip(self.mechanism.joints, self.displacements, strict=True))
+        return Named("joint", zip(self.mechanism.joints, self.displacements, strict=True))
 
     @cached_property
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
         """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
-        return dict(zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
+        return Named("part", zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""

@@ -1,5 +1,7 @@
 """Transforms of the parts for any displacements of the joints, closed or not: the products along the tree."""
 
+import re
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -87,3 +89,18 @@ def test_slopes_of_a_chain_forward_and_backward(arm, angles):
     (backward,) = jax.vjp(hand, angles)[1](found)
     # 100 mm squared, some hundred terms
     np.testing.assert_allclose(jnp.vdot(backward, along), jnp.vdot(found, forward), rtol=1e-12)
+
+
+def test_a_name_that_is_not_there_is_answered_with_those_that_are(arm):
+    motion = arm.sweep({"A": np.zeros(2)})
+    for named, unknown, answer in (
+        (motion.coordinates, "elbow", "there is no joint 'elbow'; there is 'A', 'B', 'grip', 'C'"),
+        (arm.joints, "gripp", "there is no joint 'gripp'; did you mean 'grip'?"),
+        (motion.transforms, "lam", "there is no part 'lam'; did you mean 'lamp'?"),
+    ):
+        with pytest.raises(KeyError, match=re.escape(answer)):
+            named[unknown]
+        assert unknown not in named and named.get(unknown) is None
+        leaves, tree = jax.tree.flatten(named)
+        again = jax.tree.unflatten(tree, leaves)
+        assert (type(again), again.what, list(again)) == (type(named), named.what, list(named))
