@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Array, Bool, Float, Int, Shaped
 
 from jaxkin.solve.chords import TOGETHER, shared_steps
 from jaxkin.solve.closure import Geometry, closure, loop_geometry
@@ -66,8 +66,10 @@ def find_poses(
     return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share, begin, patient)
 
 
-def piece(array: Array, share: int, begin: Int[Array, ""] | None) -> Array:
-    """The piece of the poses that begins with this number; all without one."""
+def piece(
+    array: Shaped[Array, "*rows poses"], share: int, begin: Int[Array, ""] | None
+) -> Shaped[Array, "*rows piece"]:
+    """The piece of the poses that begins with this number, of so many of equal length; all of them without one."""
     if begin is None:
         return array
     return lax.dynamic_slice_in_dim(array, begin, -(-array.shape[-1] // share), axis=-1)

@@ -71,8 +71,9 @@ def test_pieces_of_several_inputs_are_their_range(monkeypatch):
     np.testing.assert_array_equal(whole.status, split.status)
     assert 0.3 < np.mean(split.closed) < 0.99
     assert np.max(split.residual[split.closed]) < 1e-12
+    # beside a limit a pose is right to rounding over its smallest singular value, here 5e-3
     for one, other in zip(whole.displacements, split.displacements, strict=True):
-        np.testing.assert_allclose(one[whole.closed], other[whole.closed], atol=1e-10)
+        np.testing.assert_allclose(one[whole.closed], other[whole.closed], atol=1e-11)
 
 
 @pytest.mark.long
