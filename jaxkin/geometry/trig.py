@@ -49,12 +49,13 @@ def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"
     for part in HALF:
         rest = rest - (turns + shift) * part
     square = rest * rest
-    total = jnp.zeros_like(square)
-    for term in reversed(SERIES):
+    *lower, total = SERIES
+    for term in reversed(lower):
         total = total * square + term
     # the sine changes its sign with every half turn; that of the cosine falls where it is zero for the first time
     odd = turns - 2 * jnp.floor(0.5 * turns)
-    return (1 - 2 * odd) * (1 - 4 * shift) * (rest + rest * (square * total))
+    # divided by the sign: XLA takes a quotient for costly, and does not compute it anew wherever it is used
+    return (rest + rest * (square * total)) / ((1 - 2 * odd) * (1 - 4 * shift))
 
 
 @cos_sin.defjvp

@@ -28,12 +28,14 @@ OPTIONS = {
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
     "xla_llvm_disable_expensive_passes": True,
+    "xla_disable_hlo_passes": "cpu-parallel-task-assigner",
 }
 """For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the costlier passes of
 LLVM 1.4 times, for a program no faster.
 
 It is made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads,
-takes longer than they do. Several cores have poses of their own: see `pieces`; or are several devices."""
+takes longer than they do, and threads that wait for more of them keep the core that another piece needs. Several cores
+have poses of their own: see `pieces`; or are several devices."""
 
 
 class Outcome(NamedTuple):
@@ -93,7 +95,9 @@ def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     if len(inputs) != 1 or inputs.shape[1] < MANY or np.all(steps >= 0) or np.all(steps <= 0):
         return inputs, None
     order = np.argsort(inputs[0], kind="stable")
-    return inputs[:, order], np.argsort(order)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return inputs[:, order], place
 
 
 @cache

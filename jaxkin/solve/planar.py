@@ -8,8 +8,9 @@ the normal (those of cylindrical joints) commute with all of this: they rest, an
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, reduce
 from itertools import accumulate
+from operator import add
 from typing import NamedTuple
 
 import jax.numpy as jnp
@@ -21,6 +22,10 @@ from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.spatial import Spatial
 from jaxkin.solve.steps import steps
 from jaxkin.solve.system import LoopSystem
+
+MANY = 512
+"""From so many poses on sums written out, which vector units run through, are faster than a product of matrices; for
+fewer they are not worth the time that they take to compile."""
 
 
 class Planar(NamedTuple):
@@ -47,23 +52,32 @@ def planar_closure(
     """Residual (turn and two translations a loop), Jacobian, and squares of Eq. 12: see `closure.Closure`."""
     poses = x.shape[-1]
     padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
-    cos, sin = both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
-    terms = [cos, sin, jnp.ones_like(cos[:, :1])]
+    both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
+    terms = [*both, jnp.ones_like(both[0, :, :1])]
     if _slides(system):
         terms[2:2] = list(padded[_kept(system).slider.T] * both)
-    terms = jnp.concatenate(terms, axis=1)
-    moved = jnp.einsum("ldt,ltp->ldp", geometry.moved, terms)
+    moved = _moved(geometry, terms)
+    cos, sin = both[:, :, -1]
     begun_cos, begun_sin = geometry.begun[..., None]
-    rest_cos = cos[:, -1] * begun_cos - sin[:, -1] * begun_sin
-    rest_sin = sin[:, -1] * begun_cos + cos[:, -1] * begun_sin
+    rest_cos = cos * begun_cos - sin * begun_sin
+    rest_sin = sin * begun_cos + cos * begun_sin
     # a turn changes four of the nine entries of a rotation matrix; not 2 - 2 cos, which cancels
-    rotated = 2 * jnp.sum((rest_cos - 1) ** 2 + rest_sin**2, axis=0)
+    rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
+    jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
     return (
         jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.equations, poses),
-        jnp.einsum("lrt,ltp->lrp", geometry.jacobian, terms).reshape(system.equations, system.columns, poses),
+        jacobian.reshape(system.equations, system.columns, poses),
         rotated,
-        jnp.sum(moved**2, axis=(0, 1)),
+        reduce(add, (moved**2).reshape(2 * len(moved), poses)),
     )
+
+
+def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
+    """Where the loops end."""
+    if terms[0].shape[-1] < MANY:
+        return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
+    single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
+    return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))
 
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
