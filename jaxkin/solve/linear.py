@@ -17,10 +17,11 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.blocks import Block
 
-FEW, UNROLLED, MANY, LARGE = 3, 9, 1024, 24
+FEW, UNROLLED, MANY, MULTIPLIED, LARGE = 3, 9, 1024, 9, 24
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
 fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has. From so many
-rows on a library is several times as fast, which takes longer to import than smaller systems to sweep."""
+rows on J J^T is a product of matrices pose by pose, a third of the time of sums; from so many on a library is several
+times as fast, which takes longer to import than smaller systems to sweep."""
 PICKED = 0.75
 """If no more of the columns are used they are picked: to carry a few zeros along costs less."""
 
@@ -164,7 +165,7 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
 def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
     """The same by Gauss-Jordan elimination in a loop. The matrix is positive definite: it needs no pivoting."""
     n = jacobian.shape[0]
-    gram = jnp.sum(jacobian[:, None] * jacobian[None], axis=2) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
+    gram = _gram(jacobian) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
 
     def eliminate(_, matrix: Array) -> Array:
         # the first row and column are done with, and roll to the end: inside `vmap` places that move would be gathered
@@ -178,6 +179,14 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
         return done[:, : sides.shape[1]].reshape(right.shape)
 
     return solve
+
+
+def _gram(jacobian: Matrix) -> Float[Array, "rows rows poses"]:
+    """J J^T."""
+    if len(jacobian) < MULTIPLIED:
+        return jnp.sum(jacobian[:, None] * jacobian[None], axis=2)
+    rows = jnp.moveaxis(jacobian, -1, 0)
+    return jnp.moveaxis(rows @ rows.mT, 0, -1)
 
 
 def _by_library(jacobian: Matrix, damping: Float[Array, " poses"]):
