@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.system import LoopSystem
 
 Coordinates = Float[Array, "columns poses"]
@@ -150,15 +151,16 @@ def exponential(vector: Float[Array, "3 *poses"]) -> Float[Array, "4 *poses"]:
     square = jnp.sum(vector * vector, axis=0)
     small = square < 1e-6
     angle = jnp.sqrt(jnp.where(small, 1.0, square))  # sqrt has no derivative at zero: the other branch is the series
-    half_sinc = jnp.where(small, 0.5 - square / 48.0, jnp.sin(0.5 * angle) / angle)
-    cos = jnp.where(small, 1.0 - square / 8.0 + square * square / 384.0, jnp.cos(0.5 * angle))
+    cos, sin = cos_sin(0.5 * angle)
+    half_sinc = jnp.where(small, 0.5 - square / 48.0, sin / angle)
+    cos = jnp.where(small, 1.0 - square / 8.0 + square * square / 384.0, cos)
     return jnp.concatenate([cos[None], half_sinc * vector])
 
 
 def from_angles(angles: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
     """The quaternion of T_theta_phi_psi = Rz(psi) Ry(phi) Rx(theta)."""
     half = 0.5 * angles
-    (ct, cp, cs), (st, sp, ss) = jnp.cos(half), jnp.sin(half)
+    (ct, cp, cs), (st, sp, ss) = cos_sin(half)
     return jnp.stack(
         [
             ct * cp * cs + st * sp * ss,
@@ -192,6 +194,6 @@ def angles(rotation: Float[Array, "3 3 poses"]) -> Float[Array, "3 poses"]:
     (_, xy, xz), (_, yy, yz), (zx, zy, zz) = rotation
     locked = zy * zy + zz * zz < 1e-30  # entries of rotation matrices are right to 1e-16
     theta = jnp.where(locked, 0.0, jnp.arctan2(jnp.where(locked, 0.0, zy), jnp.where(locked, 1.0, zz)))
-    cos, sin = jnp.cos(theta), jnp.sin(theta)
+    cos, sin = cos_sin(theta)
     psi = jnp.arctan2(sin * xz - cos * xy, cos * yy - sin * yz)
     return jnp.stack([theta, jnp.arctan2(-zx, sin * zy + cos * zz), psi])
