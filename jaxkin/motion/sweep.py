@@ -63,9 +63,12 @@ def sweep(
         for element in elements
     ]
     layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), tuple(element.columns for element in elements))
-    inputs, *found = _collect(layout, values, solutions)
+    inputs, moved, resting, *found = _collect(layout, values, solutions)
+    displacements = tuple(
+        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(prepared.freedoms)
+    )
     # under `grad` JAX hands arrays of the host through as they are
-    return Motion(mechanism, dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True)), *found)
+    return Motion(mechanism, dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True)), displacements, *found)
 
 
 def _tolerance(asked: float | None) -> Tolerance:
@@ -102,30 +105,37 @@ def _collect(
     solutions: list[tuple[Float[Array, "_ _"], Outcome]],
 ) -> tuple[
     tuple[Float[Array, " poses"], ...],
-    tuple[Float[Array, "poses _"], ...],
+    dict[int, Float[Array, "poses _"]],
+    dict[int, Float[Array, "poses _"]],
     Int[Array, " poses"],
     Float[Array, " poses"],
 ]:
-    """The inputs, displacements of all joints, status and closure residual, of which the worst structure element's."""
+    """The inputs, displacements, status and closure residual, of which the worst structure element's.
+
+    Displacements by number of the joint; of those that nothing moves one array for all of as many freedoms.
+    """
     poses, dtype = values[0].shape[0], values[0].dtype
-    displacements = [jnp.zeros((poses, freedoms), dtype) for freedoms in layout.freedoms]
+    resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
+    moved: dict[int, Array] = {}
     for (joint, coordinate), given in zip(layout.driven, values, strict=True):
-        displacements[joint] = displacements[joint].at[:, coordinate].set(given)
+        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
-    worst = jnp.where(jnp.isfinite(values[0]), 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
+    finite = jnp.all(jnp.stack([jnp.isfinite(given) for given in values]), axis=0)
+    worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
     square = jnp.zeros(poses, dtype)
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
         for joint in dict.fromkeys(joint for joint, _ in columns):
             own = [(joint, k) for k in range(layout.freedoms[joint])]
             rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
-            displacements[joint] = jnp.stack([jnp.broadcast_to(row, (poses,)) for row in rows], axis=1)
+            moved[joint] = jnp.stack([jnp.broadcast_to(row, (poses,)) for row in rows], axis=1)
         worst = jnp.maximum(worst, rank[found.status[:poses]])
         square = square + found.gap[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
-    return tuple(map(jnp.asarray, values)), tuple(displacements), status, jnp.sqrt(square)
+    resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
+    return tuple(map(jnp.asarray, values)), moved, resting, status, jnp.sqrt(square)
 
 
-def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
+def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
 
     A power of two from 32 to 256 poses, above that a multiple of an eighth of one, of many a 32nd. Traced inputs are
@@ -142,7 +152,8 @@ def _padded(rows: list[Given]) -> Float[Array, "driven padded"]:
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        return jax.device_put(padded)  # inside a function that is being traced it counts as such
+        # inside a function that is being traced what is put on the device counts as such
+        return jax.device_put(padded) if traced(jax.device_put(padded[:, :0])) else padded
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 

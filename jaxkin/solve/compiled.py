@@ -45,7 +45,11 @@ class Outcome(NamedTuple):
 
 
 def solve(
-    system: LoopSystem, method: str, joints: Joints, inputs: Float[Array, "driven poses"], tolerance: Tolerance
+    system: LoopSystem,
+    method: str,
+    joints: Joints,
+    inputs: Float[Array | np.ndarray, "driven poses"],
+    tolerance: Tolerance,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Displacements of all joints, and what became of the poses.
 
@@ -91,8 +95,10 @@ def _solve(
 
 def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     """Many poses of a single input in rising order, as interpolation needs them, and where each is to be put back."""
-    steps = np.diff(inputs)
-    if len(inputs) != 1 or inputs.shape[1] < MANY or np.all(steps >= 0) or np.all(steps <= 0):
+    if len(inputs) != 1 or inputs.shape[1] < MANY:
+        return inputs, None
+    before, after = inputs[0, :-1], inputs[0, 1:]
+    if np.all(after >= before) or np.all(after <= before):
         return inputs, None
     order = np.argsort(inputs[0], kind="stable")
     place = np.empty_like(order)

@@ -36,7 +36,8 @@ def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
-    turns = {ball: matrix(turn) for ball, turn in enumerate(state.turns)}
+    rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
+    turns = {ball: rotations[:, :, ball] for ball in range(len(system.balls))}
     return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
 
 
@@ -45,6 +46,7 @@ def read_off(
 ) -> Coordinates:
     """Displacements of all joints from those that are not of balls, and turns of balls; lengths as in the frames."""
     turns = dict(turns)
+    pairs = []
     for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
         if columns[0] in system.driven:
             continue
@@ -52,21 +54,23 @@ def read_off(
             behind, _ = system.places[joint, frame + 1]
             found, turns[behind] = _line(_between(before[joint], after[joint], frame), turns[ball], turns[behind])
         elif columns == tuple(range(columns[0], columns[0] + 3)):
-            found = angles(turns[ball])
+            pairs.append((ball, columns))
+            continue
         else:
             first = columns[2] - 2
             found, moved = _on_plane(_between(before[joint], after[joint], frame - 1), turns[ball])
             x = x.at[first : first + 2].add(moved)
         x = x.at[np.array(columns)].set(found, unique_indices=True)
+    if pairs:
+        found = angles(jnp.stack([turns[ball] for ball, _ in pairs], axis=2))
+        x = x.at[np.array([columns for _, columns in pairs]).T].set(found, unique_indices=True)
     return x
 
 
 def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
     """Displacements without leaps in the angles of balls from pose to pose."""
-    for columns in system.balls:
-        if columns[0] not in system.driven:
-            x = x.at[np.array(columns)].set(jnp.unwrap(x[np.array(columns)], axis=-1), unique_indices=True)
-    return x
+    which = np.array([column for columns in system.balls if columns[0] not in system.driven for column in columns], int)
+    return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x
 
 
 def as_state(system: LoopSystem, before: Frames, after: Frames, x: Coordinates) -> State:

@@ -10,12 +10,15 @@ by whatever way; after a thousand turns no spin is left behind.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import reduce
+from operator import add
 
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.state import Rotations, State, matrix, multiply
 from jaxkin.solve.system import LoopSystem
 
@@ -39,38 +42,40 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
 
 def _spins(
     system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
-) -> list[tuple[int, int, Float[Array, "4 poses"]]]:
-    """Of both balls of each rod: number, side, and the turn about the line that leaves no spin behind."""
-    found = []
-    for (one, other, *sides), line in zip(system.spins, lines, strict=True):
-        a = b = 0.0
-        for ball, n in zip((one, other), line, strict=True):
-            a += n @ vee(turns[ball])
-            b += 0.5 * (jnp.trace(turns[ball]) - jnp.einsum("i,ijp,j->p", n, turns[ball], n))
-        undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
-        phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
-        cos, sin = jnp.cos(0.5 * phi)[None], jnp.sin(0.5 * phi)
-        spins = [jnp.concatenate([cos, sin * n[:, None]]) for n in line]
-        found += zip((one, other), sides, spins, strict=True)
-    return found
+) -> tuple[list[tuple[int, int]], Float[Array, "4 ends poses"]]:
+    """Of both balls of each rod: number and side, and the turns about the line that leave no spin behind."""
+    ends = [(ball, side) for one, other, *sides in system.spins for ball, side in zip((one, other), sides, strict=True)]
+    turn = jnp.stack([turns[ball] for ball, _ in ends], axis=2)
+    n = lines.reshape(-1, 3).T[..., None]
+    along = reduce(add, (n[i] * each for i, each in enumerate(vee(turn))))
+    aside = [turn[i, i] - n[i] * reduce(add, (turn[i, j] * n[j] for j in range(3))) for i in range(3)]
+    a, b = (each[::2] + each[1::2] for each in (along, 0.5 * reduce(add, aside)))
+    undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
+    phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
+    cos, sin = (jnp.repeat(each, 2, axis=0) for each in cos_sin(0.5 * phi))
+    return ends, jnp.concatenate([cos[None], sin * n])
 
 
 def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
     """The turns of all balls, by number, with every rod spun to where its balls turn least."""
     turns = dict(turns)
-    for ball, side, spin in _spins(system, lines, turns):
-        pair = turns[ball], matrix(spin)
-        turns[ball] = jnp.einsum("ijp,jkp->ikp", *(pair if side > 0 else pair[::-1]))
+    if not system.spins:
+        return turns
+    ends, spins = _spins(system, lines, turns)
+    rotations = matrix(spins)
+    for number, (ball, side) in enumerate(ends):
+        one, other = (turns[ball], rotations[:, :, number])[::side]
+        turns[ball] = reduce(add, (one[:, j, None] * other[None, j] for j in range(3)))
     return turns
 
 
 def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
-    """The state with every rod spun so. `turns` are those of all its balls."""
+    """The state with every rod spun so, of which there is one at least. `turns` are those of all its balls."""
     quaternions = list(state.turns)
-    for ball, side, spin in _spins(system, lines, turns):
-        pair = quaternions[ball], spin
-        quaternions[ball] = multiply(*(pair if side > 0 else pair[::-1]))
-    return State(state.x, jnp.stack(quaternions)) if quaternions else state
+    ends, spins = _spins(system, lines, turns)
+    for number, (ball, side) in enumerate(ends):
+        quaternions[ball] = multiply(*(quaternions[ball], spins[:, number])[::side])
+    return State(state.x, jnp.stack(quaternions))
 
 
 def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:

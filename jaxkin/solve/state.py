@@ -181,12 +181,12 @@ def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
     ]
 
 
-def matrix(turn: Float[Array, "4 poses"]) -> Rotations:
-    """The rotation matrix of a unit quaternion."""
+def matrix(turn: Float[Array, "4 *poses"]) -> Float[Array, "3 3 *poses"]:
+    """The rotation matrix of a unit quaternion, [row, column]."""
     return jnp.stack([jnp.stack(column) for column in rotation_matrix(turn)], axis=1)
 
 
-def angles(rotation: Float[Array, "3 3 poses"]) -> Float[Array, "3 poses"]:
+def angles(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
     """The paper's theta, phi, psi of rotation matrices; at phi = +-90 deg, where they lock, theta is taken as zero.
 
     However near to the lock, together they give the turn to rounding: psi and phi are read from what theta leaves.

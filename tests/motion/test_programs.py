@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.joints.pairs import revolute
+from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.sweep import sweep
 from jaxkin.solve.status import Status
 from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage
@@ -125,3 +127,17 @@ def test_nan_in_a_traced_input_is_a_status_and_spoils_no_other_pose():
     expected = mechanism.sweep({"in": inputs}).coordinates["out"]
     keep = np.array([0, 1, 3, 4])
     np.testing.assert_allclose(motion.coordinates["out"][keep], expected[keep], atol=1e-13)
+
+
+def test_nan_in_any_of_several_traced_inputs_is_a_status():
+    """An arm of two hinges, in no loop: nothing is solved that could notice."""
+    arm = Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            revolute("shoulder", "ground", "upper", point=(0, 0, 0), axis=(0, 0, 1)),
+            revolute("elbow", "upper", "lower", point=(1, 0, 0), axis=(0, 0, 1)),
+        ],
+    )
+    one, other = jnp.zeros(3).at[0].set(jnp.nan), jnp.zeros(3).at[2].set(jnp.inf)
+    status = jax.jit(lambda one, other: sweep(arm, {"shoulder": one, "elbow": other}).status)(one, other)
+    assert list(status) == [Status.NONFINITE, Status.CLOSED, Status.NONFINITE]
