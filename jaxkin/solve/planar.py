@@ -23,9 +23,9 @@ from jaxkin.solve.spatial import Spatial
 from jaxkin.solve.steps import steps
 from jaxkin.solve.system import LoopSystem
 
-MANY = 512
-"""From so many poses on sums written out, which vector units run through, are faster than a product of matrices; for
-fewer they are not worth the time that they take to compile."""
+MANY, FEW = 512, 32
+"""From so many poses on sums written out of up to so many terms, which vector units run through, are faster than a
+product of matrices; for fewer poses they are not worth the time that they take to compile."""
 
 
 class Planar(NamedTuple):
@@ -74,7 +74,7 @@ def planar_closure(
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
     """Where the loops end."""
-    if terms[0].shape[-1] < MANY:
+    if terms[0].shape[-1] < MANY or sum(some.shape[0] * some.shape[1] for some in terms) > FEW:
         return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
     single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
     return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))
