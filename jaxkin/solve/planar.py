@@ -73,7 +73,7 @@ def planar_closure(
 
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
-    """Where the loops end."""
+    """Where the loops end in the plane, over the characteristic length: `Planar.moved` times its terms (Eq. 10)."""
     if terms[0].shape[-1] < MANY or sum(some.shape[0] * some.shape[1] for some in terms) > FEW:
         return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
     single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
