@@ -28,14 +28,14 @@ OPTIONS = {
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
     "xla_llvm_disable_expensive_passes": True,
-    "xla_disable_hlo_passes": "cpu-parallel-task-assigner",
+    "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
 }
 """For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the costlier passes of
 LLVM 1.4 times, for a program no faster.
 
-It is made of operations of a few microseconds: to hand them to a library of reductions, or to split them among threads,
-takes longer than they do, and threads that wait for more of them keep the core that another piece needs. Several cores
-have poses of their own: see `pieces`; or are several devices."""
+It is made of operations of a few microseconds: to hand them to a library of reductions, to make trees of sums of some
+forty numbers, or to split them among threads, takes longer than they do, and threads that wait for more of them keep
+the core that another piece needs. Several cores have poses of their own: see `pieces`; or are several devices."""
 
 
 class Outcome(NamedTuple):

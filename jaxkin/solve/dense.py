@@ -70,7 +70,7 @@ def interpolate(
     """
     dtype, poses = values.dtype, values.shape[0]
     sharp, closes = roundings(dtype, SHARP), roundings(dtype, CLOSED)
-    segments = max((WITH_SPINS if system.spins else SEGMENTS) // share, 1)
+    segments = max((WITH_SPINS if system.spinning else SEGMENTS) // share, 1)
     length = max(2 ** (poses - 1).bit_length() // segments, 1)
     # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))

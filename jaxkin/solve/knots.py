@@ -21,8 +21,9 @@ from jaxkin.solve.closure import Geometry
 from jaxkin.solve.continuation import AT_LIMIT, Front, arrived, given_up, start, substep
 from jaxkin.solve.correct import choose
 from jaxkin.solve.lanes import any_lane, write_row
+from jaxkin.solve.linear import placed
 from jaxkin.solve.reading import ball_turns
-from jaxkin.solve.state import State, difference, rate, retract
+from jaxkin.solve.state import State, difference, rate, retract, turning
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system import LoopSystem
 from jaxkin.solve.way import Way
@@ -152,17 +153,27 @@ def _same(system: LoopSystem, geometry: Geometry, state: State) -> Bool[Array, "
 def _row(system: LoopSystem, front: Front) -> Float[Array, "lanes entries"]:
     """All numbers of a knot: where it is, coordinates, turns of the balls, the slopes of both, and the status."""
     slope = rate(system, front.state, front.slope)
-    entries = [part.reshape(-1, part.shape[-1]) for part in (front.at, *front.state, *slope)]
+    which = _coordinates(system)
+    states = [part for x, turns in (front.state, slope) for part in (x[which], turns)]
+    entries = [part.reshape(-1, part.shape[-1]) for part in (front.at, *states)]
     return jnp.concatenate([*entries, front.status[None].astype(front.gap.dtype)]).T
+
+
+def _coordinates(system: LoopSystem) -> np.ndarray:
+    """The columns that hold something: those of balls that turn as unknowns do not, and may be many."""
+    return np.flatnonzero(~turning(system))
 
 
 def _knot(system: LoopSystem, knots: Knots, number: Int[Array, " poses"]) -> Knot:
     """The knots of these numbers, which are within bounds."""
     at, column = jnp.split(knots.table.at[number].get(mode="promise_in_bounds").T, [1])
-    coordinates, balls = system.columns, len(system.balls)
-    half = coordinates + 4 * balls
+    which, balls = _coordinates(system), len(system.turned_balls)
+    half = len(which) + 4 * balls
     state, slope = (
-        State(part[:coordinates], part[coordinates:half].reshape(balls, 4, number.shape[0]))
+        State(
+            placed(part[: len(which)], which, system.columns),
+            part[len(which) : half].reshape(balls, 4, number.shape[0]),
+        )
         for part in (column, column[half:])
     )
     return Knot(at[0], state, slope, column[-1].astype(jnp.int32))

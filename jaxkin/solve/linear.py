@@ -68,7 +68,7 @@ def _picked(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked 
 
 def _put_back(x: Array, used: Sequence[int], columns: int) -> Array:
     """A solution for what `_picked` picked as one for all columns."""
-    return x if len(x) == columns else _placed(x, used, columns)
+    return x if len(x) == columns else placed(x, used, columns)
 
 
 def solve_blocks(
@@ -106,14 +106,16 @@ def _in_turn(
             here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, floor * scale(own))(rest))
         found = jnp.concatenate([found, here])
         known += block.columns
-    return _placed(found, known, jacobian.shape[1])
+    return placed(found, known, jacobian.shape[1])
 
 
-def _placed(found: Float[Array, "some *entries"], which: Sequence[int], number: int) -> Float[Array, "number *entries"]:
+def placed(found: Float[Array, "some *entries"], which: Sequence[int] | np.ndarray, number: int) -> Array:
     """Rows put into their places among zeros: picked, since XLA writes scattered rows one after another."""
     place = np.full(number, len(which))
     place[list(which)] = np.arange(len(which))
-    return jnp.concatenate([found, jnp.zeros((1, *found.shape[1:]), found.dtype)])[place]
+    if len(which) < number:
+        found = jnp.concatenate([found, jnp.zeros((1, *found.shape[1:]), found.dtype)])
+    return found if np.array_equal(place, np.arange(number)) else found[place]
 
 
 def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]) -> Float[Array, "3 sides poses"]:

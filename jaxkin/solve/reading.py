@@ -30,14 +30,14 @@ def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
 
 def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
     """The state with no spin left in any rod: a smooth function of the input, as that of the solver is not."""
-    if not isinstance(geometry, Spatial) or not system.spins:
+    if not isinstance(geometry, Spatial) or not system.spinning:
         return state
     return rested(system, geometry.lines, _all_turns(system, geometry, state), state)
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
     rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
-    turns = {ball: rotations[:, :, ball] for ball in range(len(system.balls))}
+    turns = {ball: rotations[:, :, number] for number, ball in enumerate(system.turned_balls)}
     return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
 
 
@@ -76,7 +76,9 @@ def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
 def as_state(system: LoopSystem, before: Frames, after: Frames, x: Coordinates) -> State:
     """The state with these displacements of all joints."""
     turns = []
-    for (joint, frame), (_, columns) in system.places.items():
+    for (joint, frame), (ball, columns) in system.places.items():
+        if ball not in system.turned_balls:
+            continue
         chosen = x[np.array(columns)]
         if len(columns) == 2:
             turns.append(from_angles(jnp.stack([*chosen, jnp.zeros_like(chosen[0])])))

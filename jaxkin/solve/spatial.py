@@ -4,8 +4,9 @@ A loop is travelled step by step. `R, t` is the displacement accumulated so far;
 Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
 independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
 sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
-cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. Of a
-loop that turns about one direction only, all `vee` have that: their length along it is one equation in place of three.
+cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. One that
+is cut at both balls of a rod is two chains from ball to ball, of equal length `|t|`. Of a loop that turns about one
+direction only, all `vee` have that: their length along it is one equation in place of three.
 
 The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
 compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
@@ -21,7 +22,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
-from jaxkin.solve.spins import Lines, spin_lines, vee
+from jaxkin.solve.spins import Lines, lengths, spin_lines, turn_between, vee
 from jaxkin.solve.state import State, rotation_matrix
 from jaxkin.solve.steps import AXES, steps
 from jaxkin.solve.system import LoopSystem
@@ -34,9 +35,9 @@ Vector = Float[Array, "3 *poses"]
 class Spatial(NamedTuple):
     """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
 
-    between: Float[Array, "steps loops 4 4"]
+    between: Float[Array, "steps chains 4 4"]
     """The constant pose before each step."""
-    end: Float[Array, "loops 4 4"]
+    end: Float[Array, "chains 4 4"]
     """The constant pose behind the last step."""
     pitch: Float[Array, " joints"]
     lines: Lines
@@ -50,8 +51,9 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     """
     rotation, translation, twists = _travel(system, geometry, state)
     table, poses = steps(system), state.x.shape[-1]
-    loops, rotations = np.arange(len(system.loops)), np.array(system.rotations)
+    rotations = np.array(system.rotations)
     free, directed, whole = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
+    ends = np.setdiff1d(np.arange(len(system.loops)), table.rods[0])
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
     residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
@@ -62,10 +64,24 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
         direction = twists[turning[directed], :3, directed]
         residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, directed].swapaxes(0, 1))), axis=1))
         rows.append(jnp.sum(direction * twists[table.source[:, directed], :3, directed], axis=2, keepdims=True))
-    residual = jnp.concatenate([*residual, *_of_loops(translation)])
-    rows.append(twists[table.source, 3:, loops])
+    moved = translation[:, ends]
+    squares = jnp.sum(moved**2, axis=(0, 1))
+    residual += [*_of_loops(moved)]
+    rows.append(twists[table.source[:, ends], 3:, ends])
+    if table.rods.size:
+        apart = translation[:, table.rods]
+        length = lengths(apart)
+        misfit = length[0] - length[1]
+        squares += jnp.sum(misfit**2, axis=0)
+        residual.append(misfit)
+        along = jnp.moveaxis(apart / length, 0, 2)
+        one, other = jnp.sum(
+            along[:, None] * twists[table.source[:, table.rods], 3:, table.rods].swapaxes(0, 1), axis=3
+        )
+        rows.append((one - other)[:, :, None])
+    residual = jnp.concatenate(residual)
     jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
-    return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), jnp.sum(translation**2, axis=(0, 1))
+    return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
 
 
 def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
@@ -73,22 +89,33 @@ def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 p
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
-    """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it."""
-    if not any(cut is not None for cut in system.cuts):
+    """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it; a rod spins somehow."""
+    if not any(system.cuts):
         return {}
-    rotation, _, _ = _travel(system, geometry, state)
-    found = {}
-    for loop, (cut, sign) in enumerate(zip(system.cuts, steps(system).cut_sign, strict=True)):
-        if cut is not None:
-            found[cut] = rotation[:, :, loop] if sign > 0 else rotation[:, :, loop].swapaxes(0, 1)
-    return found
+    table = steps(system)
+    rotation, translation, _ = _travel(system, geometry, state)
+    closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of what the chain turns, [row, column]
+    if table.rods.size:
+        # the second ball turns the second chain against the first one, which leaves the first ball to close the loop
+        first, second = table.rods
+        wanted = -jnp.sum(rotation[:, :, first] * translation[None, :, first], axis=1)
+        turn = turn_between(translation[:, second], wanted)
+        around = _product(_product(rotation[:, :, first], turn), rotation[:, :, second])
+        closing |= dict(zip(first, jnp.moveaxis(around, 2, 0), strict=True))
+        closing |= dict(zip(second, jnp.moveaxis(turn.swapaxes(0, 1), 2, 0), strict=True))
+    return {
+        int(ball): closing[chain] if sign > 0 else closing[chain].swapaxes(0, 1)
+        for chain, (ball, sign) in enumerate(zip(table.cut_ball, table.cut_sign, strict=True))
+        if sign
+    }
 
 
 def _travel(
     system: LoopSystem, geometry: Spatial, state: State
-) -> tuple[Float[Array, "3 3 loops poses"], Float[Array, "3 loops poses"], Float[Array, "twists 6 loops poses"]]:
-    """Displacement of the ends of the loops, and the twists that the steps give to them, as in `Steps.source`."""
+) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
+    """Displacement of the ends of the chains, and the twists that the steps give to them, as in `Steps.source`."""
     table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    chains = len(table.begin)
     turn, slide, screw, sign, side = (
         jnp.asarray(entry, dtype)[..., None]
         for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
@@ -96,7 +123,7 @@ def _travel(
     advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
     (cos, sin), travel = cos_sin(turn * q), advance * q
-    balls = _ball_turns(state, table) if system.balls else None
+    balls = _ball_turns(state, table) if system.turned_balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
         pose, cos, sin, travel, first_side, ball = given
@@ -108,8 +135,8 @@ def _travel(
         axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
-    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((len(system.loops), poses), dtype)
-    start = first, jnp.zeros((3, len(system.loops), poses), dtype)
+    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((chains, poses), dtype)
+    start = first, jnp.zeros((3, chains, poses), dtype)
     last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
     rotation, translation = _compose(*last, geometry.end)
 
@@ -117,14 +144,14 @@ def _travel(
     turned = (sign * turn)[:, None] * along
     moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
     twists = jnp.concatenate([turned, moved], axis=1)
-    if system.balls:
+    if system.turned_balls:
         spins = sign[:, None, None] * axes
         spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
         twists = jnp.concatenate([twists[:, None], spins], axis=1).reshape(-1, *twists.shape[1:])
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
+def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 chains poses"]:
     """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
@@ -134,8 +161,8 @@ def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 loops poses"]:
     return jnp.moveaxis(jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)]), 2, 0)
 
 
-def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "loops 4 4"]) -> tuple[Rotation, Vector]:
-    """Rotation and translation followed by a constant pose, loop by loop."""
+def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:
+    """Rotation and translation followed by a constant pose, chain by chain."""
     columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
     return jnp.stack(columns[:3]), translation + columns[3]
 

@@ -71,14 +71,37 @@ def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations
 
 def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
     """The state with every rod spun so, of which there is one at least. `turns` are those of all its balls."""
-    quaternions = list(state.turns)
+    quaternions = dict(zip(system.turned_balls, state.turns, strict=True))
     ends, spins = _spins(system, lines, turns)
     for number, (ball, side) in enumerate(ends):
-        quaternions[ball] = multiply(*(quaternions[ball], spins[:, number])[::side])
-    return State(state.x, jnp.stack(quaternions))
+        if ball in quaternions:
+            quaternions[ball] = multiply(*(quaternions[ball], spins[:, number])[::side])
+    return State(state.x, jnp.stack([*quaternions.values()]))
 
 
 def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
     """Half of what is not symmetric, as a vector: the sine of the angle along the axis, `2 w v` of a quaternion."""
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation
     return 0.5 * jnp.stack([zy - yz, xz - zx, yx - xy])
+
+
+def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"]) -> Float[Array, "3 3 *poses"]:
+    """A rotation matrix, [column, row], that turns one direction into another, with whatever spin about it."""
+    one, other = one / lengths(one), other / lengths(other)
+    cos, cross = jnp.sum(one * other, axis=0), jnp.cross(one, other, axis=0)
+    near = jnp.concatenate([1 + cos[None], cross])
+    # there is no least turn to the opposite: what is nearer to that makes half a turn beforehand, across itself
+    x, y, z = one
+    below = 1 + jnp.abs(z)
+    across = jnp.stack([1 - x * x / below, -x * y / below, jnp.where(z < 0, x, -x)])
+    far = jnp.concatenate(
+        [jnp.sum(cross * across, axis=0)[None], (1 - cos) * across - jnp.cross(cross, across, axis=0)]
+    )
+    turn = jnp.where(cos < 0, far, near)
+    return matrix(turn / jnp.sqrt(jnp.sum(turn * turn, axis=0))).swapaxes(0, 1)
+
+
+def lengths(vectors: Float[Array, "3 *entries"]) -> Float[Array, " *entries"]:
+    """Of no vector a positive number, whose derivative is zero."""
+    square = jnp.sum(vectors * vectors, axis=0)
+    return jnp.sqrt(jnp.where(square > 0, square, 1e-30))

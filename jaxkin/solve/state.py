@@ -28,31 +28,33 @@ class State(NamedTuple):
 
     x: Coordinates
     turns: Quaternions
-    """Quaternions (w, x, y, z) of part 2 relative to part 1."""
+    """Quaternions (w, x, y, z) of part 2 relative to part 1, of `LoopSystem.turned_balls`."""
 
 
 def assembled(system: LoopSystem, poses: int, dtype) -> State:
     """The assembled pose: no displacement anywhere."""
     turn = jnp.array([1.0, 0.0, 0.0, 0.0], dtype)[None, :, None]
-    return State(jnp.zeros((system.columns, poses), dtype), jnp.broadcast_to(turn, (len(system.balls), 4, poses)))
+    return State(
+        jnp.zeros((system.columns, poses), dtype), jnp.broadcast_to(turn, (len(system.turned_balls), 4, poses))
+    )
 
 
 def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The state moved by `delta`: added to coordinates, a rotation vector on the left of each ball's turn."""
-    if not system.balls:
+    if not system.turned_balls:
         return State(state.x + delta, state.turns)
     turns = multiply(exponential(_of_balls(system, state, delta)), jnp.moveaxis(state.turns, 0, 1))
     turns = turns / jnp.sqrt(jnp.sum(turns * turns, axis=0))
-    return State(jnp.where(_turning(system), 0.0, state.x + delta), jnp.moveaxis(turns, 0, 1))
+    return State(jnp.where(turning(system), 0.0, state.x + delta), jnp.moveaxis(turns, 0, 1))
 
 
 def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
     """The derivative of `retract(state, t delta)` at t = 0, as a tangent of the state's arrays."""
-    if not system.balls:
+    if not system.turned_balls:
         return State(delta, jnp.zeros_like(state.turns))
     spin = _of_balls(system, state, delta)
     turns = 0.5 * multiply(jnp.concatenate([jnp.zeros_like(spin[:1]), spin]), jnp.moveaxis(state.turns, 0, 1))
-    return State(jnp.where(_turning(system), 0.0, delta), jnp.moveaxis(turns, 0, 1))
+    return State(jnp.where(turning(system), 0.0, delta), jnp.moveaxis(turns, 0, 1))
 
 
 def difference(a: State, b: State) -> Float[Array, " poses"]:
@@ -66,10 +68,10 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
     if not system.driven:
         return state
     state = State(jnp.where(is_driven(system), _spread(system, inputs), state.x), state.turns)
-    for ball, columns in enumerate(system.balls):
-        if columns[0] in system.driven:
-            turn = from_angles(state.x[columns[0] : columns[0] + 3])
-            state = State(state.x, state.turns.at[ball].set(turn))
+    for number, ball in enumerate(system.turned_balls):
+        first, *_ = system.balls[ball]
+        if first in system.driven:
+            state = State(state.x, state.turns.at[number].set(from_angles(state.x[first : first + 3])))
     return state
 
 
@@ -112,7 +114,7 @@ def is_driven(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
     return np.isin(np.arange(system.columns), system.driven)[:, None]
 
 
-def _turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
+def turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
     """The columns of balls that are solved for: their turns hold what they did."""
     turning = [column for columns in system.balls for column in columns if column not in system.driven]
     return np.isin(np.arange(system.columns), turning)[:, None]
@@ -120,16 +122,15 @@ def _turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
 
 def _of_balls(system: LoopSystem, state: State, delta: Coordinates) -> Float[Array, "3 balls poses"]:
     """Rotation vectors of the balls, applied on the left; none for those that are driven."""
-    vectors = []
-    for ball, columns in enumerate(system.balls):
-        if columns[0] in system.driven:
-            vectors.append(jnp.zeros_like(delta[:3]))
-        elif len(columns) == 2:
-            x, y, _ = map(jnp.stack, rotation_matrix(state.turns[ball]))
-            vectors.append(delta[columns[0]] * x + delta[columns[1]] * y)
-        else:
-            vectors.append(jnp.stack([delta[column] for column in columns]))
-    return jnp.stack(vectors, axis=1)
+    balls = [system.balls[ball] for ball in system.turned_balls]
+    none = system.columns
+    which = np.array([(*columns, none)[:3] if columns[0] not in system.driven else [none] * 3 for columns in balls])
+    vectors = jnp.concatenate([delta, jnp.zeros_like(delta[:1])])[which.T]
+    lines = np.array([len(columns) == 2 for columns in balls])
+    if not lines.any():
+        return vectors
+    along = map(jnp.stack, rotation_matrix(jnp.moveaxis(state.turns, 1, 0)))
+    return jnp.where(lines[:, None], sum(axis * part for axis, part in zip(along, vectors, strict=True)), vectors)
 
 
 def multiply(a: Float[Array, "4 *poses"], b: Float[Array, "4 *poses"]) -> Float[Array, "4 *poses"]:

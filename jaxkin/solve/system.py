@@ -14,9 +14,10 @@ from typing import NamedTuple
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.joints.screws import freedoms
 
-EQUATIONS, IN_PLANE, CENTRE = 6, 3, 3
+EQUATIONS, IN_PLANE, CENTRE, LENGTH = 6, 3, 3, 1
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
-one and two; cut at a ball the latter three. Of a loop that turns about one direction only, one and three."""
+one and two; cut at a ball the latter three, at both balls of a rod one. Of a loop that turns about one direction only,
+one and three."""
 
 
 LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
@@ -36,7 +37,7 @@ class Form(NamedTuple):
     directed: tuple[int, ...] = ()
     """Loops, by number, that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
     cut: bool = False
-    """Whether loops are cut at a ball where they can be: see `LoopSystem.cuts`."""
+    """Whether loops are cut at balls where they can be: see `LoopSystem.cuts`."""
 
 
 @dataclass(frozen=True)
@@ -117,23 +118,30 @@ class LoopSystem:
         return self.form.plane is not None
 
     @cached_property
-    def cuts(self) -> tuple[int | None, ...]:
-        """For each loop the ball that it is cut at, None where it is whole.
+    def cuts(self) -> tuple[tuple[int, ...], ...]:
+        """For each loop the balls that it is cut at: one, both of a rod, or none.
 
         A ball that is in no other loop turns as the rest of the loop wants it: what remains of the loop is that its
-        centre stays where it is, three equations in three coordinates less.
+        centre stays where it is, three equations in three coordinates less. What remains of a rod between two such
+        balls is that it keeps their centres at its length: one equation in six coordinates less.
         """
         if self.planar or not self.form.cut:
-            return (None,) * len(self.loops)
+            return ((),) * len(self.loops)
         inside = [
             {ball for joint, _ in loop for *_, ball in self.chains[joint] if ball is not None} for loop in self.loops
         ]
-        found: list[int | None] = []
+        found = []
         for number, here in enumerate(inside):
             elsewhere = set().union(*inside[:number], *inside[number + 1 :])
             mine = [ball for ball in sorted(here - elsewhere) if self._may_be_cut(self.balls[ball])]
-            found.append(mine[-1] if mine else None)
+            rods = [(one, other) for one, other, *_ in self.spins if one in mine and other in mine]
+            found.append(rods[-1] if rods else tuple(mine[-1:]))
         return tuple(found)
+
+    @cached_property
+    def turned_balls(self) -> tuple[int, ...]:
+        """The numbers of the balls whose turns are unknowns, or given: those at which no loop is cut."""
+        return tuple(sorted(set(range(len(self.balls))).difference(*self.cuts)))
 
     def _may_be_cut(self, columns: tuple[int, ...]) -> bool:
         return len(columns) == 3 and columns[0] not in self.driven
@@ -145,6 +153,11 @@ class LoopSystem:
         return tuple(spin for spin in self.form.spins if free[spin[0]] and free[spin[1]])
 
     @property
+    def spinning(self) -> bool:
+        """Whether the spin of any rod is left to the solver."""
+        return any(ball in self.turned_balls for one, other, *_ in self.spins for ball in (one, other))
+
+    @property
     def whole(self) -> LoopSystem:
         """The same with no loop cut."""
         return replace(self, form=self.form._replace(cut=False))
@@ -152,16 +165,14 @@ class LoopSystem:
     @cached_property
     def rotations(self) -> tuple[int, ...]:
         """For each loop in space the number of its equations of rotation."""
-        return tuple(
-            0 if cut is not None else 1 if loop in self.form.directed else 3 for loop, cut in enumerate(self.cuts)
-        )
+        return tuple(0 if cut else 1 if loop in self.form.directed else 3 for loop, cut in enumerate(self.cuts))
 
     @property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
         if self.planar:
             return IN_PLANE * len(self.loops)
-        return sum(rotations + CENTRE for rotations in self.rotations)
+        return sum(self.rotations) + sum(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
 
     @cached_property
     def free(self) -> tuple[int, ...]:
@@ -171,7 +182,7 @@ class LoopSystem:
     @cached_property
     def used(self) -> tuple[int, ...]:
         """The columns that are solved for: no others of the Jacobian count."""
-        follows = {column for cut in self.cuts if cut is not None for column in self.balls[cut]}
+        follows = {column for cut in self.cuts for ball in cut for column in self.balls[ball]}
         return tuple(column for column in self.free if column not in follows)
 
     @cached_property

@@ -10,7 +10,7 @@ from jaxkin.motion.systems import block_joints, block_system
 from jaxkin.solve.closure import closure
 from jaxkin.solve.compiled import solve
 from jaxkin.solve.methods import CONTINUATION
-from jaxkin.solve.spins import without_spin
+from jaxkin.solve.spins import turn_between, without_spin
 from jaxkin.solve.state import assembled, retract
 from jaxkin.solve.status import Status, Tolerance
 from jaxkin.solve.sweep import scaled
@@ -27,23 +27,30 @@ def systems(mechanism, drive, **changed):
     return cut, cut.whole, block_joints(mechanism, block)
 
 
-def test_a_cut_leaves_three_equations_and_takes_three_unknowns():
+def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_six():
+    cut, whole, _ = systems(ball_in_bore(), ["A"])
+    assert (whole.equations, len(whole.used)) == (6, 5) and (cut.equations, len(cut.used)) == (3, 2)
     cut, whole, _ = systems(rssr_linkage(), ["A"])
-    assert (whole.equations, len(whole.used)) == (6, 7) and (cut.equations, len(cut.used)) == (3, 4)
+    assert (whole.equations, len(whole.used)) == (6, 7) and (cut.equations, len(cut.used)) == (1, 1)
+    # of six legs one stays as it is, to say where the platform is
     cut, whole, _ = systems(hexapod(), [f"leg {i}" for i in range(6)])
-    assert (whole.equations, len(whole.used)) == (30, 36) and (cut.equations, len(cut.used)) == (15, 21)
+    assert (whole.equations, len(whole.used)) == (30, 36) and (cut.equations, len(cut.used)) == (5, 6)
 
 
-def test_only_a_ball_of_one_loop_that_nothing_drives_is_cut():
+def test_only_balls_of_one_loop_that_nothing_drives_are_cut():
     cut, _, _ = systems(delta(), [f"motor {i}" for i in range(3)])
     inside = [{ball for joint, _ in loop for *_, ball in cut.chains[joint]} for loop in cut.loops]
-    for number, (ball, _) in enumerate(zip(cut.cuts, inside, strict=True)):
+    rods = {(one, other) for one, other, *_ in cut.spins}
+    for number, balls in enumerate(cut.cuts):
         others = set().union(*inside[:number], *inside[number + 1 :])
-        assert ball is None or (ball in inside[number] and ball not in others)
-    assert any(ball is not None for ball in cut.cuts) and any(ball is None for ball in cut.cuts)
-    driven, _, _ = systems(ball_in_bore(), ["A"])
-    free = LoopSystem(driven.movements, driven.loops, driven.balls[0], driven.form)
-    assert free.cuts == (None,)
+        assert inside[number] >= set(balls) and others.isdisjoint(balls)
+        assert len(balls) < 2 or balls in rods
+    assert {len(balls) for balls in cut.cuts} == {0, 2}
+    for mechanism in (ball_in_bore(), rssr_linkage()):
+        driven, _, _ = systems(mechanism, ["A"])
+        ball, *_ = driven.cuts[0]
+        free = LoopSystem(driven.movements, driven.loops, driven.balls[ball], driven.form)
+        assert ball not in free.cuts[0] and len(free.cuts[0]) == len(driven.cuts[0]) - 1
 
 
 @pytest.mark.long
@@ -68,8 +75,9 @@ def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
     np.testing.assert_allclose(np.asarray(one[0])[compared], np.asarray(other[0])[compared], atol=1e-11)
 
 
-def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual():
-    cut, _, joints = systems(rssr_linkage(), ["A"])
+@pytest.mark.parametrize("make, drive", [(ball_in_bore, ["A"]), (rssr_linkage, ["A"]), (hexapod, ["leg 0", "leg 3"])])
+def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, drive):
+    cut, _, joints = systems(make(), drive)
     geometry, _ = scaled(cut, joints)
     rng = np.random.default_rng(3)
     state = retract(cut, assembled(cut, 1, jnp.float64), jnp.asarray(0.3 * rng.normal(size=(cut.columns, 1))))
@@ -79,8 +87,27 @@ def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual():
         return closure(cut, geometry, retract(cut, state, t * along)).residual[:, 0]
 
     found = closure(cut, geometry, state).jacobian[..., 0] @ along[:, 0]
-    # anywhere, not only where the loop closes: the rows are of a point
-    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=1e-14)
+    # anywhere, not only where the loop closes: the rows are of a point, or of the way between two
+    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=2e-14)
+
+
+def test_of_two_directions_one_is_turned_into_the_other():
+    """Right angles, opposites and all between; the turn and its derivative are finite."""
+    rng = np.random.default_rng(7)
+    one = np.concatenate([np.eye(3), -np.eye(3), rng.normal(size=(40, 3))])
+    one /= np.linalg.norm(one, axis=1, keepdims=True)
+    near = one + 1e-9 * rng.normal(size=one.shape)
+    for other in (one, -one, near, -near, np.roll(one, 1, axis=1), rng.normal(size=one.shape)):
+        other = other / np.linalg.norm(other, axis=1, keepdims=True)
+        turn = np.asarray(turn_between(jnp.asarray(3.0 * one.T), jnp.asarray(0.1 * other.T)))
+        # products of a few numbers below one, each right to 1e-16
+        np.testing.assert_allclose(np.einsum("crp,pc->pr", turn, one), other, atol=2e-15)
+        np.testing.assert_allclose(
+            np.einsum("crp,drp->pcd", turn, turn), np.tile(np.eye(3), (len(one), 1, 1)), atol=2e-15
+        )
+        np.testing.assert_allclose(np.linalg.det(turn.T), 1.0, atol=2e-15)
+        slope = jax.jvp(turn_between, (jnp.asarray(one.T), jnp.asarray(other.T)), (jnp.ones((3, len(one))),) * 2)[1]
+        assert np.all(np.isfinite(slope))
 
 
 @pytest.mark.parametrize("sides", [(1, -1), (1, 1), (-1, -1)])
