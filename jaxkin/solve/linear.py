@@ -17,11 +17,12 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.blocks import Block
 
-FEW, UNROLLED, MANY, MULTIPLIED, LARGE = 3, 9, 1024, 9, 24
+FEW, UNROLLED, MANY, MULTIPLIED, HALVED, LARGE = 3, 9, 1024, 9, 12, 40
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
 fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has. From so many
-rows on J J^T is a product of matrices pose by pose, a third of the time of sums; from so many on a library is several
-times as fast, which takes longer to import than smaller systems to sweep."""
+rows on J J^T is a product of matrices pose by pose, a third of the time of sums; systems of more rows than these are
+eliminated half after half; from so many on a library is faster, which takes longer to import than smaller systems to
+sweep."""
 PICKED = 0.75
 """If no more of the columns are used they are picked: to carry a few zeros along costs less."""
 
@@ -165,9 +166,25 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
 
 
 def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
-    """The same by Gauss-Jordan elimination in a loop. The matrix is positive definite: it needs no pivoting."""
+    """The same by Gauss-Jordan elimination in loops. The matrix is positive definite: it needs no pivoting."""
     n = jacobian.shape[0]
     gram = _gram(jacobian) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
+
+    def solve(right: Array) -> Array:
+        sides = right.reshape(n, -1, right.shape[-1])
+        return _eliminated(jnp.concatenate([gram, sides], axis=1)).reshape(right.shape)
+
+    return solve
+
+
+def _eliminated(matrix: Float[Array, "rows more poses"]) -> Float[Array, "rows sides poses"]:
+    """The solutions of square systems, given with their right-hand sides behind them; of large ones half after half."""
+    n = len(matrix)
+    if n > HALVED:
+        half = n // 2
+        upper = _eliminated(matrix[:half])
+        lower = _eliminated(matrix[half:, half:] - _product(matrix[half:, :half], upper))
+        return jnp.concatenate([upper[:, n - half :] - _product(upper[:, : n - half], lower), lower])
 
     def eliminate(_, matrix: Array) -> Array:
         # the first row and column are done with, and roll to the end: inside `vmap` places that move would be gathered
@@ -175,12 +192,11 @@ def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
         rest = matrix[1:, 1:] - matrix[1:, :1] * pivot
         return jnp.pad(jnp.concatenate([rest, pivot[None]]), ((0, 0), (0, 1), (0, 0)))
 
-    def solve(right: Array) -> Array:
-        sides = right.reshape(n, -1, right.shape[-1])
-        done = lax.fori_loop(0, n, eliminate, jnp.concatenate([gram, sides], axis=1))
-        return done[:, : sides.shape[1]].reshape(right.shape)
+    return lax.fori_loop(0, n, eliminate, matrix)[:, : matrix.shape[1] - n]
 
-    return solve
+
+def _product(a: Float[Array, "rows inner poses"], b: Float[Array, "inner columns poses"]) -> Array:
+    return jnp.sum(a[:, :, None] * b[None], axis=1)
 
 
 def _gram(jacobian: Matrix) -> Float[Array, "rows rows poses"]:

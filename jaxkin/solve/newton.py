@@ -15,7 +15,7 @@ from jaxkin.solve.blocks import blocks
 from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.correct import choose, floor
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import solve_blocks
+from jaxkin.solve.linear import UNROLLED, solve_blocks
 from jaxkin.solve.state import State, retract
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system import LoopSystem
@@ -45,6 +45,7 @@ def newton(
     """
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
+    costly = any(len(block.rows) > UNROLLED for block in blocks(system))
 
     def running(at: _Iterate) -> Array:
         return (at.count <= STEPS) & any_lane((at.closure.gap > enough) & (at.foreseen > enough))
@@ -52,7 +53,14 @@ def newton(
     def step(at: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
         closed = closure(system, geometry, at.trial)
-        delta = solve_blocks(closed.jacobian, closed.residual, floor(dtype), blocks(system), regular=True)
+
+        def solved() -> Array:
+            return solve_blocks(closed.jacobian, closed.residual, floor(dtype), blocks(system), regular=True)
+
+        if costly:  # not a last time, when all are closed: to ask costs as much as to solve small systems
+            delta = lax.cond(any_lane(closed.gap > enough), solved, lambda: jnp.zeros_like(at.trial.x))
+        else:
+            delta = solved()
         foreseen = infinite
         if foresee:
             # Newton's gaps go as the squares of those before: the next is this one times the square of the last ratio

@@ -8,7 +8,10 @@ from jaxkin.solve.linear import inverse, least_norm, refined_least_norm, scale, 
 from reference.matrices import block_triangular
 
 
-@pytest.mark.parametrize("rows, columns, rank", [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12)])
+@pytest.mark.parametrize(
+    "rows, columns, rank",
+    [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12), (13, 15, 13), (30, 31, 20), (44, 40, 25)],
+)
 def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     rng = np.random.default_rng(rows * columns)
     jacobian = rng.normal(size=(7, rows, rank)) @ rng.normal(size=(7, rank, columns))
