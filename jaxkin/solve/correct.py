@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure import Closure, Geometry, closure
 from jaxkin.solve.lanes import any_lane
-from jaxkin.solve.linear import least_norm, scale
+from jaxkin.solve.linear import least_norm
 from jaxkin.solve.state import State, is_driven, retract
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system import LoopSystem
@@ -49,7 +49,7 @@ def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equation
 
 
 def floor(dtype) -> float:
-    """Least damping relative to the scale of J J^T: above rounding, far below every singular value that matters."""
+    """Least damping, over the mean square of the rows of J: above rounding, below all singular values that matter."""
     return 1e-14 if jnp.finfo(dtype).bits == 64 else 1e-6
 
 
@@ -77,7 +77,7 @@ def correct(
         lower, higher = jnp.maximum(0.3 * iterate.trust, 1e-2), jnp.minimum(8 * iterate.trust, 1e12)
         trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
-        damping = (trust * jnp.minimum(2 * chosen.merit, 1.0) + floor(dtype)) * scale(jacobian)
+        damping = trust * jnp.minimum(2 * chosen.merit, 1.0) + floor(dtype)
         delta = -least_norm(jacobian, chosen.residual, damping, system.used)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))

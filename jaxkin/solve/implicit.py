@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure import Geometry, closure
 from jaxkin.solve.correct import floor, free_jacobian
-from jaxkin.solve.linear import refined_least_norm, scale
+from jaxkin.solve.linear import refined_least_norm
 from jaxkin.solve.state import State, assembled, drive, rate
 from jaxkin.solve.system import LoopSystem
 
@@ -51,7 +51,6 @@ def _attach_jvp(system: LoopSystem, primals, tangents):
     if not system.free:
         return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_driven)
     jacobian = free_jacobian(system, closure(system, geometry, safe))
-    damping = floor(jacobian.dtype) * scale(jacobian)
-    delta = -refined_least_norm(jacobian, d_residual, damping, system.used)
+    delta = -refined_least_norm(jacobian, d_residual, floor(jacobian.dtype), system.used)
     d_state = jax.tree.map(jnp.add, d_driven, rate(system, safe, delta))
     return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_state)

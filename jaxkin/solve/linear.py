@@ -28,22 +28,25 @@ PICKED = 0.75
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
+Damping = Float[Array, " poses"] | float
 
 
-def least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int]) -> Array:
-    """The x of least norm that minimises |J x - r|^2 + damping |x|^2, for every pose: (columns, poses). No derivatives.
+def least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
+    """The x of least norm that minimises |J x - r|^2 + damping s |x|^2, for every pose: (columns, poses).
 
-    All columns but those `used` are zero.
+    Dampings are in terms of `s`, the mean square of the rows of J. All columns but those `used` are zero. No
+    derivatives.
     """
     own = _picked(jacobian, used)
     x = jnp.sum(own * _factored(own, damping)(right)[:, None], axis=0)
     return _put_back(x, used, jacobian.shape[1])
 
 
-def refined_least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " poses"], used: Sequence[int]) -> Array:
+def refined_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
     """The same with derivatives, the bias of the damping taken out by one step of iterative refinement."""
     own = _picked(jacobian, used)
     factored = _factored(own, damping)
+    absolute = damping * _mean(jnp.sum(own * own, axis=1))
 
     def transposed(y: Vector) -> Array:
         return jnp.sum(own * y[:, None], axis=0)
@@ -54,7 +57,7 @@ def refined_least_norm(jacobian: Matrix, right: Vector, damping: Float[Array, " 
     def solve(right: Vector) -> Vector:
         # derivatives are solutions of the same system, too: nothing differentiates the elimination
         return lax.custom_linear_solve(
-            lambda y: forward(transposed(y)) + damping * y, right, lambda _, right: factored(right), symmetric=True
+            lambda y: forward(transposed(y)) + absolute * y, right, lambda _, right: factored(right), symmetric=True
         )
 
     x = transposed(solve(right))
@@ -77,7 +80,7 @@ def solve_blocks(
 ) -> Array:
     """The x with J x = r, block after block, for every pose: (columns, poses). No derivatives.
 
-    Of each block that of least norm, damped by so much of the scale of the block. Where all is `regular` blocks of
+    Of each block that of least norm, damped by so much of its mean square. Where all is `regular` blocks of
     three equations in as many unknowns are solved by Cramer's rule, which costs less.
     """
     return _in_turn(jacobian, right[:, None], floor, blocks, regular)[:, 0]
@@ -104,7 +107,7 @@ def _in_turn(
         if regular and own.shape[:2] == (3, 3):
             here = _cramer(own, rest)
         else:
-            here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, floor * scale(own))(rest))
+            here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, floor)(rest))
         found = jnp.concatenate([found, here])
         known += block.columns
     return placed(found, known, jacobian.shape[1])
@@ -125,23 +128,24 @@ def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]
     return jnp.sum(normals[:, :, None] * right[:, None], axis=0) / jnp.sum(a * normals[0], axis=0)
 
 
-def scale(jacobian: Matrix) -> Float[Array, " poses"]:
-    """Mean square of the rows of J: what a damping is measured by; one where nothing moves the loops."""
-    square = jnp.sum(jacobian * jacobian, axis=(0, 1)) / jacobian.shape[0]
-    return jnp.where(square > 0, square, 1.0)
+def _mean(squares: Vector) -> Float[Array, " poses"]:
+    """What a damping is measured by, the mean of the squares of the rows of J; one where nothing moves the loops."""
+    mean = jnp.sum(squares, axis=0) / len(squares)
+    return jnp.where(mean > 0, mean, 1.0)
 
 
-def _factored(jacobian: Matrix, damping: Float[Array, " poses"]) -> Callable[[Array], Array]:
-    """The solution of (J J^T + damping) y = r, for right-hand sides of shape (rows, poses) or (rows, number, poses)."""
+def _factored(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
+    """The solution of (J J^T + damping s) y = r, for right-hand sides of (rows, poses) or (rows, sides, poses)."""
     rows, _, poses = jacobian.shape
     if rows <= FEW or (rows <= UNROLLED and poses >= MANY):
         return _unrolled(jacobian, damping)
     return (_looped if rows < LARGE else _by_library)(jacobian, damping)
 
 
-def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
-    """L D L^T of J J^T + damping, every entry an array over the poses."""
+def _unrolled(jacobian: Matrix, damping: Damping):
+    """L D L^T of the matrix, every entry an array over the poses."""
     n = jacobian.shape[0]
+    absolute = damping * _mean(jnp.sum(jacobian * jacobian, axis=1))
     lower: dict[tuple[int, int], Array] = {}
     pivots: list[Array] = []
     for j in range(n):
@@ -149,7 +153,7 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
         column = [
             entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)
         ]
-        pivots.append(column[0] + damping)
+        pivots.append(column[0] + absolute)
         for i in range(j + 1, n):
             lower[i, j] = column[i - j] / pivots[j]
 
@@ -165,10 +169,10 @@ def _unrolled(jacobian: Matrix, damping: Float[Array, " poses"]):
     return solve
 
 
-def _looped(jacobian: Matrix, damping: Float[Array, " poses"]):
+def _looped(jacobian: Matrix, damping: Damping):
     """The same by Gauss-Jordan elimination in loops. The matrix is positive definite: it needs no pivoting."""
     n = jacobian.shape[0]
-    gram = _gram(jacobian) + damping * jnp.eye(n, dtype=damping.dtype)[..., None]
+    gram = _damped(_gram(jacobian), damping)
 
     def solve(right: Array) -> Array:
         sides = right.reshape(n, -1, right.shape[-1])
@@ -207,13 +211,16 @@ def _gram(jacobian: Matrix) -> Float[Array, "rows rows poses"]:
     return jnp.moveaxis(rows @ rows.mT, 0, -1)
 
 
-def _by_library(jacobian: Matrix, damping: Float[Array, " poses"]):
+def _damped(gram: Float[Array, "n n poses"], damping: Damping) -> Float[Array, "n n poses"]:
+    diagonal = np.arange(len(gram))
+    return gram + damping * _mean(gram[diagonal, diagonal]) * jnp.eye(len(gram), dtype=gram.dtype)[..., None]
+
+
+def _by_library(jacobian: Matrix, damping: Damping):
     """The same by Cholesky's method. Rounding must not make it fail, so that a little more damping is needed."""
     n = jacobian.shape[0]
-    rows = jnp.moveaxis(jacobian, -1, 0)
-    enough = damping + 0.25 * n * float(jnp.finfo(damping.dtype).eps) * scale(jacobian)
-    gram = rows @ rows.mT + enough[:, None, None] * jnp.eye(n, dtype=damping.dtype)
-    lower = lax.linalg.cholesky(gram, symmetrize_input=False)
+    gram = _damped(_gram(jacobian), damping + 0.25 * n * float(jnp.finfo(jacobian.dtype).eps))
+    lower = lax.linalg.cholesky(jnp.moveaxis(gram, -1, 0), symmetrize_input=False)
 
     def solve(right: Array) -> Array:
         sides = jnp.moveaxis(right.reshape(n, -1, right.shape[-1]), -1, 0)
