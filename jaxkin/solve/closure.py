@@ -1,6 +1,7 @@
 """Closure of the loops (Eq. 10): residual and Jacobian, with only the equations that the loops need.
 
-Loops whose joints all move in parallel planes have three equations each, all others six: `planar` and `spatial`. What
+Loops whose joints all move in parallel planes have three equations each, all others six at most: `planar` and
+`spatial`. What
 `gap` reports, and what decides whether a pose is closed, is Eq. 12 over all twelve.
 """
 
@@ -25,7 +26,8 @@ Given = Array | np.ndarray
 
 class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
-    """Rotation of each loop in space that is whole, and translation of each; of planar loops one after the other."""
+    """Rotation of each loop in space that is whole, translation of each, or difference in length from a rod; of planar
+    loops one after the other."""
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
     """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: half the square of the residual nearby."""

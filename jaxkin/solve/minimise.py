@@ -23,7 +23,7 @@ from jaxkin.solve.state import State, assembled, drive, retract
 from jaxkin.solve.status import Scalar, Status
 from jaxkin.solve.system import LoopSystem
 
-Point = Float[Array, " free"]
+Point = Float[Array, " used"]
 Function = Callable[[Point], Array]
 ITERATIONS, STALE = 100, 3
 """At most so many steps a pose, and so many in a row that gain nothing."""
@@ -33,7 +33,7 @@ def minimised(
     system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, enough: Scalar
 ) -> tuple[State, Float[Array, " poses"], Array]:
     """States and status and closure gap, the pose before each as its start; a pose is done when its gap is `enough`."""
-    place = jnp.asarray(np.eye(system.columns)[:, list(system.free)], inputs.dtype)
+    place = jnp.asarray(np.eye(system.columns)[:, list(system.used)], inputs.dtype)
     search = _SEARCHES[method]
 
     def one(before: State, given: Float[Array, " driven"]):

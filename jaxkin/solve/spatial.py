@@ -69,16 +69,10 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     residual += [*_of_loops(moved)]
     rows.append(twists[table.source[:, ends], 3:, ends])
     if table.rods.size:
-        apart = translation[:, table.rods]
-        length = lengths(apart)
-        misfit = length[0] - length[1]
+        misfit, slopes = _of_rods(table.rods, table.source, translation, twists)
         squares += jnp.sum(misfit**2, axis=0)
         residual.append(misfit)
-        along = jnp.moveaxis(apart / length, 0, 2)
-        one, other = jnp.sum(
-            along[:, None] * twists[table.source[:, table.rods], 3:, table.rods].swapaxes(0, 1), axis=3
-        )
-        rows.append((one - other)[:, :, None])
+        rows.append(slopes)
     residual = jnp.concatenate(residual)
     jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
@@ -86,6 +80,17 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
 
 def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
     return jnp.moveaxis(vectors, 1, 0)
+
+
+def _of_rods(
+    rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
+) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
+    """By how much both chains between the balls of a rod differ in length, and what the columns give to that."""
+    apart = translation[:, rods]
+    length = lengths(apart)
+    along = jnp.moveaxis(apart / length, 0, 2)
+    one, other = jnp.sum(along[:, None] * twists[source[:, rods], 3:, rods].swapaxes(0, 1), axis=3)
+    return length[0] - length[1], (one - other)[:, :, None]
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
