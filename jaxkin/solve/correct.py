@@ -113,11 +113,13 @@ def _stationary(system: LoopSystem, closed: Closure) -> Bool[Array, " poses"]:
     """Whether what is left of the residual cannot be reached by the free coordinates, to first order.
 
     At a least residual J^T r = 0. Gauss-Newton gets there linearly where the residual is large, so the test is on the
-    angle between the residual and the range of J, which a pose that is still under way does not meet.
+    angle between the residual and the range of J, which a pose that is still under way does not meet. J of a rod is
+    without the turn of its ball, to which its residual is at right angles: that counts as one.
     """
     jacobian = free_jacobian(system, closed)
     reach = jnp.sum(jacobian * closed.residual[:, None], axis=0)
-    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (jnp.sum(jacobian**2, axis=(0, 1)) * 2 * closed.merit + 1e-300))
+    square = jnp.sum(jacobian**2, axis=(0, 1)) + sum(len(cut) > 1 for cut in system.cuts)
+    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * closed.merit + 1e-300))
     return cosine < 1e-3
 
 

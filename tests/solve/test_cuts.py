@@ -136,3 +136,13 @@ def test_rods_are_spun_to_where_their_balls_turn_least(sides):
     for ball in (0, 1):  # and nothing but a spin was added
         changed = (turns[ball].inv() * rested[ball]) if sides[ball] > 0 else (rested[ball] * turns[ball].inv())
         np.testing.assert_allclose(np.cross(changed.as_rotvec(), lines[ball]), 0.0, atol=1e-14)
+
+
+def test_a_rod_that_is_too_short_is_told_from_one_that_was_not_closed():
+    """The rocker driven beyond where crank and rod reach, to either side: the least residual is found there."""
+    motion = rssr_linkage().sweep({"D": np.linspace(-np.pi, np.pi, 65)})
+    status = np.asarray(motion.status)
+    assert {Status.CLOSED.value, Status.UNREACHABLE.value} <= set(status)
+    assert Status.STALLED.value not in status  # on the other side it is closed again, but JUMPED
+    residual = np.asarray(motion.residual)
+    assert np.max(residual[status == Status.CLOSED.value]) < 1e-14 < 1e-3 < np.max(residual)
