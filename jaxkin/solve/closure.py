@@ -1,8 +1,7 @@
 """Closure of the loops (Eq. 10): residual and Jacobian, with only the equations that the loops need.
 
 Loops whose joints all move in parallel planes have three equations each, all others six at most: `planar` and
-`spatial`. What
-`gap` reports, and what decides whether a pose is closed, is Eq. 12 over all twelve.
+`spatial`. What `gap` reports, and what decides whether a pose is closed, is Eq. 12 over all twelve.
 """
 
 from __future__ import annotations

@@ -88,7 +88,7 @@ def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, driv
 
     found = closure(cut, geometry, state).jacobian[..., 0] @ along[:, 0]
     # anywhere, not only where the loop closes: the rows are of a point, or of the way between two
-    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=2e-14)
+    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=1e-14)
 
 
 def test_of_two_directions_one_is_turned_into_the_other():
