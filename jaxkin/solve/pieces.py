@@ -19,6 +19,7 @@ from jax import dtypes
 from jaxtyping import Float
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.state import turning
 from jaxkin.solve.system import LoopSystem
 
 LEAST = 2**14
@@ -67,8 +68,7 @@ def _joined(system: LoopSystem, overlap: int, found: list[tuple]) -> tuple:
     """One array of each of those of the pieces; angles of balls go on without a leap."""
     *others, last = found
     found = [*others, jax.tree.map(lambda rows: rows[..., overlap:], last)]
-    free = np.zeros((system.columns, 1), bool)  # angles of balls that are not driven
-    free[[column for columns in system.balls if columns[0] not in system.driven for column in columns]] = True
+    free = turning(system)
     shift = jnp.zeros_like(last[0][:, :1])
     whole = found[:1]
     for before, here in pairwise(found):

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 from jaxkin.solve.closure import Geometry
 from jaxkin.solve.spatial import Spatial, cut_turns
 from jaxkin.solve.spins import rested, without_spin
-from jaxkin.solve.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply
+from jaxkin.solve.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
 from jaxkin.solve.system import LoopSystem
 
 Frames = tuple[Float[Array, "_ 4 4"], ...]
@@ -69,7 +69,7 @@ def read_off(
 
 def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
     """Displacements without leaps in the angles of balls from pose to pose."""
-    which = np.array([column for columns in system.balls if columns[0] not in system.driven for column in columns], int)
+    which = np.flatnonzero(turning(system))
     return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x
 
 

@@ -102,6 +102,6 @@ def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"])
 
 
 def lengths(vectors: Float[Array, "3 *entries"]) -> Float[Array, " *entries"]:
-    """Of no vector a positive number, whose derivative is zero."""
+    """Lengths of vectors; for one of no length a positive number, whose derivative is zero."""
     square = jnp.sum(vectors * vectors, axis=0)
     return jnp.sqrt(jnp.where(square > 0, square, 1e-30))
