@@ -11,7 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from jaxkin.io.tables import poses_of, words_of
-from jaxkin.motion.motion import tally
+from jaxkin.motion.motion import largest_residuals, tally
 from jaxkin.motion.stream import Stream
 from jaxkin.motion.writers import whole
 from jaxkin.solve.status import Status
@@ -23,7 +23,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
     `step` is called when a chunk is written. The file appears whole or not at all; while it is made, its folder holds
     its arrays twice.
     """
-    counts, largest = np.zeros(len(Status), int), 0.0
+    counts, largest = np.zeros(len(Status), int), np.zeros(len(Status))
     with whole(path) as draft:
         columns: dict[str, Path] = {}
         with ExitStack() as stack:
@@ -42,8 +42,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
                         np.lib.format.write_array_header_2_0(files[name], header)
                     files[name].write(rows.tobytes())
                 counts += np.bincount(np.asarray(motion.status), minlength=len(Status))
-                closed = np.asarray(motion.residual)[np.asarray(motion.closed)]
-                largest = max(largest, float(closed.max(initial=0.0)))
+                largest = np.maximum(largest, largest_residuals(motion))
                 step()
         with zipfile.ZipFile(draft, "w") as archive:
             for name, file in columns.items():

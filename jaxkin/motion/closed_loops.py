@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import jax
 import numpy as np
 from jaxtyping import Float
@@ -18,11 +20,24 @@ Row = Float[np.ndarray, " columns"]
 Rows = Float[np.ndarray, " equations"]
 
 
+class Travel(NamedTuple):
+    """What is met on the way around the loops, in world coordinates."""
+
+    residual: Rows
+    """Misfits of the loops as twists, six rows each."""
+    jacobian: Float[np.ndarray, "equations columns"]
+    """Their derivatives."""
+    screws: Screws
+    """Of the coordinates of all joints."""
+    starts: tuple[Pose, ...]
+    """Displacement of the part at which each loop starts."""
+
+
 class ClosedLoops:
     """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
 
     def __init__(self, mechanism: Mechanism, block: Block) -> None:
-        joints = {index: mechanism.all_joints[index] for index in block.joints}
+        joints = {index: mechanism.solved_joints[index] for index in block.joints}
         self.block = block
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
         single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
@@ -50,28 +65,29 @@ class ClosedLoops:
 
     def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
         """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
-        return self._travel(q)[1]
+        return self.travel(q)[1]
 
     def closed(self, q: Row) -> tuple[Row, Screws, float]:
         """Newton steps of least norm, damped by the residual: the coordinates, the screws there and what remains."""
-        residual, jacobian, screws = self._travel(q)
+        residual, jacobian, screws, _ = self.travel(q)
         for _ in range(_ITERATIONS):
             gap = float(np.linalg.norm(residual))
             if gap < 1e-14:
                 break
             q = q - least_norm(jacobian, residual, max(1e-14, 1e-2 * min(1.0, gap**2)))
-            residual, jacobian, screws = self._travel(q)
+            residual, jacobian, screws, _ = self.travel(q)
             if self.noise.closed > np.linalg.norm(residual) >= gap:
                 break  # rounding
         return q, screws, float(np.linalg.norm(residual))
 
-    def _travel(self, q: Row) -> tuple[Rows, Float[np.ndarray, "equations columns"], Screws]:
-        """Misfits of the loops as twists, their derivatives, and the screws of all joints, in world coordinates."""
+    def travel(self, q: Row) -> Travel:
+        """Travel all loops, from the part at which each starts, with these coordinates."""
         steps = {
             index: chain(movements, before, q[self.slices[index]], pitch, after)
             for index, (movements, before, after, pitch) in self.chains.items()
         }
         places: dict[str, Pose] = {}
+        starts: list[Pose] = []
         residual = np.zeros((len(self.block.loops), 6))
         jacobian = np.zeros((len(self.block.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
@@ -79,6 +95,7 @@ class ClosedLoops:
             loop = self.block.loops[row]
             # a loop starts at a part that the loops before it hold (Section 4.2)
             start = pose = places.setdefault(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1], np.eye(4))
+            starts.append(start)
             for joint, sign in loop:
                 step, own = steps[joint]
                 if sign > 0:
@@ -92,7 +109,7 @@ class ClosedLoops:
             left = pose @ inverse(start)
             skew = left[:3, :3] - left[:3, :3].T
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        return residual.ravel(), jacobian.reshape(-1, len(q)), screws
+        return Travel(residual.ravel(), jacobian.reshape(-1, len(q)), screws, tuple(starts))
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

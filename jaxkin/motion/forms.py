@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
-    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.all_joints):
+    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.solved_joints):
         return None
-    joints = mechanism.all_joints
+    joints = mechanism.solved_joints
     if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
         joints = jax.lax.stop_gradient(joints)
     if any(traced(joint) or joint.before.ndim != 3 for joint in joints):
@@ -49,4 +49,4 @@ def with_joints(mechanism: Mechanism, joints: Sequence[Joint]) -> Mechanism:
     While JAX traces the joints the forms stay what they were.
     """
     known = mechanism.forms if traced(joints) else None
-    return replace(mechanism, all_joints=tuple(joints), solids=(), known_forms=known)
+    return replace(mechanism, all_joints=tuple(joints), ideal=(), solids=(), known_forms=known)

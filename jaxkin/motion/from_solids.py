@@ -13,6 +13,7 @@ from jaxkin.geometry.pose import frame
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
+from jaxkin.motion.alignment import SIX_DIGITS, aligned
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.spinning import left_at_rest
@@ -54,7 +55,8 @@ def mechanism_from_solids(
     by_hand = {_pair(given.parts, body): given.name for given in joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    found = joints_from_contacts(kept, names, combine, _noise(assembly, moving), body, joints)
+    noise = _noise(assembly, moving)
+    found = joints_from_contacts(kept, names, combine, noise, body, joints)
     every = (*found.joints, *ties)
     described = [(each.name, *each.parts) for each in every]
     notes = (
@@ -65,7 +67,7 @@ def mechanism_from_solids(
     )
     structured = structure(names, described, fixed)
     mechanism = Mechanism(every, structured, assembly.unit, assembly.parts, notes, found.contacts)
-    return left_at_rest(mechanism) if combine else mechanism
+    return aligned(left_at_rest(mechanism) if combine else mechanism, max(SIX_DIGITS, noise.angle))
 
 
 def _noise(assembly: Assembly, contacts: Sequence[Contact]) -> Noise:

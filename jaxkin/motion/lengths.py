@@ -100,7 +100,7 @@ def with_lengths(mechanism: Mechanism, changes: Mapping[Any, Any]) -> Mechanism:
                 else joint
                 for joint in changed.all_joints
             ]
-            changed = replace(changed, all_joints=tuple(joints))
+            changed = replace(changed, all_joints=tuple(joints), ideal=())
     return changed
 
 

@@ -46,20 +46,34 @@ class Mechanism:
     """What was found, combined or refused on the way from solids to joints, in words."""
     contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
     """The contacts that a joint stands for, by its name; none for joints by hand."""
+    ideal: tuple[Joint, ...] = field(default=())
+    """The nearest joints whose loops close throughout their motion, where those of `all_joints`, which disagree by more
+    than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to
+    the least residual of the joints that were given. See `jaxkin.motion.alignment`."""
     known_forms: tuple[Form, ...] | None = field(default=None)
     """What `forms` was before JAX took the mechanism apart: to JAX that is what it is, whatever its numbers are now."""
 
     @staticmethod
-    def build(*, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "") -> Mechanism:
+    def build(
+        *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | None = None
+    ) -> Mechanism:
         """A mechanism from joints written by hand, in world coordinates of its assembled pose.
 
-        Raises ValueError where names repeat, a fixed part is in no joint, or a part hangs on nothing.
+        Numbers that were rounded let the loops of many mechanisms close at the assembled pose only: their frames are
+        moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
+        `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
+
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
+        such number.
         """
+        from jaxkin.motion.alignment import aligned, noise_of
+
+        noise = noise_of(align)
         if (wrong := _no_joint(joints)) is not None:
             raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         described = [(joint.name, *joint.parts) for joint in joints]
-        return Mechanism(tuple(joints), structure(parts, described, fixed), unit)
+        return aligned(Mechanism(tuple(joints), structure(parts, described, fixed), unit), noise)
 
     @cached_property
     def forms(self) -> tuple[Form, ...]:
@@ -68,6 +82,11 @@ class Mechanism:
         While JAX traces the frames this is what it was before: a mechanism tilted out of its planes is not closed then.
         """
         return forms(self) or self.known_forms or (Form(),) * len(self.structure.blocks)
+
+    @property
+    def solved_joints(self) -> tuple[Joint, ...]:
+        """The joints whose loops are solved: those given, or `ideal` where these cannot move."""
+        return self.ideal or self.all_joints
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -152,16 +171,17 @@ class Mechanism:
 
         return with_lengths(self, changes)
 
-    def with_frames(self, frames: Mapping[Any, Any]) -> Mechanism:
+    def with_frames(self, frames: Mapping[Any, Any], *, align: float | None = None) -> Mechanism:
         """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
 
         A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only: then
-        lengths of this part change and those of the other one do not. Works inside `jit`, `vmap` and `grad`. Raises
-        ValueError for names that do not exist and for what is no rigid pose.
+        lengths of this part change and those of the other one do not. Numbers are aligned as by `build`. Works inside
+        `jit`, `vmap` and `grad`, where they are left as they are. Raises ValueError for names that do not exist, for
+        what is no rigid pose and for a wrong `align`.
         """
         from jaxkin.motion.placing import with_frames
 
-        return with_frames(self, frames)
+        return with_frames(self, frames, align)
 
     def with_points(self, points: Mapping[Any, Any]) -> Mechanism:
         """The mechanism with the origins of some joint frames moved to given points; keys as in `with_frames`."""
@@ -213,8 +233,8 @@ def _no_joint(joints: Any) -> str | None:
 jax.tree_util.register_pytree_node(
     Mechanism,
     lambda mechanism: (
-        (mechanism.all_joints,),
+        (mechanism.all_joints, mechanism.ideal),
         (mechanism.structure, mechanism.unit, mechanism.known_forms or mechanism.forms),
     ),
-    lambda static, leaves: Mechanism(*leaves, *static[:2], known_forms=static[2]),
+    lambda static, leaves: Mechanism(leaves[0], *static[:2], ideal=leaves[1], known_forms=static[2]),
 )

@@ -88,8 +88,7 @@ class Motion:
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        closed = np.asarray(self.residual)[np.asarray(self.closed)]
-        return tally(self.mechanism, self.inputs, counts, float(closed.max(initial=0.0)))
+        return tally(self.mechanism, self.inputs, counts, largest_residuals(self))
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
@@ -103,12 +102,24 @@ def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, 
     return found
 
 
-def tally(mechanism: Mechanism, inputs: Collection[str], counts: Int[np.ndarray, " status"], largest: float) -> str:
-    """What became of poses, in words: how many of each status, and the largest residual of the closed ones."""
+def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
+    """The largest closure residual of the poses of each status."""
+    status, residual = np.asarray(motion.status), np.nan_to_num(np.asarray(motion.residual, float))
+    return np.array([residual[status == each].max(initial=0.0) for each in Status])
+
+
+def tally(
+    mechanism: Mechanism,
+    inputs: Collection[str],
+    counts: Int[np.ndarray, " status"],
+    largest: Float[np.ndarray, " status"],
+) -> str:
+    """What became of poses, in words: how many of each status, and the largest residual of those that are closed."""
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
-    if counts[Status.CLOSED]:
-        lines.append(f"  largest closure residual of the closed poses: {largest:.1e}")
+    for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
+        if counts[status]:
+            lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
     if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
     return "\n".join(lines)

@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
+from jaxkin.motion.alignment import aligned, noise_of
 from jaxkin.motion.forms import with_joints
 from jaxkin.topology.names import by_name, nearest
 
@@ -20,11 +21,12 @@ if TYPE_CHECKING:
 Place = str | tuple[str, str]
 
 
-def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any]) -> Mechanism:
+def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | None) -> Mechanism:
     """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
+    noise = noise_of(align)
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():
         mechanism = _placed(mechanism, place, _pose(place, pose), lambda _, new: new)
-    return mechanism
+    return aligned(mechanism, noise)
 
 
 def with_points(mechanism: Mechanism, points: Mapping[Any, Any]) -> Mechanism:

@@ -19,7 +19,15 @@ from jaxkin.motion.drive import coordinates
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.systems import Columns, block_joints, block_system
 from jaxkin.solve.sweep import Joints
-from jaxkin.solve.system import LoopSystem
+from jaxkin.solve.system import Form, LoopSystem
+
+
+class Given(NamedTuple):
+    """The loops of joints that close at the assembled pose only."""
+
+    system: LoopSystem
+    columns: Columns
+    joints: Joints
 
 
 class Element(NamedTuple):
@@ -30,6 +38,8 @@ class Element(NamedTuple):
     inputs: tuple[int, ...]
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
+    given: Given | None
+    """What the poses are brought to the least residual of, where the loops solved are those of `mechanism.ideal`."""
 
 
 class Prepared(NamedTuple):
@@ -73,11 +83,15 @@ def _prepared(mechanism: Mechanism, keys: Sequence[str]) -> Prepared:
         inside = sorted(
             (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
         )
-        if not inside and not _edited([mechanism.all_joints[joint] for joint in block.joints]):
+        if not inside and not _edited([mechanism.solved_joints[joint] for joint in block.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
         system, columns = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
-        elements.append(Element(system, columns, inputs, block_joints(mechanism, block)))
+        given = None
+        if mechanism.ideal:
+            whole = block_system(mechanism, block, tuple(places[i] for i in inputs), Form())
+            given = Given(*whole, block_joints(mechanism.all_joints, block))
+        elements.append(Element(system, columns, inputs, block_joints(mechanism.solved_joints, block), given))
     freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)
     judged = not traced(mechanism) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(mechanism))
     return Prepared(driven, freedoms, tuple(elements), dead_end(mechanism, places) if judged else None)

@@ -30,7 +30,9 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
         system, columns = block_system(mechanism, block, inside, form)
         if inside and (rank := _rank(mechanism, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
-            least = jnp.minimum(least, least_singular_value(system, rank, block_joints(mechanism, block), rows))
+            least = jnp.minimum(
+                least, least_singular_value(system, rank, block_joints(mechanism.solved_joints, block), rows)
+            )
     return least
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -17,17 +17,20 @@ from jaxkin.geometry.traced import traced
 from jaxkin.motion.drive import Given, given_values, named
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
-from jaxkin.motion.prepared import prepare
+from jaxkin.motion.prepared import Element, prepare
 from jaxkin.motion.systems import Columns
 from jaxkin.solve.compiled import Outcome, solve
+from jaxkin.solve.least_residual import least_residual
 from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance, roundings
 from jaxkin.solve.status import tolerance as default_tolerance
 from jaxkin.topology.names import closest
 
+Solution = tuple[Float[Array, "_ _"], Outcome]
+"""Displacements of the columns of a structure element, and what became of the poses."""
 ROUNDINGS = 16
 """Units of rounding in the residual of a pose that is improved no further unless a tolerance is asked for."""
-SEVERITY = (Status.CLOSED, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
+SEVERITY = (Status.CLOSED, Status.MISFIT, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
 """Of several loop systems the worst decides the status of the pose."""
 
 
@@ -62,13 +65,33 @@ def sweep(
         solve(element.system, method, element.joints, _padded([values[i] for i in element.inputs]), asked)
         for element in elements
     ]
-    layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), tuple(element.columns for element in elements))
+    elements, solutions = _of_least_residual(elements, solutions, asked)
+    columns = tuple(element.columns for element in elements)
+    layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), columns)
     inputs, moved, resting, *found = _collect(layout, values, solutions)
     displacements = tuple(
         moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(prepared.freedoms)
     )
     # under `grad` JAX hands arrays of the host through as they are
     return Motion(mechanism, dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True)), displacements, *found)
+
+
+def _of_least_residual(
+    elements: Sequence[Element], solutions: Sequence[Solution], asked: Tolerance
+) -> tuple[list[Element], list[Solution]]:
+    """Elements with what was found, that of ideal joints replaced by the poses of least residual of those given."""
+    every, found = list(elements), list(solutions)
+    for number, (element, (rows, outcome)) in enumerate(zip(elements, solutions, strict=True)):
+        if element.given is None:
+            continue
+        system, columns, joints = element.given
+        none = jnp.zeros_like(rows[:1])
+        whole = [rows[element.columns.index(each)] if each in element.columns else none[0] for each in columns]
+        poses, status, gap = least_residual(
+            system, joints, element.joints, jnp.stack(whole), outcome.status, asked.closed
+        )
+        every[number], found[number] = element._replace(columns=columns), (poses, Outcome(status, gap))
+    return every, found
 
 
 def _tolerance(asked: float | None) -> Tolerance:
@@ -102,7 +125,7 @@ class Layout(NamedTuple):
 def _collect(
     layout: Layout,
     values: tuple[Given, ...],
-    solutions: list[tuple[Float[Array, "_ _"], Outcome]],
+    solutions: list[Solution],
 ) -> tuple[
     tuple[Float[Array, " poses"], ...],
     dict[int, Float[Array, "poses _"]],

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.joints.joint import Joint
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.solve.sweep import Joints
 from jaxkin.solve.system import Form, LoopSystem
@@ -43,7 +46,7 @@ def block_system(
     return LoopSystem(tuple(movements), loops, given, form), tuple(columns)
 
 
-def block_joints(mechanism: Mechanism, block: Block) -> Joints:
-    """Frames and pitches of the block's joints."""
-    joints = [mechanism.all_joints[joint] for joint in block.joints]
-    return Joints(*(tuple(getattr(joint, leaf) for joint in joints) for leaf in Joints._fields))
+def block_joints(joints: Sequence[Joint], block: Block) -> Joints:
+    """Frames and pitches of the block's joints, of all joints of the mechanism."""
+    inside = [joints[joint] for joint in block.joints]
+    return Joints(*(tuple(getattr(joint, leaf) for joint in inside) for leaf in Joints._fields))

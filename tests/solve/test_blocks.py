@@ -31,7 +31,7 @@ CASES = {
 def system_and_joints(mechanism):
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
     system, _ = block_system(mechanism, block, ((block.joints[0], 0),), form)
-    return system, block_joints(mechanism, block)
+    return system, block_joints(mechanism.all_joints, block)
 
 
 @pytest.mark.parametrize("make", CASES, ids=lambda make: make.__name__)

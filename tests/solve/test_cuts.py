@@ -24,7 +24,7 @@ def systems(mechanism, drive, **changed):
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
     inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
     cut, _ = block_system(mechanism, block, inside, form._replace(**changed))
-    return cut, cut.whole, block_joints(mechanism, block)
+    return cut, cut.whole, block_joints(mechanism.all_joints, block)
 
 
 def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_six():

@@ -32,7 +32,7 @@ def systems(mechanism, driven):
     (block,), (form,) = mechanism.structure.blocks, mechanism.forms
     names = [mechanism.all_joints[joint].name for joint in block.joints]
     places = tuple((block.joints[names.index(name)], k) for name, k in driven)
-    joints = jax.tree.map(jnp.asarray, block_joints(mechanism, block))
+    joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block))
     for chosen in (form, form._replace(directed=())):
         system, _ = block_system(mechanism, block, places, chosen)
         yield system, loop_geometry(system, *joints)[0]
