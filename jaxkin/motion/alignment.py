@@ -1,8 +1,8 @@
 """Align the frames of a mechanism, so that its loops close throughout a motion where rounded numbers keep them from it.
 
 Numbers from robot files, drawings and people have some six digits. What they leave of a planar four-bar is a spatial
-linkage that closes in its assembled pose only. Only loops that are so are touched: nothing is moved where the loops move
-as far as their freedoms promise. What is parallel, perpendicular, coaxial or concurrent within the noise is made exactly
+linkage that closes in its assembled pose only. Only such loops are touched: nothing is moved where the loops move as
+far as their freedoms promise. What is parallel, perpendicular, coaxial or concurrent within the noise is made exactly
 so; where that does not suffice, the nearest frames are taken with which the loops move.
 """
 
@@ -65,8 +65,8 @@ def noise_of(align: object) -> float:
         return SIX_DIGITS
     if isinstance(align, bool) or not isinstance(align, int | float | np.number) or not 0 <= align <= PLAY[-1]:
         raise ValueError(
-            f"align must be a number from 0 (move nothing) to {PLAY[-1]:g}, the largest misalignment, in radians or over "
-            f"the size of the mechanism, that is taken for rounding; got {align!r}"
+            f"align must be a number from 0 (move nothing) to {PLAY[-1]:g}, the largest misalignment, in radians or "
+            f"over the size of the mechanism, that is taken for rounding; got {align!r}"
         )
     return float(align)
 
@@ -96,9 +96,10 @@ def aligned(mechanism: Mechanism, noise: float) -> Mechanism:
     if not (disagreement := _correction(exact, ideal)):
         return replace(mechanism, all_joints=tuple(exact), notes=tuple(told))
     told.append(
-        f"the loops close at the assembled pose only; they would close throughout if {disagreement.said(mechanism.unit)}, "
-        f"most of all of {listed([repr(name) for name in disagreement.joints])}: other poses are those of least residual (MISFIT); "
-        f"correct the numbers, or have them aligned with align={play:g}"
+        "the loops close at the assembled pose only; they would close throughout if "
+        f"{disagreement.said(mechanism.unit)}, most of all of {listed([repr(name) for name in disagreement.joints])}: "
+        "other poses are those of least residual (MISFIT); correct the numbers, or have them aligned with "
+        f"align={play:g}"
     )
     return replace(mechanism, all_joints=tuple(exact), ideal=tuple(ideal), notes=tuple(told))
 

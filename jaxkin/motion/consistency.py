@@ -18,7 +18,7 @@ from jaxkin.motion.closed_loops import ClosedLoops, Row, Rows
 from jaxkin.topology.rates import LARGEST_DOUBT, SPREAD
 
 STEPS = (0.3, 0.1, 0.03)
-"""Radians, or characteristic lengths, from the assembled pose: the first from which the loops can be closed is taken."""
+"""Radians, or characteristic lengths, from the assembled pose: the first that closes is taken."""
 STILL = 0.1
 """Part of the step: loops that come back nearer than this to the assembled pose have not moved."""
 _ITERATIONS = 25
@@ -37,7 +37,7 @@ class Beside(NamedTuple):
 
 
 def cutoff(noise: float) -> float:
-    """The singular values, over the largest, below which the rank is in doubt for frames that are `noise` radians off."""
+    """Singular values, over the largest, below which the rank is in doubt for frames that are `noise` radians off."""
     return min(SPREAD * noise, LARGEST_DOUBT)
 
 

@@ -2,8 +2,8 @@
 
 Parallel, perpendicular, coaxial and concurrent axes are put right by `jaxkin.joints.regularise`. What is left are
 mechanisms that move for the sake of their lengths: a third bar as long as the two beside it, the twists and lengths of
-Bennett's linkage. Each frame `i` may be moved by a small twist `p_i`, on both of its parts alike. At poses `k` along the
-motion the loops have the residual `r_k`, and to first order
+Bennett's linkage. Each frame `i` may be moved by a small twist `p_i`, on both of its parts alike. At poses `k` along
+the motion the loops have the residual `r_k`, and to first order
 
     r_k + A_k p + J_k dq_k = 0.
 
@@ -18,7 +18,8 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Pose, inverse
-from jaxkin.joints.screws import chain, freedoms as count
+from jaxkin.joints.screws import chain
+from jaxkin.joints.screws import freedoms as count
 from jaxkin.motion.closed_loops import ClosedLoops, Row
 from jaxkin.motion.consistency import cutoff, freedoms, nearest_closed, rounding
 
@@ -31,9 +32,11 @@ _STRIDE = 0.15
 """Radians, or characteristic lengths, from one of these poses to the next."""
 _DIRECTIONS = 6
 """Directions of the motion in which poses are taken at most."""
-_ITERATIONS = 8
-_WEAK = 1e-5
-"""Conditions whose singular values are below this, over the largest, are rounding of the others."""
+_ITERATIONS = 16
+_COARSE, _FINE = 1e-5, 1e-9
+"""Singular values of the conditions, over the largest, that count: in the first two iterations those that do not come
+from the errors themselves; then all above rounding, since products of two errors are left (two axes out of parallel, in
+a linkage that would move with either), on which the iteration converges linearly."""
 
 
 def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
@@ -45,7 +48,7 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
     frames = [(joint, number) for joint, (names, *_) in loops.chains.items() for number in range(len(names))]
     poses = _poses(loops, cutoff(noise))
     total = np.zeros((len(frames), 6))
-    for _ in range(_ITERATIONS):
+    for iteration in range(_ITERATIONS):
         found = [nearest_closed(loops, q, cutoff(noise)) for q in poses]
         poses = [q for q, _ in found]
         if max(float(np.linalg.norm(residual)) for _, residual in found) < rounding(loops):
@@ -55,7 +58,8 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
             held = _held(loops.jacobian(q), cutoff(noise))
             rows.append(held @ _frame_jacobian(loops, frames, q))
             right.append(held @ residual)
-        step = -np.linalg.lstsq(np.concatenate(rows), np.concatenate(right), rcond=_WEAK)[0].reshape(-1, 6)
+        least = _COARSE if iteration < 2 else _FINE
+        step = -np.linalg.lstsq(np.concatenate(rows), np.concatenate(right), rcond=least)[0].reshape(-1, 6)
         total = total + step
         if not np.abs(total).max() <= noise:
             return None

@@ -1,7 +1,7 @@
 """Poses of least residual of loops that do not close, begun at the poses of joints nearby whose loops do.
 
-The two sets of joints differ by their play. Singular values of the closure Jacobian that the play may have brought about
-hold nothing: along their directions the pose stays where the loops that close have it.
+The two sets of joints differ by their play. Singular values of the closure Jacobian that the play may have brought
+about hold nothing: along their directions the pose stays where the loops that close have it.
 """
 
 from __future__ import annotations

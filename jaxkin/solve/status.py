@@ -31,8 +31,8 @@ _MESSAGES = {
     Status.UNREACHABLE: "the loops cannot close for this input: leave it out of the range, or change the lengths",
     Status.JUMPED: "closed, but on another branch than the assembled pose: the range between them cannot be passed",
     Status.STALLED: "not converged: give more poses in between, or start from a pose that is less singular",
-    Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the mechanism "
-    "say which of them disagree",
+    Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the "
+    "mechanism say which of them disagree",
     Status.NONFINITE: "the input or the geometry holds NaN or infinity: correct it",
 }
 

@@ -26,8 +26,8 @@ DOUBLE, SINGLE = Noise(1e-11, 1e-9, 1e-6), Noise(1e-5, 1e-4, 1e-3)
 """For mechanisms in float64 and in float32."""
 
 SPREAD = 30.0
-"""Singular values of a closure Jacobian, over the largest, that an error of the frames may bring about, over that error:
-sums of a few lever arms, each of the characteristic length; up to 9 on the mechanisms of the tests."""
+"""Singular values of a closure Jacobian, over the largest, that an error of the frames may bring about, over that
+error: sums of a few lever arms, each of the characteristic length."""
 LARGEST_DOUBT = 0.03
 """Singular values above this, over the largest, hold the loops whatever the error of the frames: those of sound designs
 are larger."""
