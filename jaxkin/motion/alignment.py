@@ -15,13 +15,12 @@ from typing import TYPE_CHECKING
 import jax
 import numpy as np
 
-from jaxkin.geometry.pose import Pose
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, align
 from jaxkin.motion.closed_loops import ClosedLoops
 from jaxkin.motion.consistency import STILL, beside, rounding
-from jaxkin.motion.nearest_mobile import moved_frame, nearest_mobile
+from jaxkin.motion.nearest_mobile import nearest_mobile
 from jaxkin.topology.names import listed
 
 if TYPE_CHECKING:
@@ -34,6 +33,8 @@ PLAY = (1e-4, 1e-3)
 """The same, of joints that disagree by more than rounding: what is more is design, or a mistake to be told as such."""
 _SINGLE = 6e-7
 """Ten roundings of single precision, over the coordinate: what files leave of places far from the origin."""
+_ROUNDING = 1e-13
+"""Radians, or lengths over the extent of the joints: a change that is no more than the rounding of the arithmetic."""
 _NAMED = 0.5
 """Joints are named that moved by more than this part of what the most moved one did."""
 
@@ -135,9 +136,13 @@ def _made_exact(mechanism: Mechanism, block: Block, level: float) -> list[Joint]
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:
+    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.before, joint.after))
+    return Noise(level, level * _extent(joints) + _SINGLE * farthest)
+
+
+def _extent(joints: Sequence[Joint]) -> float:
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
-    extent = float(np.linalg.norm(np.ptp(origins, axis=0)))
-    return Noise(level, level * extent + _SINGLE * float(np.abs(origins).max()))
+    return float(np.linalg.norm(np.ptp(origins, axis=0)))
 
 
 def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
@@ -154,21 +159,12 @@ def _mobile(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: 
     if not all(np.array_equal(joint.before, joint.after) for joint in joints):
         return None
     loops = ClosedLoops(_with(mechanism, block, joints), block)
-    twists = nearest_mobile(loops, level)
-    if twists is None:
+    if not nearest_mobile(loops, level):
         return None
-    rest = iter(twists)
-
-    def moved(frame: Pose) -> Pose:
-        scaled = frame.copy()
-        scaled[:3, 3] = (frame[:3, 3] - loops.centre) / loops.length
-        scaled = moved_frame(scaled, next(rest))
-        scaled[:3, 3] = loops.centre + loops.length * scaled[:3, 3]
-        return scaled
-
     found = []
-    for joint in joints:
-        frames = np.array([moved(frame) for frame in np.asarray(joint.before, float)])
+    for number, joint in zip(block.joints, joints, strict=True):
+        frames = loops.chains[number][1].copy()
+        frames[:, :3, 3] = loops.centre + loops.length * frames[:, :3, 3]
         found.append(replace(joint, before=frames, after=frames))
     return found
 
@@ -197,6 +193,9 @@ def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | 
             change = np.asarray(getattr(other, side)) - np.asarray(getattr(one, side))
             angles[number] = max(angles[number], np.linalg.norm(change[:, :3, 2], axis=1).max(initial=0.0))
             lengths[number] = max(lengths[number], np.linalg.norm(change[:, :3, 3], axis=1).max(initial=0.0))
+    extent = _extent(given)
+    lengths[lengths < _ROUNDING * extent] = 0.0
+    angles[angles < _ROUNDING] = 0.0
     if not angles.any() and not lengths.any():
         return None
     shares = [each / each.max() if each.any() else each for each in (angles, lengths)]

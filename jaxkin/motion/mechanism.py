@@ -55,7 +55,7 @@ class Mechanism:
 
     @staticmethod
     def build(
-        *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | None = None
+        *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | int | None = None
     ) -> Mechanism:
         """A mechanism from joints written by hand, in world coordinates of its assembled pose.
 
@@ -171,7 +171,7 @@ class Mechanism:
 
         return with_lengths(self, changes)
 
-    def with_frames(self, frames: Mapping[Any, Any], *, align: float | None = None) -> Mechanism:
+    def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
 
         A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only: then

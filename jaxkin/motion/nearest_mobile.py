@@ -39,11 +39,11 @@ from the errors themselves; then all above rounding, since products of two error
 a linkage that would move with either), on which the iteration converges linearly."""
 
 
-def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
-    """The smallest twists of all frames, in the order of the joints, with which the loops close along their motion.
+def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
+    """Move the frames of the loops by the smallest twists with which these close along their motion.
 
-    `noise` is how far, in radians and characteristic lengths, a frame may move: None where that is not enough. The
-    joints must have the same frames on both parts, and the given `loops` are left with the frames that were found.
+    `noise` is how far, in radians and characteristic lengths, a frame may move: False where that is not enough. The
+    joints must have the same frames on both parts.
     """
     frames = [(joint, number) for joint, (names, *_) in loops.chains.items() for number in range(len(names))]
     poses = _poses(loops, cutoff(noise))
@@ -52,7 +52,7 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
         found = [nearest_closed(loops, q, cutoff(noise)) for q in poses]
         poses = [q for q, _ in found]
         if max(float(np.linalg.norm(residual)) for _, residual in found) < rounding(loops):
-            return total
+            return True
         rows, right = [], []
         for q, residual in found:
             held = _held(loops.jacobian(q), cutoff(noise))
@@ -62,9 +62,9 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> Twists | None:
         step = -np.linalg.lstsq(np.concatenate(rows), np.concatenate(right), rcond=least)[0].reshape(-1, 6)
         total = total + step
         if not np.abs(total).max() <= noise:
-            return None
+            return False
         _move(loops, frames, step)
-    return None
+    return False
 
 
 def _poses(loops: ClosedLoops, least: float) -> list[Row]:
@@ -125,11 +125,11 @@ def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> 
     for (joint, number), twist in zip(frames, twists, strict=True):
         names, before, _, pitch = loops.chains[joint]
         before = before.copy()
-        before[number] = moved_frame(before[number], twist)
+        before[number] = _moved_frame(before[number], twist)
         loops.chains[joint] = (names, before, before, pitch)
 
 
-def moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:
+def _moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:
     """A frame after a small twist, orthonormal to rounding."""
     turn, shift = twist[:3], twist[3:]
     cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Place = str | tuple[str, str]
 
 
-def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | None) -> Mechanism:
+def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | int | None) -> Mechanism:
     """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
     noise = noise_of(align)
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():

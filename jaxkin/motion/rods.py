@@ -11,8 +11,9 @@ from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.components import connected
 
-PARALLEL = 1e-9
-"""Sine of the angle between directions that count as parallel."""
+PARALLEL = 1e-5
+"""Sine of the angle between a line of centres and what slides along it, as numbers of six digits give it. The turn
+about the line is free whatever the angle: the rod is held by its balls."""
 
 
 def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int, int], ...]:

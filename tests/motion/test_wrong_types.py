@@ -52,6 +52,8 @@ REFUSED = {
     "jk.Mechanism.build(fixed=['ground'], joints=hinge)": "be a list of joints, such as [jk.revolute(...)], got the",
     "jk.Mechanism.build(fixed=['ground'], joints=[hinge, 'B'])": "got 'B' among them",
     "jk.Mechanism.build(fixed=['ground'], joints=3)": "got 3",
+    "jk.Mechanism.build(fixed=['ground'], joints=[hinge], align='fine')": "align must be a number from 0",
+    "jk.Mechanism.build(fixed=['ground'], joints=[hinge], align=True)": "align must be a number from 0",
     "jk.revolute('A', 'ground', 'arm', point=(0, 0, 0), axis='z')": "must be three finite numbers (x, y, z), got 'z'",
     "jk.screw('A', 'p', 'q', point=(0, 0, 0), axis=(0, 0, 1), pitch='3')": "pitch must be a finite number, the advance",
     "jk.screw('A', 'p', 'q', point=(0, 0, 0), axis=(0, 0, 1), pitch=np.nan)": "pitch must be a finite number, the",

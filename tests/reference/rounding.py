@@ -40,6 +40,19 @@ def schmidt_coupling(angle=0.4) -> Mechanism:
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 
+def spherical_wrist() -> Mechanism:
+    """A platform on three chains of three hinges, all axes through one point: it turns to any attitude within reach,
+    three freedoms, where counting gives -3 (Gosselin and Hamel, 1994, ICRA: the agile eye)."""
+    joints = []
+    for number in range(3):
+        turn = Rotation.from_euler("z", 2 * np.pi * number / 3)
+        axes = [turn.apply(axis) for axis in ([1.0, 0.2, -0.8], [-0.3, 1.0, 0.1], [0.9, -0.1, 0.7])]
+        chain = ("ground", f"lower {number}", f"upper {number}", "platform")
+        for k, (axis, away) in enumerate(zip(axes, (0.05, 0.06, 0.04), strict=True)):
+            joints.append(mechanisms.revolute(f"{'abc'[k]}{number}", *chain[k : k + 2], point=away * axis, axis=axis))
+    return Mechanism.build(fixed=["ground"], joints=joints)
+
+
 def _five_bar() -> Mechanism:
     points = {"A": (0, 0), "B": (-20, 45), "C": (35, 90), "D": (85, 50), "E": (70, 0)}
     return catalogue.pinned(points, {"ground": "AE", "left": "AB", "upper": "BC", "lower": "CD", "right": "DE"})
@@ -60,7 +73,7 @@ EVERY: dict[str, Callable[[], Mechanism]] = {
             *(overconstrained.goldberg_linkage, overconstrained.missing_axes, overconstrained.wrist),
             *(mechanisms.ball_in_bore, mechanisms.bennett_linkage, mechanisms.cam, mechanisms.cardan_shafts),
             *(mechanisms.planar_fourbar, mechanisms.rssr_linkage, mechanisms.slider_crank),
-            *(mechanisms.spherical_linkage, schmidt_coupling, kite),
+            *(mechanisms.spherical_linkage, schmidt_coupling, spherical_wrist, kite),
         )
     },
     "five_bar": _five_bar,
@@ -87,7 +100,7 @@ def placed(joints: Sequence[Joint], rng: np.random.Generator) -> tuple[Joint, ..
         return frames
 
     return tuple(
-        replace(joint, before=moved(joint.before), after=moved(joint.after), pitch=scale * joint.pitch)
+        replace(joint, before=moved(joint.before), after=moved(joint.after), pitch=np.asarray(scale * joint.pitch))
         for joint in joints
     )
 
