@@ -17,9 +17,8 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement
+from jaxkin.topology.rates import DOUBLE
 
-_LEAST = 1e-9
-"""Singular values below, over the largest, are zero: joints read from solids agree to 1e-12 once they are aligned."""
 _LOST = 1e-10
 """A constraint direction is lost with some rows if all but this share of it (squared) lies in them."""
 
@@ -39,7 +38,7 @@ class Twists:
     @cached_property
     def _decomposed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         u, s, vt = np.linalg.svd(self.matrix, full_matrices=False)
-        rank = int((s > _LEAST * s.max(initial=0.0)).sum())
+        rank = int((s > DOUBLE.rank * s.max(initial=0.0)).sum())
         return u[:, :rank], s[:rank], vt[:rank]
 
     @property

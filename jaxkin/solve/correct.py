@@ -19,6 +19,7 @@ from jaxkin.solve.linear import least_norm
 from jaxkin.solve.state import State, is_driven, retract
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system import LoopSystem
+from jaxkin.topology.rates import DOUBLE, SINGLE
 
 LONGEST_STEP = 0.5
 """Radians, or characteristic lengths: what a linear model of a rotation is good for."""
@@ -49,8 +50,8 @@ def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equation
 
 
 def floor(dtype) -> float:
-    """Least damping, over the mean square of the rows of J: above rounding, below all singular values that matter."""
-    return 1e-14 if jnp.finfo(dtype).bits == 64 else 1e-6
+    """Least damping, over the mean square of the rows of J: what it leaves out is what counts as zero for the rank."""
+    return (DOUBLE if jnp.finfo(dtype).bits == 64 else SINGLE).rank ** 2
 
 
 def correct(

@@ -17,12 +17,13 @@ class Noise(NamedTuple):
     closed: float
     """Largest residual of a closed pose."""
     rank: float
-    """Singular values of a Jacobian below this, over the largest, are zero."""
+    """Singular values of a Jacobian below this, over the largest, are zero: for mobility, plan and sweep alike, since
+    the solver damps its least-norm steps by the square of this."""
     rate: float
     """Rates below this, of motions of unit size, are zero."""
 
 
-DOUBLE, SINGLE = Noise(1e-11, 1e-9, 1e-6), Noise(1e-5, 1e-4, 1e-3)
+DOUBLE, SINGLE = Noise(1e-11, 1e-7, 1e-6), Noise(1e-5, 1e-3, 1e-3)
 """For mechanisms in float64 and in float32."""
 
 SPREAD = 30.0
