@@ -30,6 +30,8 @@ class Study:
     ignore: Sequence[Sequence[str]] = ()
     joints: Sequence[Joint] = ()
     combine: bool = True
+    align: float | None = None
+    """The largest misalignment that is taken for rounding: see `Mechanism.build`."""
     tolerance: Mapping[str, float] = field(default_factory=dict)
     """Of `Assembly.contacts`: length, angle, fit."""
     ranges: Mapping[str, Range] = field(default_factory=dict)
@@ -46,7 +48,7 @@ class Study:
     def mechanism(self) -> Mechanism:
         """The mechanism; ValueError where what is said about it makes none."""
         if self.assembly is None:
-            return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit)
+            return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
         if not self.fixed:
             raise ValueError(f"no part is fixed; the parts are {', '.join(self.assembly.names)}")
         return self.assembly.mechanism(
@@ -56,6 +58,7 @@ class Study:
             joints=self.joints,
             combine=self.combine,
             contacts=self.contacts,
+            align=self.align,
         )
 
     @cached_property
@@ -88,7 +91,7 @@ def load_study(path: str | Path) -> Study:
     said = read_study_file(path)
     joints = said.made_joints(path.name)
     common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "joints": joints}
-    common |= {"combine": said.combine, "ranges": said.ranges(), "unit": said.unit}
+    common |= {"combine": said.combine, "ranges": said.ranges(), "unit": said.unit, "align": said.align}
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent

@@ -17,6 +17,7 @@ from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
+from jaxkin.motion.alignment import PLAY
 from jaxkin.topology.names import closest
 
 KINDS = {
@@ -148,6 +149,7 @@ class StudyFile(_Table):
     rigid: list[Annotated[list[str], Field(min_length=2)]] = []
     ignore: list[Pair] = []
     combine: bool = True
+    align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
     drive: dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]] = {}

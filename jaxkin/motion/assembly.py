@@ -50,6 +50,7 @@ class Assembly:
         joints: Sequence[Joint] = (),
         combine: bool = True,
         contacts: Sequence[Contact] | None = None,
+        align: float | int | None = None,
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
 
@@ -61,13 +62,15 @@ class Assembly:
         - `combine`: the contacts of two bodies become the one joint that they amount to, where there is one; without
           it every contact is a joint, as in the paper. All fixed parts are one body (Section 4.1).
         - `contacts`: those found with other tolerances, or a selection; by default `self.contacts()`.
+        - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
+          `Mechanism.build`. What files in single precision leave is taken out in any case.
 
         Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
         groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
         """
         contacts = self.contacts() if contacts is None else contacts
         return mechanism_from_solids(
-            self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine
+            self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine, align=align
         )
 
     @cached_property

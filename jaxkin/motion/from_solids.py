@@ -13,7 +13,7 @@ from jaxkin.geometry.pose import frame
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
-from jaxkin.motion.alignment import SIX_DIGITS, aligned
+from jaxkin.motion.alignment import aligned, noise_of
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.spinning import left_at_rest
@@ -37,6 +37,7 @@ def mechanism_from_solids(
     ignore: Sequence[Sequence[str]],
     joints: Sequence[Joint],
     combine: bool,
+    align: float | int | None,
 ) -> Mechanism:
     """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
     names = assembly.names
@@ -56,6 +57,7 @@ def mechanism_from_solids(
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
     noise = _noise(assembly, moving)
+    most = max(noise_of(None), noise.angle) if align is None else noise_of(align)
     found = joints_from_contacts(kept, names, combine, noise, body, joints)
     every = (*found.joints, *ties)
     described = [(each.name, *each.parts) for each in every]
@@ -67,7 +69,7 @@ def mechanism_from_solids(
     )
     structured = structure(names, described, fixed)
     mechanism = Mechanism(every, structured, assembly.unit, assembly.parts, notes, found.contacts)
-    return aligned(left_at_rest(mechanism) if combine else mechanism, max(SIX_DIGITS, noise.angle))
+    return aligned(left_at_rest(mechanism) if combine else mechanism, most)
 
 
 def _noise(assembly: Assembly, contacts: Sequence[Contact]) -> Noise:

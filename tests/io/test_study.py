@@ -70,6 +70,19 @@ axis = [0, 0, 1]
     np.testing.assert_array_equal(study.drive["ground-crank:e.z"], [0, 1, 2])
 
 
+@pytest.mark.parametrize("align, misfit", [("", True), ("align = 1e-3", False)])
+def test_how_much_is_taken_for_rounding(tmp_path, align, misfit):
+    """A parallelogram of which one axis is tilted by 5e-4."""
+    pins = {"A": (0, 0, "ground", "left"), "B": (0, 2, "left", "top"), "C": (3, 2, "top", "right")}
+    text = f'fixed = ["ground"]\n{align}\n'
+    for name, (x, y, one, other) in (pins | {"D": (3, 0, "ground", "right")}).items():
+        axis = "[5e-4, 0, 1]" if name == "C" else "[0, 0, 1]"
+        text += f'[joints.{name}]\nkind = "revolute"\nparts = ["{one}", "{other}"]\n'
+        text += f"point = [{x}, {y}, 0]\naxis = {axis}\n"
+    mechanism = load_study(written(tmp_path, text)).mechanism
+    assert bool(mechanism.ideal) == misfit and len(mechanism.notes) == 1
+
+
 def test_a_study_without_geometry(tmp_path):
     text = """
 unit = "m"
@@ -116,6 +129,8 @@ HINGE = '[joints.A]\nkind = "revolute"\nparts = ["ground", "crank"]\n'
         (f'geometry = "{FOURBAR}"\nfixed = [3]', "fixed[0]: expected a text in quotes, got 3"),
         (f'geometry = "{FOURBAR}"\nfixed = []', "fixed: expected a list of at least 1, got []"),
         ('geometry = 3\nfixed = ["a"]', "geometry: expected the name of a file, or a table of files by part, got 3"),
+        (HEAD + "align = 1", "align: expected a number not greater than 0.001, got 1"),
+        (HEAD + "align = -1e-6", "align: expected a number not less than 0.0, got -1e-06"),
         (HEAD + 'combine = "no"', "combine: expected true or false, got 'no'"),
         (HEAD + 'unit = "inch"', "unit: expected one of 'um', 'mm', 'cm', 'dm', 'm', 'km', 'in', 'ft', got 'inch'"),
         (HEAD + 'unit = "cm"', "unit is 'cm', but fourbar.step is in 'mm'; write all lengths of study.toml in mm"),
