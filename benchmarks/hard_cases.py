@@ -48,12 +48,12 @@ Made by `python benchmarks/hard_cases.py benchmarks/HARD_CASES.md` from the tabl
 which is run as tests too (`pytest -m "" tests/motion/test_hard_cases.py`), with the status of every pose.
 
 *residual* is the largest of the closed poses, and of those of least residual where joints disagree (Eq. 12, lengths
-over the characteristic length), *sigma_min* the least of all poses (`motion.sigma_min`), *error* the largest distance of
-such a pose from the truth, in radians and sizes of the mechanism. A pose may be wrong by 100 roundings (more where the
-input itself is a thousand turns) over its own smallest singular value, and at most over the root of rounding; where its
-numbers were rounded, by ten times that error. *of what is allowed* is the largest part of that used. A closed loop is no
-accurate pose near a dead point or a change point: there the residual stays at rounding while the error grows as rounding
-over *sigma_min*.
+over the characteristic length), *sigma_min* the least of all poses (`motion.sigma_min`), *error* the largest distance
+of such a pose from the truth, in radians and sizes of the mechanism. A pose may be wrong by 100 roundings (more where
+the input itself is a thousand turns) over its own smallest singular value, and at most over the root of rounding; where
+its numbers were rounded, by ten times that error. *of what is allowed* is the largest part of that used. A closed loop
+is no accurate pose near a dead point or a change point: there the residual stays at rounding while the error grows as
+rounding over *sigma_min*.
 
 *steps* are those of the continuation from the assembled pose to either end of the range, refused ones included;
 *Newton* the steps of Newton's method from there until all poses are closed (4 at most); *damped* the most iterations
