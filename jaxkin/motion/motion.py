@@ -53,6 +53,11 @@ class Motion:
         """Which poses are closed on the branch of the assembled pose."""
         return self.status == Status.CLOSED.value
 
+    @property
+    def on_branch(self) -> Bool[Array, " poses"]:
+        """Which poses are on the branch of the assembled pose: closed, or as nearly closed as the joints agree."""
+        return self.closed | (self.status == Status.MISFIT.value)
+
     @cached_property
     def sigma_min(self) -> Float[Array, " poses"]:
         """How near to singular each pose is: the smallest singular value of the closure Jacobian not always zero.

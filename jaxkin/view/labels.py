@@ -50,7 +50,7 @@ def title(inputs: tuple[Input, ...], pose: int) -> str:
 def headline(motion: Motion) -> tuple[str, str]:
     """What drives the motion over which range, and how many of its poses could be closed."""
     drives = _some([f"{entry.name}, {_range(entry)}" for entry in inputs(motion)], "; ")
-    status = np.asarray(motion.status)[~np.asarray(motion.closed)]
+    status = np.asarray(motion.status)[~np.asarray(motion.on_branch)]
     facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]
     if len(status):
         codes, numbers = np.unique(status, return_counts=True)
