@@ -11,6 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from jaxkin.io.tables import poses_of, words_of
+from jaxkin.motion.lost_contacts import LostContact, joined
 from jaxkin.motion.motion import tally
 from jaxkin.motion.stream import Stream
 from jaxkin.motion.writers import whole
@@ -24,6 +25,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
     its arrays twice.
     """
     counts, largest = np.zeros(len(Status), int), 0.0
+    lost: list[tuple[tuple[LostContact, ...], int]] = []
     with whole(path) as draft:
         columns: dict[str, Path] = {}
         with ExitStack() as stack:
@@ -44,6 +46,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
                 counts += np.bincount(np.asarray(motion.status), minlength=len(Status))
                 closed = np.asarray(motion.residual)[np.asarray(motion.closed)]
                 largest = max(largest, float(closed.max(initial=0.0)))
+                lost.append((motion.lost_contacts, len(motion)))
                 step()
         with zipfile.ZipFile(draft, "w") as archive:
             for name, file in columns.items():
@@ -52,4 +55,4 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
             for name, words in words_of(stream.mechanism).items():
                 with archive.open(f"{name}.npy", "w") as file:
                     np.lib.format.write_array(file, words)
-    return tally(stream.mechanism, stream.inputs, counts, largest)
+    return tally(stream.mechanism, stream.inputs, counts, largest, joined(lost))

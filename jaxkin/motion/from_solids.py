@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.doubt import doubt
+from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
@@ -54,7 +55,7 @@ def mechanism_from_solids(
     by_hand = {_pair(given.parts, body): given.name for given in joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    found = joints_from_contacts(kept, names, combine, _noise(assembly, moving), body, joints)
+    found = joints_from_contacts(kept, names, combine, noise_of(assembly.parts, moving), body, joints)
     every = (*found.joints, *ties)
     described = [(each.name, *each.parts) for each in every]
     notes = (
@@ -68,9 +69,9 @@ def mechanism_from_solids(
     return left_at_rest(mechanism) if combine else mechanism
 
 
-def _noise(assembly: Assembly, contacts: Sequence[Contact]) -> Noise:
+def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
     """The noise of single precision; more where surfaces were fitted to few corners that are near to each other."""
-    faces = {(part.name, face.name): (face, part.grain) for part in assembly.parts if part.grain for face in part.faces}
+    faces = {(part.name, face.name): (face, part.grain) for part in parts if part.grain for face in part.faces}
     touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))
     doubts = [doubt(*faces[key]) for key in touching if key in faces]
     return Noise.of(contacts).with_doubt(*np.max(doubts, axis=0, initial=0.0)) if doubts else Noise.of(contacts)
