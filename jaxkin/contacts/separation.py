@@ -8,6 +8,8 @@ is one for sure, and a negative one says nothing about holes, notches and half b
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 from jaxtyping import Float
 
@@ -15,7 +17,7 @@ from jaxkin.contacts.extent import Interval, interval, outline
 from jaxkin.contacts.hulls import Hull, PlaneMotion, gaps_between_hulls, hull
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Vector, perpendicular
-from jaxkin.geometry.surfaces import Plane, Sphere
+from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 
 Displacements = Float[np.ndarray, "3 4 poses"]
 """Of face 2 relative to face 1 from the assembled pose, in world coordinates: the upper rows of 4x4 matrices."""
@@ -32,12 +34,12 @@ def along_axis(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
 
 def on_ruling(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     """A ball on a cone: the foot of its centre on the ruling that it touches, and the rulings of the face."""
-    one, cone = interval(face1), face1.surface
-    offset = _points(displacements, face2.surface.centre) - cone.apex[:, None]
+    one, cone, centre = interval(face1), cast(Cone, face1.surface), interval(face2).origin
+    offset = _points(displacements, centre) - cone.apex[:, None]
     height = cone.axis @ offset
     radius = np.linalg.norm(offset - cone.axis[:, None] * height, axis=0)
     place = height * np.cos(cone.half_angle) + radius * np.sin(cone.half_angle)
-    return _between(one, Interval(face2.surface.centre, one.direction, 0.0, 0.0), place, 1.0)
+    return _between(one, Interval(centre, one.direction, 0.0, 0.0), place, 1.0)
 
 
 def across(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
@@ -55,27 +57,29 @@ def across(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
 
 def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
     """Plane 1 and what lies on it: the outline of a plane, the line of a cylinder or a cone, the foot of a ball."""
-    normal = face1.surface.normal
-    x = perpendicular(normal)
-    axes = np.stack([x, np.cross(normal, x)])
-    one = hull(outline(face1, face1.surface.point, *axes))
-    origin, along, other = _lying(face2, normal)
+    plane = cast(Plane, face1.surface)
+    x = perpendicular(plane.normal)
+    axes = np.stack([x, np.cross(plane.normal, x)])
+    one = hull(outline(face1, plane.point, *axes))
+    origin, along, other = _lying(face2, plane.normal)
     if one is None or other is None:
         return np.full(displacements.shape[2], -np.inf)
-    shift = axes @ (_points(displacements, origin) - face1.surface.point[:, None])
+    shift = axes @ (_points(displacements, origin) - plane.point[:, None])
     turn = axes @ np.einsum("ijn,j->in", displacements[:, :3], along)
     return gaps_between_hulls(one, other, PlaneMotion(turn / np.linalg.norm(turn, axis=0), shift))
 
 
 def _lying(face: Face, normal: Vector) -> tuple[Vector, Vector, Hull | None]:
     """What of a face lies on a plane: origin and x axis of its chart (y is normal x x), and its hull there."""
-    if isinstance(face.surface, Plane):
-        x = perpendicular(face.surface.normal)
-        return face.surface.point, x, hull(outline(face, face.surface.point, x, np.cross(normal, x)))
-    if isinstance(face.surface, Sphere):
-        return face.surface.centre, perpendicular(normal), hull(np.zeros((1, 2)))
-    line = interval(face)
-    return line.origin, line.direction, hull(np.array([[line.low, 0.0], [line.high, 0.0]]))
+    match face.surface:
+        case Plane(point=point, normal=direction):
+            x = perpendicular(direction)
+            return point, x, hull(outline(face, point, x, np.cross(normal, x)))
+        case Sphere(centre=centre):
+            return centre, perpendicular(normal), hull(np.zeros((1, 2)))
+        case _:
+            line = interval(face)
+            return line.origin, line.direction, hull(np.array([[line.low, 0.0], [line.high, 0.0]]))
 
 
 def _between(one: Interval, other: Interval, place: Gaps, sign: float) -> Gaps:

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
-from jaxtyping import Array
+from jaxtyping import Array, Bool
 
-from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.motions import is_length
 from jaxkin.motion.lost_contacts import LostContact
 from jaxkin.motion.mechanism import Mechanism
 
 LISTED = 8
 """Joints that a report names at most: more are a sign of one cause."""
-FACES = 3
-"""Contacts of a joint that a report names at most."""
+FEW = 3
+"""Contacts, inputs and ranges of poses of one joint that a report names at most."""
 
 
 def lost_contact_report(
@@ -33,8 +32,8 @@ def lost_contact_report(
     if len(loose) > LISTED:
         lines.append(f"lost contact: {len(loose) - LISTED} more joints leave their faces: see motion.lost_contacts")
     if spare := [each for each in lost if not each.loose.any()]:
-        faces = _listed(f"{_faces(each.contact)}, up to {_length(each.gap, mechanism.unit)} apart" for each in spare)
-        lines.append(f"left where other contacts of the same joint still hold it: {faces}")
+        faces = _listed([_apart(each, mechanism.unit) for each in spare], ", ")
+        lines.append(f"lost where other contacts of the same joint still make it what it is: {faces}")
     return lines
 
 
@@ -43,39 +42,42 @@ def _of_joint(
 ) -> list[str]:
     """What becomes of a joint that leaves its faces."""
     loose = np.any([each.loose for each in contacts], axis=0)
-    first, unit = int(np.argmax(loose)), mechanism.unit
-    kind = mechanism.joints[name].kind
-    gaps = np.max([np.where(loose, each.gaps, 0.0) for each in contacts], axis=0)
-    worst = int(np.argmax(gaps))
-    left = next(each.left for each in contacts if each.loose[first])
-    holds = f"what still touches makes it {left}, not {kind}" if left else "nothing else makes it the joint that it is"
+    farthest = max(contacts, key=lambda each: each.gap)
+    unit, kind, left = mechanism.unit, mechanism.joints[name].kind, farthest.left
     return [
-        f"lost contact: joint {name!r} leaves its faces at {loose.sum()} of {len(loose)} poses, first at pose "
-        f"{first} ({_at(inputs, first, unit)}), farthest at pose {worst} ({_at(inputs, worst, unit)}):",
-        f"  {_listed(f'{_faces(each.contact)} {_length(each.gap, unit)} apart' for each in contacts)}; {holds}",
+        f"lost contact: joint {name!r} leaves its faces at {loose.sum()} of {len(loose)} poses: "
+        + _listed([_run(inputs, *run, unit) for run in runs(loose)], "; "),
+        "  "
+        + _listed([_apart(each, unit) for each in contacts], ", ")
+        + (f"; what still touches makes it {left}, not {kind}" if left else "; nothing else holds it there"),
     ]
 
 
-def _at(inputs: Mapping[str, np.ndarray | Array], pose: int, unit: str) -> str:
-    """The inputs at a pose, in degrees and in the unit of the mechanism; of many the first ones."""
-    return _listed(
-        f"{name} = {_length(float(values[pose]), unit)}"
-        if is_length(name.rpartition(".")[2])
-        else f"{name} = {np.rad2deg(float(values[pose])):.4g} deg"
-        for name, values in inputs.items()
-    )
+def runs(mask: Bool[np.ndarray, " poses"]) -> list[tuple[int, int]]:
+    """First and last index of each run of true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
+    return [(int(first), int(end) - 1) for first, end in edges.reshape(-1, 2)]
 
 
-def _faces(contact: Contact) -> str:
-    sides = (f"{part} {face}" for part, face in zip(contact.parts, contact.faces, strict=True))
-    return f"({contact.state}) {' and '.join(sides)}"
+def _run(inputs: Mapping[str, np.ndarray | Array], first: int, last: int, unit: str) -> str:
+    """Consecutive poses and the inputs at the ends, in degrees and in the unit of the mechanism."""
+    said = []
+    for name, values in inputs.items():
+        is_angle = not is_length(name.rpartition(".")[2])
+        scale, suffix = (180 / np.pi, " deg") if is_angle else (1.0, f" {unit}".rstrip())
+        ends = dict.fromkeys(f"{scale * float(values[pose]):.4g}" for pose in (first, last))
+        said.append(f"{name} = {' to '.join(ends)}{suffix}")
+    poses = f"pose {first}" if first == last else f"poses {first} to {last}"
+    return f"{poses} ({_listed(said, ', ')})"
 
 
-def _length(value: float, unit: str) -> str:
-    return f"{value:.4g} {unit}".rstrip()
+def _apart(lost: LostContact, unit: str) -> str:
+    """The faces and how far they are apart at most."""
+    contact = lost.contact
+    faces = " and ".join(f"{part} {face}" for part, face in zip(contact.parts, contact.faces, strict=True))
+    return f"({contact.state}) {faces} up to {lost.gap:.4g} {unit}".rstrip() + " apart"
 
 
-def _listed(texts: Iterable[str]) -> str:
-    texts = list(texts)
-    more = f" and {len(texts) - FACES} more" if len(texts) > FACES else ""
-    return ", ".join(texts[:FACES]) + more
+def _listed(texts: Sequence[str], comma: str) -> str:
+    more = f" and {len(texts) - FEW} more" if len(texts) > FEW else ""
+    return comma.join(texts[:FEW]) + more

@@ -45,8 +45,7 @@ class LostContact:
     loose: Bool[np.ndarray, " poses"]
     """Poses at which this and other contacts of the joint are lost, and those that are left do not make the joint."""
     left: str
-    """The lower pair that they amount to at the first pose of `loose`, or of all that are lost if there is none; empty
-    where they are none."""
+    """The kind of joint that they amount to where the faces are farthest apart; empty where they are no lower pair."""
 
     @property
     def lost(self) -> Bool[np.ndarray, " poses"]:
@@ -137,8 +136,7 @@ def _of_joint(joint: Joint, contacts: Sequence[Contact], moved: Displacements, s
     for k in lost:
         apart = gaps[k] > 0
         mine = apart & loose[which]
-        first = int(np.argmax(mine if mine.any() else apart))
-        result.append(LostContact(joint.name, contacts[k], gaps[k], mine, left[which[first]]))
+        result.append(LostContact(joint.name, contacts[k], gaps[k], mine, left[which[np.argmax(gaps[k])]]))
     return result
 
 
