@@ -67,7 +67,7 @@ def lost_contacts(motion: Motion) -> tuple[LostContact, ...]:
     mechanism = motion.mechanism
     if not mechanism.solids or not mechanism.contacts:
         return ()
-    (closed,) = np.nonzero(np.asarray(motion.closed))
+    (closed,) = np.nonzero(np.asarray(motion.on_branch))
     setting = _Setting(mechanism)
     found: list[LostContact] = []
     for joint, values in zip(mechanism.all_joints, motion.displacements, strict=True):
