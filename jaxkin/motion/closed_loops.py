@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import jax
@@ -31,6 +32,8 @@ class Travel(NamedTuple):
     """Of the coordinates of all joints."""
     starts: tuple[Pose, ...]
     """Displacement of the part at which each loop starts."""
+    places: Mapping[str, Pose]
+    """Displacement of each row of parts from its assembled pose; that at which the first loop starts is at rest."""
 
 
 class ClosedLoops:
@@ -69,13 +72,13 @@ class ClosedLoops:
 
     def closed(self, q: Row) -> tuple[Row, Screws, float]:
         """Newton steps of least norm, damped by the residual: the coordinates, the screws there and what remains."""
-        residual, jacobian, screws, _ = self.travel(q)
+        residual, jacobian, screws, *_ = self.travel(q)
         for _ in range(_ITERATIONS):
             gap = float(np.linalg.norm(residual))
             if gap < 1e-14:
                 break
             q = q - least_norm(jacobian, residual, max(1e-14, 1e-2 * min(1.0, gap**2)))
-            residual, jacobian, screws, _ = self.travel(q)
+            residual, jacobian, screws, *_ = self.travel(q)
             if self.noise.closed > np.linalg.norm(residual) >= gap:
                 break  # rounding
         return q, screws, float(np.linalg.norm(residual))
@@ -109,7 +112,7 @@ class ClosedLoops:
             left = pose @ inverse(start)
             skew = left[:3, :3] - left[:3, :3].T
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        return Travel(residual.ravel(), jacobian.reshape(-1, len(q)), screws, tuple(starts))
+        return Travel(residual.ravel(), jacobian.reshape(-1, len(q)), screws, tuple(starts), places)
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

@@ -50,7 +50,7 @@ def left_free(mechanism: Mechanism, driven: Sequence[Coordinate]) -> tuple[str, 
     return tuple(
         name
         for found, columns in _driven_blocks(mechanism, driven)
-        for name in names(mechanism, found, drivable(found, columns, spinning(mechanism)))
+        for name in names(mechanism, found, drivable(mechanism, found, columns, spinning(mechanism)))
     )
 
 

@@ -14,11 +14,12 @@ from jaxtyping import Float
 
 from jaxkin.joints.subgroups import Subgroup
 from jaxkin.motion.freedoms import LoopFreedoms
+from jaxkin.motion.idle import IdleMotion, IdleMotions
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.spinning import spinning
 from jaxkin.solve.system import EQUATIONS
 from jaxkin.topology.names import listed
-from jaxkin.topology.rates import independent
+from jaxkin.topology.rates import independent, without
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,10 @@ class Mobility:
 
     freedoms: int
     """Independent displacements that all loops allow together."""
-    idle: tuple[str, ...]
-    """Coordinates "joint.coordinate" in which a single part moves within its loops while all others rest."""
+    idle_motions: tuple[IdleMotion, ...]
+    """Passive parts that move about themselves while all others rest, one entry a freedom."""
     redundant: int
     """Closure equations, six a loop, that follow from the others."""
-    idle_freedoms: int
-    """How many of the freedoms are of that kind."""
     spinning: tuple[str, ...]
     """Parts that only spin, such as screws and washers: all that they can do is idle. They are left at rest."""
     spins: int
@@ -46,6 +45,16 @@ class Mobility:
     drivable: tuple[str, ...]
     """Coordinates whose displacements, given together, leave nothing but idle freedoms; one choice of several, joints
     at the fixed parts first."""
+
+    @property
+    def idle_freedoms(self) -> int:
+        """How many of the freedoms are idle."""
+        return len(self.idle_motions)
+
+    @property
+    def idle(self) -> tuple[str, ...]:
+        """Coordinates "joint.coordinate" in which idle motions show: more than there are idle freedoms."""
+        return tuple(dict.fromkeys(name for motion in self.idle_motions for name in motion.coordinates))
 
     @property
     def useful(self) -> int:
@@ -64,7 +73,7 @@ class Mobility:
         return f"{text}, {self.counted_in_subgroups} with those of its subgroup ({', '.join(kinds)})"
 
     def __str__(self) -> str:
-        idle = f", {self.idle_freedoms} of them idle: {listed(self.idle)}" if self.idle else ""
+        idle = f", {self.idle_freedoms} of them idle: {listed(list(map(str, self.idle_motions)))}" if self.idle else ""
         freedoms = f"{self.freedoms} freedom{'' if self.freedoms == 1 else 's'}"
         if self.spinning:
             freedoms += f" ({self.spins} of them of parts that only spin: {listed(self.spinning)})"
@@ -88,16 +97,10 @@ def mobility(mechanism: Mechanism) -> Mobility:
     kinds = tuple(found.subgroup(dict(loop)) for found in blocks for loop in found.block.loops)
     at_ends = sum(joint.freedoms for index, joint in enumerate(mechanism.all_joints) if index not in in_loops)
     coordinates = sum(joint.freedoms for joint in mechanism.all_joints)
-    idle = [found.idle(spins) for found in blocks]
     return Mobility(
         freedoms=at_ends + sum(len(found.motions) for found in blocks),
-        idle=tuple(
-            name
-            for found, motions in zip(blocks, idle, strict=True)
-            for name in names(mechanism, found, moving_columns(found, motions))
-        ),
+        idle_motions=tuple(motion for found in blocks for motion in IdleMotions(mechanism, found, spins).motions),
         redundant=sum(EQUATIONS * len(found.block.loops) - found.rank for found in blocks),
-        idle_freedoms=sum(map(len, idle)),
         spinning=tuple(spins),
         spins=sum(spin.freedoms for spin in spins.values()),
         counted=coordinates - EQUATIONS * len(kinds),
@@ -105,7 +108,7 @@ def mobility(mechanism: Mechanism) -> Mobility:
         subgroups=kinds,
         drivable=(
             *outside,
-            *(name for found in blocks for name in names(mechanism, found, drivable(found, [], spins))),
+            *(name for found in blocks for name in names(mechanism, found, drivable(mechanism, found, [], spins))),
         ),
     )
 
@@ -121,13 +124,24 @@ def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"])
     return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.noise.rate).tolist()
 
 
-def drivable(found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
-    """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin."""
-    idle = moving_columns(found, found.idle())
-    order = [column for column in range(len(found.columns)) if column not in idle]
-    order = [column for column in order if not set(spins) & set(found.ends[found.columns[column][0]])]
-    order.sort(key=lambda column: found.fixed not in found.ends[found.columns[column][0]])
-    return largest(found, order, driven)
+def drivable(mechanism: Mechanism, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
+    """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin.
+
+    Joints at the part that carries the element come first. Columns in which idle motions show are taken only where all
+    others leave something: to give one of them may move nothing but what idles.
+    """
+    idle = IdleMotions(mechanism, found, spins)
+    order = [k for k, (joint, _) in enumerate(found.columns) if not set(spins) & set(found.ends[joint])]
+    order.sort(key=lambda column: idle.carrier.isdisjoint(found.ends[found.columns[column][0]]))
+    showing = set(moving_columns(found, idle.rates))
+    taken = largest(found, [column for column in order if column not in showing], driven)
+    for column in (column for column in order if column in showing):
+        left = without(found.motions, [*driven, *taken], found.noise)
+        beside_idle = np.concatenate([idle.rates, left])[:, order]
+        if np.linalg.matrix_rank(beside_idle, tol=found.noise.rate) == len(idle.rates):
+            break
+        taken += largest(found, [column], [*driven, *taken])
+    return taken
 
 
 def largest(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
