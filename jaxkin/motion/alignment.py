@@ -187,6 +187,8 @@ def _with(mechanism: Mechanism, block: Block, joints: Sequence[Joint]) -> Mechan
 
 def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | None:
     """The largest changes of frames; None where there are none."""
+    if not given:
+        return None
     angles, lengths = np.zeros(len(given)), np.zeros(len(given))
     for number, (one, other) in enumerate(zip(given, found, strict=True)):
         for side in ("before", "after") if one is not other else ():

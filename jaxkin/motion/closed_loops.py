@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import jax
@@ -15,7 +15,12 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.rates import DOUBLE, SINGLE
 from jaxkin.topology.structure import Block
 
-_ITERATIONS = 60
+_ITERATIONS = 200
+"""Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
+_LONGEST_STEP = 0.5
+"""Radians, or characteristic lengths: what a linear model of a rotation is good for."""
+_LEAST_TRUST = 1e12
+"""Damping, over the square of the residual, at which no step lessens the residual: it is the least."""
 
 Row = Float[np.ndarray, " columns"]
 Rows = Float[np.ndarray, " equations"]
@@ -32,6 +37,8 @@ class Travel(NamedTuple):
     """Of the coordinates of all joints."""
     starts: tuple[Pose, ...]
     """Displacement of the part at which each loop starts."""
+    gap: float
+    """Square root of Eq. 12: over all twelve equations of all loops."""
     places: Mapping[str, Pose]
     """Displacement of each row of parts from its assembled pose; that at which the first loop starts is at rest."""
 
@@ -70,18 +77,28 @@ class ClosedLoops:
         """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
         return self.travel(q)[1]
 
-    def closed(self, q: Row) -> tuple[Row, Screws, float]:
-        """Newton steps of least norm, damped by the residual: the coordinates, the screws there and what remains."""
-        residual, jacobian, screws, *_ = self.travel(q)
+    def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
+        """The closed coordinates that damped Newton steps of least norm lead to, and what is met there.
+
+        Steps that do not lessen the residual are refused and damped more (Levenberg-Marquardt), so that loops may begin
+        wide open; where they cannot close, those of least residual are found. Columns that are `held` stay.
+        """
+        found, trust, still = self.travel(q), 1.0, np.isin(np.arange(len(q)), list(held))
         for _ in range(_ITERATIONS):
-            gap = float(np.linalg.norm(residual))
-            if gap < 1e-14:
+            gap = float(np.linalg.norm(found.residual))
+            if gap < 1e-14 or trust > _LEAST_TRUST:
                 break
-            q = q - least_norm(jacobian, residual, max(1e-14, 1e-2 * min(1.0, gap**2)))
-            residual, jacobian, screws, *_ = self.travel(q)
-            if self.noise.closed > np.linalg.norm(residual) >= gap:
+            jacobian = np.where(still, 0.0, found.jacobian)
+            step = least_norm(jacobian, found.residual, max(1e-14, trust * 1e-2 * min(1.0, gap**2)))
+            step *= min(1.0, _LONGEST_STEP / max(float(np.linalg.norm(step)), _LONGEST_STEP))
+            trial = self.travel(q - step)
+            if np.linalg.norm(trial.residual) < gap:
+                q, found, trust = q - step, trial, max(0.3 * trust, 1e-2)
+            elif gap < self.noise.closed:
                 break  # rounding
-        return q, screws, float(np.linalg.norm(residual))
+            else:
+                trust *= 8.0
+        return q, found
 
     def travel(self, q: Row) -> Travel:
         """Travel all loops, from the part at which each starts, with these coordinates."""
@@ -91,6 +108,7 @@ class ClosedLoops:
         }
         places: dict[str, Pose] = {}
         starts: list[Pose] = []
+        square = 0.0
         residual = np.zeros((len(self.block.loops), 6))
         jacobian = np.zeros((len(self.block.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
@@ -111,8 +129,10 @@ class ClosedLoops:
                 places.setdefault(self.ends[joint][1 if sign > 0 else 0], pose)
             left = pose @ inverse(start)
             skew = left[:3, :3] - left[:3, :3].T
+            square += float(((left - np.eye(4)) ** 2).sum())
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        return Travel(residual.ravel(), jacobian.reshape(-1, len(q)), screws, tuple(starts), places)
+        jacobian = jacobian.reshape(-1, len(q))
+        return Travel(residual.ravel(), jacobian, screws, tuple(starts), float(np.sqrt(square)), places)
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from jaxkin.motion.freeing import LISTED, freeing
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.open_loops import opening
 
 
 def describe_mechanism(mechanism: Mechanism) -> str:
@@ -25,14 +26,19 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     ]
     lines += ["", f"Loops: {len(mechanism.structure.loops)}"]
     lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
-    mobility = mechanism.mobility()
-    lines += ["", f"Mobility: {mobility}"]
-    lines += [f"  {mobility.counting}"] if mobility.counting else []
-    if moving and not mobility.useful:
-        lines += _why_it_cannot_move(mechanism)
+    if (gap := opening(mechanism)) is not None:
+        lines += ["", f"Not closed in this pose: {gap}; mechanism.close() closes it"]
+    else:
+        lines += ["", *_mobility(mechanism, moving)]
     if mechanism.notes:
         lines += ["", "Notes:", *(f"  {note}" for note in mechanism.notes)]
     return "\n".join(lines)
+
+
+def _mobility(mechanism: Mechanism, moving: int) -> list[str]:
+    mobility = mechanism.mobility()
+    lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
+    return [*lines, *_why_it_cannot_move(mechanism)] if moving and not mobility.useful else lines
 
 
 def _why_it_cannot_move(mechanism: Mechanism) -> list[str]:

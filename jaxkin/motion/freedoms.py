@@ -16,7 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
-from jaxkin.motion.closed_loops import ClosedLoops, Row, least_norm
+from jaxkin.motion.closed_loops import ClosedLoops, Row, Travel, least_norm
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.rates import loop_jacobian, null_space
 from jaxkin.topology.structure import Block
@@ -46,13 +46,18 @@ class LoopFreedoms:
         """The row of the fixed parts."""
 
     @cached_property
-    def _home(self) -> tuple[Row, Screws]:
-        return self._loops.closed(np.zeros(len(self.columns)))[:2]
+    def _home(self) -> tuple[Row, Travel]:
+        return self._loops.closed(np.zeros(len(self.columns)))
+
+    @property
+    def closes(self) -> bool:
+        """Whether Newton's method closes the loops from the assembled pose: of others nothing is known."""
+        return self._home[1].gap < self.noise.closed
 
     @property
     def assembled(self) -> Screws:
         """Screws of the coordinates in world coordinates, at the assembled pose."""
-        return self._home[1]
+        return self._home[1].screws
 
     @property
     def screws(self) -> Screws:
@@ -67,13 +72,14 @@ class LoopFreedoms:
     @cached_property
     def _generic(self) -> tuple[Row, Screws]:
         """Coordinates and screws at a pose that is not special."""
-        home, screws = self._home
+        home, screws = self._home[0], self.assembled
         jacobian = loop_jacobian(self.block.loops, self.columns, screws)
         generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction in which nothing is special
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
-        there, beside, gap = self._loops.closed(home + _STEP * along)
+        there, found = self._loops.closed(home + _STEP * along)
+        beside = found.screws
         rank = null_space(loop_jacobian(self.block.loops, self.columns, beside), self.noise)[0]
-        is_generic = gap < self.noise.closed and rank >= len(self.columns) - len(self.at_rest)
+        is_generic = found.gap < self.noise.closed and rank >= len(self.columns) - len(self.at_rest)
         return (there, beside) if is_generic else (home, screws)
 
     @cached_property

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from jaxkin.motion.motion import Motion
     from jaxkin.motion.plan import Plan
     from jaxkin.motion.prepared import Prepared
+    from jaxkin.motion.reassembly import Reassembly
     from jaxkin.motion.stream import Stream
 
 
@@ -190,16 +191,32 @@ class Mechanism:
         return with_points(self, points)
 
     def plan(self, drive: Iterable[str]) -> Plan:
-        """What a drive of these coordinates moves, and in which order: see `jaxkin.motion.plan.plan`."""
+        """What a drive of these coordinates moves, and in which order: see `jaxkin.motion.plan.plan`.
+
+        Raises ValueError where the given pose is open.
+        """
         from jaxkin.motion.plan import plan
 
         return plan(self, drive)
 
     def mobility(self) -> Mobility:
-        """Freedoms, idle freedoms and redundant constraints at the assembled pose."""
+        """Freedoms, idle freedoms and redundant constraints at the assembled pose; ValueError where that is open."""
         from jaxkin.motion.mobility import mobility
 
         return mobility(self)
+
+    def close(self) -> Reassembly:
+        """Close the loops without a drive, where the given pose is open, and place the joints anew there.
+
+        Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
+        part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
+        re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
+        where these stand now) and without solids. Where the loops cannot be closed, `closed` is False and `print` says
+        which disagree. Raises ValueError inside `jit`, `vmap` and `grad`.
+        """
+        from jaxkin.motion.reassembly import close
+
+        return close(self)
 
     @cached_property
     def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:

@@ -16,6 +16,7 @@ from jaxkin.joints.subgroups import Subgroup
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.idle import IdleMotion, IdleMotions
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.open_loops import check_closed
 from jaxkin.motion.spinning import spinning
 from jaxkin.solve.system import EQUATIONS
 from jaxkin.topology.names import listed
@@ -83,8 +84,10 @@ class Mobility:
 def mobility(mechanism: Mechanism) -> Mobility:
     """Freedoms from the rank of the closure Jacobian: the larger rank of the assembled pose and a closed one beside it.
 
-    At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained.
+    At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained. ValueError where the
+    given pose is open: see `Mechanism.close`.
     """
+    check_closed(mechanism, "mobility", "mobility()")
     blocks = mechanism.loop_freedoms
     spins = spinning(mechanism)
     in_loops = {joint for block in mechanism.structure.blocks for joint in block.joints}

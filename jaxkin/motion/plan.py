@@ -11,6 +11,7 @@ from jaxkin.motion.drive import coordinate
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.mobility import names
+from jaxkin.motion.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
 from jaxkin.topology.names import listed
@@ -79,13 +80,14 @@ class Plan:
 def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
     """The plan of a drive by the names of coordinates, as in `sweep`; a drive with its values will do as well.
 
-    Raises ValueError for names that are not there, and for none.
+    Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
     """
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
     driven = list(dict.fromkeys(coordinate(mechanism, key) for key in drive))
     if not driven:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
+    check_closed(mechanism, "the plan of a drive", f"plan({[str(key) for key in drive]})")
     structure, joints = mechanism.structure, mechanism.all_joints
     moved = moving(structure, {joints[joint].name for joint, _ in driven})
     steps: list[Step] = []
