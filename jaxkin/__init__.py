@@ -26,6 +26,7 @@ from jaxkin.joints.pairs import screw as screw
 from jaxkin.joints.pairs import spherical as spherical
 from jaxkin.joints.pairs import universal as universal
 from jaxkin.motion.assembly import Assembly as Assembly
+from jaxkin.motion.lost_contacts import LostContact as LostContact
 from jaxkin.motion.mechanism import Mechanism as Mechanism
 from jaxkin.motion.motion import Motion as Motion
 from jaxkin.solve.status import Status as Status

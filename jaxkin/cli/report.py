@@ -70,10 +70,10 @@ def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers:
 
 
 def print_motion(motion: Motion) -> None:
-    """What became of the poses, and the range that each joint coordinate runs through in the closed ones."""
+    """What became of the poses, and the range that each joint coordinate runs through in those on the branch."""
     say(str(motion))
     say()
-    closed = np.asarray(motion.closed)
+    closed = np.asarray(motion.on_branch)
     rows = []
     for name, joint in motion.mechanism.joints.items():
         for column, coordinate in enumerate(joint.coordinates):

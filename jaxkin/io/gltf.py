@@ -60,7 +60,7 @@ def write_animation(motion: Motion, path: Path) -> None:
     tree |= {"nodes": nodes, "scenes": [{"nodes": [0]}], "materials": [_material(part) for part in parts]}
     tree["asset"] = {"version": "2.0", "generator": "jaxkin with trimesh"}
 
-    poses = keyframes(np.asarray(motion.closed))
+    poses = keyframes(np.asarray(motion.on_branch))
     moving = [index for index, part in enumerate(parts) if part.name not in mechanism.fixed]
     if len(poses) and moving:
         clock = _append(tree, data, np.linspace(0.0, DURATION, len(poses))[:, None])

@@ -11,6 +11,7 @@ from typing import BinaryIO
 import numpy as np
 
 from jaxkin.io.tables import poses_of, words_of
+from jaxkin.motion.lost_contacts import LostContact, joined
 from jaxkin.motion.motion import largest_residuals, tally
 from jaxkin.motion.stream import Stream
 from jaxkin.motion.writers import whole
@@ -24,6 +25,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
     its arrays twice.
     """
     counts, largest = np.zeros(len(Status), int), np.zeros(len(Status))
+    lost: list[tuple[tuple[LostContact, ...], int]] = []
     with whole(path) as draft:
         columns: dict[str, Path] = {}
         with ExitStack() as stack:
@@ -43,6 +45,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
                     files[name].write(rows.tobytes())
                 counts += np.bincount(np.asarray(motion.status), minlength=len(Status))
                 largest = np.maximum(largest, largest_residuals(motion))
+                lost.append((motion.lost_contacts, len(motion)))
                 step()
         with zipfile.ZipFile(draft, "w") as archive:
             for name, file in columns.items():
@@ -51,4 +54,4 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
             for name, words in words_of(stream.mechanism).items():
                 with archive.open(f"{name}.npy", "w") as file:
                     np.lib.format.write_array(file, words)
-    return tally(stream.mechanism, stream.inputs, counts, largest)
+    return tally(stream.mechanism, stream.inputs, counts, largest, joined(lost))

@@ -52,6 +52,12 @@ def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, V
     """
     from jaxkin.motion.drive import resolve
 
+    for key, given in ranges.items():
+        wrong = np.flatnonzero(~np.isfinite(given.values))
+        if len(wrong):
+            raise ValueError(
+                f"drive {key!r}: pose {wrong[0]} is {given.values[wrong[0]]}; all displacements must be finite numbers"
+            )
     names = resolve(mechanism, {name: given.values for name, given in ranges.items()})
     return {
         name: given.values * _factor(key, name, given.unit, mechanism.unit)

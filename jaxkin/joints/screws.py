@@ -12,6 +12,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, rotation
+from jaxkin.joints.joint import Joint
 
 Frames = Float[np.ndarray, "frames 4 4"]
 Screws = Float[np.ndarray, "6 freedoms"]
@@ -49,6 +50,33 @@ def chain(
         pose = pose @ inverse(leave)
         first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
+
+
+def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
+    """The displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses at once."""
+    found, first = np.eye(4)[:3, :, None], 0
+    for movement, before, after in zip(joint.movements, joint.before, joint.after, strict=True):
+        found = np.einsum("ikn,kj->ijn", found, np.asarray(before, float))
+        for element in MOVEMENTS[movement].elements:
+            value = q[:, first + element.coordinate]
+            columns = [found[:, column] for column in range(4)]
+            i, j, k = (np.arange(3) + element.axis) % 3
+            if element.kind != "rotate":
+                advance = 1.0 if element.kind == "translate" else float(joint.pitch) / (2 * np.pi)
+                columns[3] = columns[3] + advance * value * columns[i]
+            if element.kind != "translate":
+                cos, sin = np.cos(value), np.sin(value)
+                columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+            found = np.stack(np.broadcast_arrays(*columns), axis=1)
+        found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(after, float)))
+        first += len(MOVEMENTS[movement].coordinates)
+    return np.broadcast_to(found, (3, 4, len(q)))
+
+
+def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 poses"]:
+    """The displacements back: R^T, and -R^T t for the origin."""
+    turned = poses[:, :3].swapaxes(0, 1)
+    return np.concatenate([turned, -np.einsum("ijn,jn->in", turned, poses[:, 3])[:, None]], axis=1)
 
 
 def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:

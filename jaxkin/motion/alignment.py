@@ -60,7 +60,7 @@ class Correction:
         return " and ".join(sizes)
 
 
-def noise_of(align: object) -> float:
+def asked_noise(align: object) -> float:
     """The noise that the option `align` asks for; ValueError where it is no such number."""
     if align is None:
         return SIX_DIGITS

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import jax.numpy as jnp
 import numpy as np
-from jax import dtypes
-from jaxtyping import Array, Float
+from jax import dtypes, lax
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.traced import traced
@@ -31,7 +31,7 @@ def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driv
     """The driven coordinates by their full names "joint.coordinate", in the order given.
 
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
-    numbers that are not finite, and a ball of which only some angles are driven.
+    and a ball of which only some angles are driven. NaN and infinity are the status of their poses.
     """
     driven = coordinates(mechanism, named(drive))
     given = given_values(driven, drive)
@@ -66,6 +66,26 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
         listed = ", ".join(f"{name!r}: {length}" for name, length in zip(names, lengths, strict=True))
         raise ValueError(f"driven arrays must have equal length, one value a pose, got {listed}")
     return given
+
+
+def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"]]:
+    """The displacements with each pose that holds NaN or infinity replaced by the finite one before it, and where that
+    was not so; at the beginning by the first finite pose, zero where there is none.
+
+    So the poses between which the motion is followed are those that there would be without the ones replaced.
+    """
+    xp = jnp if traced(given) else np
+    finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
+    if not len(finite) or (xp is np and finite.all()):
+        return given, finite
+    numbers = xp.where(finite, xp.arange(len(finite)), -1)
+    last = xp.maximum.accumulate(numbers)
+    source = xp.where(last < 0, xp.argmax(finite), last)
+    found = []
+    for values in given:
+        before = lax.stop_gradient(values)[source] if xp is jnp else values[source]
+        found.append(xp.where(finite, values, xp.where(xp.isfinite(before), before, 0.0)))
+    return tuple(found), finite
 
 
 def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
@@ -112,11 +132,6 @@ def _values(key: str, values: Any) -> Given:
         raise ValueError(
             f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "
             f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
-        )
-    if isinstance(values, np.ndarray) and not np.isfinite(values).all():
-        first = int(np.flatnonzero(~np.isfinite(values))[0])
-        raise ValueError(
-            f"drive {key!r}: pose {first} is {float(values[first])}; all displacements must be finite numbers"
         )
     return values
 

@@ -9,11 +9,12 @@ import numpy as np
 
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.doubt import doubt
+from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
-from jaxkin.motion.alignment import aligned, noise_of
+from jaxkin.motion.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.spinning import left_at_rest
@@ -56,8 +57,8 @@ def mechanism_from_solids(
     by_hand = {_pair(given.parts, body): given.name for given in joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    noise = _noise(assembly, moving)
-    most = max(noise_of(None), noise.angle) if align is None else noise_of(align)
+    noise = noise_of(assembly.parts, moving)
+    most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
     found = joints_from_contacts(kept, names, combine, noise, body, joints)
     every = (*found.joints, *ties)
     described = [(each.name, *each.parts) for each in every]
@@ -72,9 +73,9 @@ def mechanism_from_solids(
     return aligned(left_at_rest(mechanism) if combine else mechanism, most)
 
 
-def _noise(assembly: Assembly, contacts: Sequence[Contact]) -> Noise:
+def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
     """The noise of single precision; more where surfaces were fitted to few corners that are near to each other."""
-    faces = {(part.name, face.name): (face, part.grain) for part in assembly.parts if part.grain for face in part.faces}
+    faces = {(part.name, face.name): (face, part.grain) for part in parts if part.grain for face in part.faces}
     touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))
     doubts = [doubt(*faces[key]) for key in touching if key in faces]
     return Noise.of(contacts).with_doubt(*np.max(doubts, axis=0, initial=0.0)) if doubts else Noise.of(contacts)

@@ -66,9 +66,9 @@ class Mechanism:
         Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
         such number.
         """
-        from jaxkin.motion.alignment import aligned, noise_of
+        from jaxkin.motion.alignment import aligned, asked_noise
 
-        noise = noise_of(align)
+        noise = asked_noise(align)
         if (wrong := _no_joint(joints)) is not None:
             raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))

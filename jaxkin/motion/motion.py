@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import jax
 import jax.numpy as jnp
@@ -25,6 +26,9 @@ from jaxkin.motion.named import Named
 from jaxkin.solve.status import Status
 from jaxkin.topology.names import listed, nearest
 from jaxkin.topology.structure import Structure
+
+if TYPE_CHECKING:
+    from jaxkin.motion.lost_contacts import LostContact
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,11 @@ class Motion:
         """Which poses are closed on the branch of the assembled pose."""
         return self.status == Status.CLOSED.value
 
+    @property
+    def on_branch(self) -> Bool[Array, " poses"]:
+        """Which poses are on the branch of the assembled pose: closed, or as nearly closed as the joints agree."""
+        return self.closed | (self.status == Status.MISFIT.value)
+
     @cached_property
     def sigma_min(self) -> Float[Array, " poses"]:
         """How near to singular each pose is: the smallest singular value of the closure Jacobian not always zero.
@@ -75,6 +84,19 @@ class Motion:
         """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
         return Named("part", zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
 
+    @cached_property
+    def lost_contacts(self) -> tuple[LostContact, ...]:
+        """The contacts of the solids whose faces are apart at some poses: found when it is asked for.
+
+        A joint is read from faces that touch in the assembled pose, and stays what it is beyond their ends; the poses
+        there are CLOSED. `loose` of a lost contact are the poses at which the contacts that are left do not make its
+        joint. `print(motion)` tells them, and the pictures mark them. From the extents of the faces alone: what is told
+        is surely lost. Empty for mechanisms without solids and for joints by hand.
+        """
+        from jaxkin.motion.lost_contacts import lost_contacts
+
+        return lost_contacts(self)
+
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
         if part not in self.transforms:
@@ -88,7 +110,7 @@ class Motion:
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        return tally(self.mechanism, self.inputs, counts, largest_residuals(self))
+        return tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts)
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
@@ -110,11 +132,14 @@ def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
 
 def tally(
     mechanism: Mechanism,
-    inputs: Collection[str],
+    inputs: Mapping[str, np.ndarray | Array],
     counts: Int[np.ndarray, " status"],
     largest: Float[np.ndarray, " status"],
+    lost: Sequence[LostContact],
 ) -> str:
-    """What became of poses, in words: how many of each status, and the largest residual of those that are closed."""
+    """What became of poses, in words: how many of each status, the largest residual of closed ones, faces left."""
+    from jaxkin.motion.lost_contact_report import lost_contact_report
+
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
     for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
@@ -122,6 +147,7 @@ def tally(
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
     if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
+    lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
     return "\n".join(lines)
 
 

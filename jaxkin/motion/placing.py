@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.alignment import aligned, noise_of
+from jaxkin.motion.alignment import aligned, asked_noise
 from jaxkin.motion.forms import with_joints
 from jaxkin.topology.names import by_name, nearest
 
@@ -23,7 +23,7 @@ Place = str | tuple[str, str]
 
 def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | int | None) -> Mechanism:
     """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
-    noise = noise_of(align)
+    noise = asked_noise(align)
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():
         mechanism = _placed(mechanism, place, _pose(place, pose), lambda _, new: new)
     return aligned(mechanism, noise)

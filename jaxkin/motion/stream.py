@@ -19,10 +19,10 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.geometry.motions import is_length
 from jaxkin.geometry.traced import traced
 from jaxkin.geometry.trig import TURN
-from jaxkin.motion.drive import named, resolve
+from jaxkin.motion.drive import named, resolve, without_gaps
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion, placed
-from jaxkin.motion.sweep import sweep
+from jaxkin.motion.sweep import spoilt, sweep
 from jaxkin.solve.status import Status
 
 WAY, SPACING = 128, 0.1
@@ -52,7 +52,10 @@ class Stream:
             raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
         self.mechanism = mechanism
         self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism, drive).items()}
-        """Driven displacements by "joint.coordinate", of all poses."""
+        """Driven displacements by "joint.coordinate", of all poses, as they were given."""
+        followed, self._finite = without_gaps(tuple(self.inputs.values()))
+        self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))
+        """The same as the motion is followed: without NaN and infinity."""
         self.poses = len(next(iter(self.inputs.values())))
         self.chunk = min(chunk, max(self.poses, 1))
         self._sweep = partial(sweep, mechanism, tolerance=tolerance, method=method)
@@ -72,7 +75,7 @@ class Stream:
             for lead in self._leads(first):
                 leading = lead.shape[1]
                 which = np.minimum(np.arange(first, first + self.chunk), self.poses - 1)
-                rows = (np.concatenate([to, of[which]]) for to, of in zip(lead, self.inputs.values(), strict=True))
+                rows = (np.concatenate([to, of[which]]) for to, of in zip(lead, self._followed.values(), strict=True))
                 motion = self._sweep(dict(zip(self.inputs, rows, strict=True)))
                 met = _row(motion, leading - 1)
                 same = last is None or not last.closed or self._same(last, met)
@@ -83,16 +86,26 @@ class Stream:
             arrays = motion.inputs, motion.displacements, motion.status, motion.residual
             motion = Motion(self.mechanism, *_cut(arrays, self._turns(last, met), jnp.asarray(kept), leading, count))
             last = _row(motion, count - 1)
-            yield motion
+            yield self._as_given(motion, first)
+
+    def _as_given(self, motion: Motion, first: int) -> Motion:
+        """The motion of a chunk, NONFINITE where its inputs are not finite."""
+        chunk = slice(first, first + len(motion))
+        if (finite := self._finite[chunk]).all():
+            return motion
+        displacements, residual = spoilt((motion.displacements, motion.residual), finite)
+        status = jnp.where(finite, motion.status, Status.NONFINITE.value)
+        inputs = {name: jnp.asarray(values[chunk]) for name, values in self.inputs.items()}
+        return Motion(self.mechanism, inputs, displacements, status, residual)
 
     def _leads(self, first: int) -> Iterator[Float[np.ndarray, "driven leading"]]:
         """Inputs that lead to the pose before the chunk that begins there, that included: what to try in turn."""
         before = max(first - 1, 0)
-        end = np.stack([values[before] for values in self.inputs.values()])[:, None]
+        end = np.stack([values[before] for values in self._followed.values()])[:, None]
         if len(self.inputs) == 1:
             yield end
             return
-        step = end - np.stack([values[max(before - 1, 0)] for values in self.inputs.values()])[:, None]
+        step = end - np.stack([values[max(before - 1, 0)] for values in self._followed.values()])[:, None]
         far, near = np.max(np.abs(end) / self._scales), np.max(np.abs(step) / self._scales)
         turning = end - 0.5 * (far / near * step if near > 0 else end)
         t = np.linspace(0.0, 1.0, WAY)
@@ -104,7 +117,7 @@ class Stream:
                 leading *= 4
             which = np.minimum(np.searchsorted(gone, np.linspace(0.0, gone[-1], leading)), before)
             which[-1] = before
-            yield np.stack([values[which] for values in self.inputs.values()])
+            yield np.stack([values[which] for values in self._followed.values()])
 
     @cached_property
     def _scales(self) -> Float[np.ndarray, "driven 1"]:
@@ -116,7 +129,7 @@ class Stream:
     def _distance(self) -> Float[np.ndarray, " poses"]:
         """Of each pose from the first, along all poses between them."""
         step = np.zeros(self.poses)
-        for values, scale in zip(self.inputs.values(), self._scales, strict=True):
+        for values, scale in zip(self._followed.values(), self._scales, strict=True):
             np.maximum(step[1:], np.abs(np.diff(values)) / scale, out=step[1:])
         return np.cumsum(step)
 

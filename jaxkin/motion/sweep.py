@@ -11,10 +11,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes, lax
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.traced import traced
-from jaxkin.motion.drive import Given, given_values, named
+from jaxkin.motion.drive import Given, given_values, named, without_gaps
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from jaxkin.motion.prepared import Element, prepare
@@ -49,8 +49,9 @@ def sweep(
     for comparison, none is as fast or watches the branch. `jk.work_precision` shows what either costs.
 
     Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`, it is never
-    an exception. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that the
-    loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
+    an exception; one whose displacements are NaN or infinite is NONFINITE and NaN itself, and all others are what they
+    would be without it. Raises ValueError for a drive that makes no sense (see `jaxkin.motion.drive.resolve`), or that
+    the loops have no freedoms for (see `jaxkin.motion.dead_ends.dead_end`; not where the geometry is traced).
     """
     prepared = prepare(mechanism, named(drive))
     values = given_values(prepared.driven, drive)
@@ -61,14 +62,15 @@ def sweep(
         raise ValueError(f"there is no method {method!r} among {', '.join(METHODS)}{closest(method, METHODS)}")
     _warn_of_float32()
     elements = prepared.elements if values[0].shape[0] else ()
+    followed, finite = without_gaps(values)
     solutions = [
-        solve(element.system, method, element.joints, _padded([values[i] for i in element.inputs]), asked)
+        solve(element.system, method, element.joints, _padded([followed[i] for i in element.inputs]), asked)
         for element in elements
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
     layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), columns)
-    inputs, moved, resting, *found = _collect(layout, values, solutions)
+    inputs, moved, resting, *found = _collect(layout, values, finite, solutions)
     displacements = tuple(
         moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(prepared.freedoms)
     )
@@ -125,6 +127,7 @@ class Layout(NamedTuple):
 def _collect(
     layout: Layout,
     values: tuple[Given, ...],
+    finite: Bool[Array | np.ndarray, " poses"],
     solutions: list[Solution],
 ) -> tuple[
     tuple[Float[Array, " poses"], ...],
@@ -135,7 +138,8 @@ def _collect(
 ]:
     """The inputs, displacements, status and closure residual, of which the worst structure element's.
 
-    Displacements by number of the joint; of those that nothing moves one array for all of as many freedoms.
+    Displacements by number of the joint; of those that nothing moves one array for all of as many freedoms. All are NaN
+    where an input is not `finite`.
     """
     poses, dtype = values[0].shape[0], values[0].dtype
     resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
@@ -143,7 +147,6 @@ def _collect(
     for (joint, coordinate), given in zip(layout.driven, values, strict=True):
         moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
-    finite = jnp.all(jnp.stack([jnp.isfinite(given) for given in values]), axis=0)
     worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
     square = jnp.zeros(poses, dtype)
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
@@ -155,7 +158,13 @@ def _collect(
         square = square + found.gap[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
     resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
-    return tuple(map(jnp.asarray, values)), moved, resting, status, jnp.sqrt(square)
+    moved, resting, residual = spoilt((moved, resting, jnp.sqrt(square)), finite)
+    return tuple(map(jnp.asarray, values)), moved, resting, status, residual
+
+
+def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"]):
+    """Arrays with a row a pose, NaN where the pose is not `finite`."""
+    return jax.tree.map(lambda array: jnp.where(finite.reshape(-1, *[1] * (array.ndim - 1)), array, jnp.nan), rows)
 
 
 def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:

@@ -55,7 +55,7 @@ def find_poses(
     begin: Int[Array, ""] | None = None,
     patient: Bool[Array, ""] | bool = True,
 ) -> Poses:
-    """The poses for the given inputs, in the order of `system.driven`, radians and lengths of the mechanism.
+    """The poses for the given finite inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
     `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`; or those of the
     whole range, of which the piece that begins with this number is asked for. Who is not patient may find poses STALLED
@@ -112,14 +112,13 @@ def _search(
     begin: Int[Array, ""] | None,
     patient: Bool[Array, ""] | bool,
 ) -> Poses:
-    """The same in lengths over the characteristic length; NONFINITE where an input is."""
-    finite = jnp.all(jnp.isfinite(inputs), axis=0)
-    whole = jnp.where(finite, inputs, 0.0)  # one NaN would keep every other pose waiting
-    inputs, finite = (piece(array, share, begin) for array in (whole, finite))
+    """The same in lengths over the characteristic length."""
+    whole, inputs = inputs, piece(inputs, share, begin)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
         gap = closure(system, geometry, state).gap
-        poses = Poses(state, classify(gap, finite, finite, tolerance.closed), gap)
+        yes = jnp.ones_like(gap, bool)
+        poses = Poses(state, classify(gap, yes, yes, tolerance.closed), gap)
     elif method != CONTINUATION:
         state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
         poses = Poses(state, status, gap)
@@ -129,7 +128,7 @@ def _search(
         poses = _of_several_inputs(system, geometry, whole, tolerance, share, begin, patient)
     else:
         poses = Poses(*reach(system, geometry, inputs))
-    return poses._replace(status=jnp.where(finite, poses.status, Status.NONFINITE.value).astype(jnp.int32))
+    return poses._replace(status=poses.status.astype(jnp.int32))
 
 
 def _of_one_input(

@@ -48,14 +48,16 @@ def title(inputs: tuple[Input, ...], pose: int) -> str:
 
 
 def headline(motion: Motion) -> tuple[str, str]:
-    """What drives the motion over which range, and how many of its poses could be closed."""
+    """What drives the motion over which range, and how many of its poses were not closed or lost contact."""
     drives = _some([f"{entry.name}, {_range(entry)}" for entry in inputs(motion)], "; ")
-    status = np.asarray(motion.status)[~np.asarray(motion.closed)]
+    status = np.asarray(motion.status)[~np.asarray(motion.on_branch)]
     facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]
     if len(status):
         codes, numbers = np.unique(status, return_counts=True)
         causes = (f"{number} {Status(code).name.lower()}" for code, number in zip(codes, numbers, strict=True))
         facts.append(f"not drawn: {', '.join(causes)}")
+    if lost := np.sum(np.any([each.loose for each in motion.lost_contacts], axis=0)):
+        facts.append(f"contact lost at {lost}")
     facts.append(f"lengths in {motion.mechanism.unit or 'the unit of the input'}")
     return f"Motion driven by {drives}", "  ·  ".join(facts)
 

@@ -6,8 +6,10 @@ function show(newPose) {
   pose = newPose;
   $("slider").value = pose;
   $("value").textContent = motion.labels[pose];
-  $("problem").hidden = motion.problems[pose] === "";
-  $("problem").textContent = motion.problems[pose];
+  const said = motion.problems[pose] || motion.lost[pose];
+  $("problem").hidden = said === "";
+  $("problem").textContent = said;
+  $("problem").className = motion.problems[pose] ? "card" : "card lost";
   redraw();
 }
 
@@ -106,7 +108,7 @@ function start() {
   $("play").disabled = closed.length < 2;
   $("face").hidden = !motion.planar;
   $("slider").style.background = `linear-gradient(to right, ${motion.problems.map((problem, i) =>
-    `var(${problem ? "--failed" : "--line"}) ${stop(i - 0.5)} ${stop(i + 0.5)}`)})`;
+    `var(${problem ? "--failed" : motion.lost[i] ? "--lost" : "--line"}) ${stop(i - 0.5)} ${stop(i + 0.5)}`)})`;
   if (!gl) {
     $("problem").hidden = false;
     $("problem").textContent = "This browser does not offer WebGL 2, which the animation is drawn with.";

@@ -15,6 +15,7 @@ from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.solve.status import Status
 from jaxkin.view.labels import headline, inputs, named
+from jaxkin.view.lost_marks import told
 from jaxkin.view.mesh import shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
 
@@ -28,7 +29,8 @@ def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None =
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
-    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn.
+    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn;
+    at poses where joints leave their faces, these are told and marked.
 
     Raises ValueError for an unknown part and for points that are not such.
     """
@@ -59,6 +61,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
         "subtitle": second,
         "labels": [named(entries, int(pose)) for pose in shown],
         "problems": [_problem(Status(int(status[pose]))) for pose in shown],
+        "lost": [told(scene.lost, int(pose)) for pose in shown],
         "cyclic": scene.cyclic,
         "planar": scene.view.planar,
         "centre": centre.tolist(),
@@ -72,6 +75,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
             {"part": trace.part, "color": colors[trace.part], "points": _base64((trace.path[shown] - centre) / scale)}
             for trace in scene.traces
         ],
+        "marks": [[_base64((end[shown] - centre) / scale) for end in mark.ends] for mark in scene.lost],
     }
 
 

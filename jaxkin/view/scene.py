@@ -13,6 +13,7 @@ from jaxkin.geometry.pose import Points
 from jaxkin.motion.drawing import drawn_parts
 from jaxkin.motion.motion import Motion
 from jaxkin.view.camera import Displacements, View, choose_view, move
+from jaxkin.view.lost_marks import LostMark, lost_marks
 from jaxkin.view.traces import default_marks, given_marks
 
 PROBES = 60  # poses that the view and the points are chosen from
@@ -44,6 +45,7 @@ class Scene:
     """Whether the last closed pose is the first again."""
     view: View
     traces: tuple[Trace, ...]
+    lost: tuple[LostMark, ...]
     bounds: Float[np.ndarray, "2 3"]
     """Lowest and highest coordinates in the view, to the right, up and towards the viewer, of all that is drawn."""
 
@@ -65,16 +67,17 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
     if len(motion.inputs) == 1:
         (values,) = motion.inputs.values()
         order = np.argsort(np.asarray(values), kind="stable")
-    closed = order[np.asarray(motion.closed)[order]]
+    closed = order[np.asarray(motion.on_branch)[order]]
     probes = closed[np.unique(np.linspace(0, len(closed) - 1, PROBES).astype(int))] if len(closed) else closed
     sample = {name: poses[probes] if len(probes) else np.eye(4)[None] for name, poses in displacements.items()}
     view = choose_view(parts, mechanism.fixed, sample)
     size = float(np.linalg.norm(np.ptp(np.concatenate([part.box for part in parts]), axis=0)))
     marks = default_marks(mechanism, parts, view, sample) if points is None else given_marks(points, mechanism.parts)
-    kept = np.asarray(motion.closed)[:, None]
+    kept = np.asarray(motion.on_branch)[:, None]
     traces = tuple(Trace(part, np.where(kept, move(displacements, part, point), np.nan)) for part, point in marks)
     bounds = _bounds(parts, sample, view, traces)
-    return Scene(parts, fixed, displacements, order, closed, _returns(parts, sample, size), view, traces, bounds)
+    lost = lost_marks(motion.lost_contacts, displacements)
+    return Scene(parts, fixed, displacements, order, closed, _returns(parts, sample, size), view, traces, lost, bounds)
 
 
 def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> bool:

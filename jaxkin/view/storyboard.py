@@ -12,6 +12,7 @@ from jaxkin.motion.motion import Motion
 from jaxkin.motion.writers import register
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title
+from jaxkin.view.lost_marks import WARNING, told
 from jaxkin.view.scene import Scene, make_scene
 from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Sheet, clip, draw_legend, draw_scale, make_sheet
 
@@ -26,6 +27,16 @@ WIDTHS = {1: 1000, 2: 760, 3: 544}
 AIR = 0.03  # around the mechanism, over the larger side of what it sweeps
 LONGEST = 40  # letters of a name in the legend
 FIXED = (0.90, 0.905, 0.915)
+LOST = {
+    "color": WARNING,
+    "linewidth": 1.6,
+    "linestyle": (0, (1.2, 1.2)),
+    "marker": "o",
+    "markersize": 11,
+    "markerfacecolor": "none",
+    "markeredgewidth": 2.0,
+}
+"""Rings where the faces of a lost contact were on each other, one on either part, and a dotted line between them."""
 
 
 @register("motion.png")
@@ -58,11 +69,19 @@ def storyboard(
 
 
 def _choose(scene: Scene) -> list[int]:
-    """Up to PANELS closed poses, evenly over the range; of a motion that returns to its start the end is left out."""
+    """Up to PANELS closed poses, evenly over the range; of a motion that returns to its start the end is left out.
+
+    If contacts are lost between them only, the nearest of them makes room for the middle of the poses where they are.
+    """
     count = len(scene.closed)
     if count <= PANELS:
         return scene.closed.tolist()
-    return scene.closed[np.rint(np.linspace(0, count - 1, PANELS + scene.cyclic)[:PANELS]).astype(int)].tolist()
+    places = np.rint(np.linspace(0, count - 1, PANELS + scene.cyclic)[:PANELS]).astype(int)
+    lost = np.flatnonzero(np.any([mark.shown[scene.closed] for mark in scene.lost], axis=0))
+    if len(lost) and not np.isin(places, lost).any():
+        middle = lost[len(lost) // 2]
+        places[np.argmin(np.abs(places - middle))] = middle
+    return scene.closed[places].tolist()
 
 
 def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> list[int]:
@@ -100,12 +119,17 @@ def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[
     for index, pose in enumerate(shown or [None]):
         left, top = sheet.place(index)
         caption, color = ("the assembled pose", GREY) if pose is None else (title(entries, pose), INK)
-        sheet.write((left, top + 14), clip(caption, canvas.width // 13), 10, color, weight="bold")
+        warning = "" if pose is None else told(scene.lost, pose)
+        caption = clip(caption, canvas.width // (26 if warning else 13))
+        sheet.write((left, top + 14), caption, 10, color, weight="bold")
+        warning = clip(warning, (canvas.width - 13 * len(caption)) // 12)
+        sheet.write((left + canvas.width, top + 14), warning, 9, WARNING, weight="bold", ha="right")
         moving = draw(canvas, [], []) if pose is None else _layer(scene, canvas, False, pose)
         image = compose(fixed, moving, ghost)
         sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - canvas.height)  # pixel on pixel
         if pose is not None:
             _paths(sheet, left, top + CAPTION, scene, pose)
+            _lost(sheet, left, top + CAPTION, scene, pose)
 
 
 def _paths(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
@@ -117,6 +141,15 @@ def _paths(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
         sheet.axes.plot(x[scene.order], y[scene.order], color="white", linewidth=2.6, alpha=0.75, zorder=3)
         sheet.axes.plot(x[scene.order], y[scene.order], color=color, linewidth=1.1, zorder=4)
         sheet.axes.plot(x[pose], y[pose], "o", color=color, markersize=5, markeredgecolor="white", zorder=5)
+
+
+def _lost(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
+    """Where the faces that a joint has left were on each other, on either part, over a panel."""
+    for mark in scene.lost:
+        if mark.shown[pose]:
+            x, y = sheet.canvas.pixels(mark.ends[:, pose])[:, :2].T + np.array([[left], [top]])
+            sheet.axes.plot(x, y, zorder=6, **LOST | {"color": "white", "linewidth": 4.0, "markeredgewidth": 4.0})
+            sheet.axes.plot(x, y, zorder=7, **LOST)
 
 
 def _legend(scene: Scene) -> list[tuple[Artist, str]]:
@@ -135,4 +168,7 @@ def _legend(scene: Scene) -> list[tuple[Artist, str]]:
     if scene.traces:
         style = {"color": GREY, "linewidth": 1.1, "marker": "o", "markersize": 5, "markeredgecolor": "white"}
         entries.append((Line2D([], [], **style), "path of a point"))
+    if scene.lost:
+        names = clip(", ".join(mark.joint for mark in scene.lost), LONGEST)
+        entries.append((Line2D([], [], **LOST), f"where the faces of a lost contact touched: {names}"))
     return [*entries, (Line2D([], [], color=INK, alpha=0.3, linewidth=1.0), "assembled pose")]

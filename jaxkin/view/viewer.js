@@ -126,7 +126,8 @@ const LINES = [`
   }`];
 
 // ---- drawing ----
-let faces, lines, parts, paths, dot, waiting = false;
+const WARNING = [0.80, 0.07, 0.12, 1];
+let faces, lines, parts, paths, marks, dot, waiting = false;
 
 function prepare() {
   [faces, lines] = [program(...FACES), program(...LINES)];
@@ -139,6 +140,7 @@ function prepare() {
     const points = decode(path.points, Float32Array);
     return { ...path, points, lines: loadLines(links(points)) };
   });
+  marks = motion.marks.map(ends => ends.map(points => decode(points, Float32Array)));
 }
 
 function model(part) {  // twelve numbers a pose, row by row; none for a part that never moves
@@ -185,6 +187,7 @@ function draw() {
   gl.depthMask(false);
   for (const part of visible) drawLines(part.edges, model(part), [0.05, 0.06, 0.08, 0.8], 1.1);
   if (showPaths) drawPaths(dark, paper);
+  drawMarks(paper);
   gl.depthMask(true);
 }
 
@@ -205,6 +208,19 @@ function drawPaths(dark, paper) {
     const there = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...point, 1];
     drawLines(dot, there, [...paper.slice(0, 3), 1], 11);
     drawLines(dot, there, [...shade(path.color), 1], 7);
+  }
+}
+
+function drawMarks(paper) {  // where the faces of a lost contact were on each other: a ring on either part
+  gl.disable(gl.DEPTH_TEST);
+  for (const points of marks.flat()) {
+    const point = points.subarray(3 * pose, 3 * pose + 3);
+    if (!point.every(Number.isFinite)) continue;
+    const there = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, ...point, 1];
+    drawLines(dot, there, [...paper.slice(0, 3), 1], 20);
+    drawLines(dot, there, WARNING, 17);
+    drawLines(dot, there, [...paper.slice(0, 3), 1], 11);
+    drawLines(dot, there, WARNING, 6);
   }
 }
 

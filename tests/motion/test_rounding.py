@@ -17,22 +17,10 @@ from jaxkin.motion.motion import Motion
 from jaxkin.solve.status import Status, tolerance
 from reference import mechanisms, overconstrained
 from reference.rounding import EVERY, placed, rounded, schmidt_coupling, spherical_wrist, tilted
+from reference.rounding import tilted_fourbar as fourbar
 
 Array = np.ndarray
 TURN = np.linspace(0.0, 2 * np.pi, 50)
-
-
-def fourbar(tilt: float, **options) -> Mechanism:
-    """A planar four-bar by hand with one axis out of parallel; at the assembled pose C does not turn, so that to first
-    order the tilt does not show."""
-    axis, up = (np.sin(tilt), 0.0, np.cos(tilt)), (0, 0, 1)
-    joints = [
-        revolute("A", "ground", "crank", point=(0, 0, 0), axis=up),
-        revolute("B", "crank", "coupler", point=(1, 0, 0), axis=up),
-        revolute("C", "coupler", "rocker", point=(3.2, 2.9, 0), axis=axis),
-        revolute("D", "ground", "rocker", point=(4, 0, 0), axis=up),
-    ]
-    return Mechanism.build(fixed=["ground"], joints=joints, **options)
 
 
 def moved_by(mechanism: Mechanism, joints) -> float:

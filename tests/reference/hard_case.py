@@ -37,11 +37,19 @@ class HardCase(NamedTuple):
     roundings: float = 100
     """So many of them over the smallest singular value are allowed as an error."""
     long: bool = False
+    noise: float = 0.0
+    """How far the numbers of the mechanism are off, in radians and sizes: a pose may be wrong by that much more, over
+    the smallest singular value."""
 
     def sweep(self) -> Motion:
         with jax.enable_x64(self.bits == 64), warnings.catch_warnings():
             warnings.filterwarnings("ignore", "jaxkin computes in float32")
             return self.build().sweep(self.drive)
+
+    @staticmethod
+    def near(motion: Motion) -> Array:
+        """The poses that have to be near to the truth: closed, or as nearly so as the joints agree."""
+        return np.isin(np.asarray(motion.status), (Status.CLOSED, Status.MISFIT))
 
     @property
     def statuses(self) -> Array:
@@ -54,7 +62,7 @@ class HardCase(NamedTuple):
         eps = float(np.finfo(f"float{self.bits}").eps)
         with jax.enable_x64(self.bits == 64):
             sigma = np.asarray(motion.sigma_min, float)
-        return self.roundings * eps / np.clip(sigma, np.sqrt(eps), 1.0)
+        return (self.roundings * eps + self.noise) / np.clip(sigma, np.sqrt(eps), 1.0)
 
 
 def off_turns(angle: Array) -> Array:

@@ -15,7 +15,6 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import cylindrical
 from jaxkin.motion.mechanism import Mechanism
 from reference import catalogue, mechanisms, overconstrained
-from reference.hard_cases import kite
 
 Array = np.ndarray
 
@@ -53,9 +52,29 @@ def spherical_wrist() -> Mechanism:
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 
-def _five_bar() -> Mechanism:
+def five_bar() -> Mechanism:
+    """Two freedoms: both bars at the ground can be driven."""
     points = {"A": (0, 0), "B": (-20, 45), "C": (35, 90), "D": (85, 50), "E": (70, 0)}
     return catalogue.pinned(points, {"ground": "AE", "left": "AB", "upper": "BC", "lower": "CD", "right": "DE"})
+
+
+def written_down(exact: Mechanism, digits: int, seed: int = 0) -> Mechanism:
+    """The mechanism somewhere else, as its numbers of so many digits say it."""
+    joints = rounded(placed(exact.all_joints, np.random.default_rng(seed)), digits)
+    return Mechanism.build(fixed=list(exact.fixed), joints=joints)
+
+
+def tilted_fourbar(tilt: float, **options) -> Mechanism:
+    """A planar four-bar by hand with one axis out of parallel; at the assembled pose C does not turn, so that to first
+    order the tilt does not show."""
+    axis, up = (np.sin(tilt), 0.0, np.cos(tilt)), (0, 0, 1)
+    joints = [
+        mechanisms.revolute("A", "ground", "crank", point=(0, 0, 0), axis=up),
+        mechanisms.revolute("B", "crank", "coupler", point=(1, 0, 0), axis=up),
+        mechanisms.revolute("C", "coupler", "rocker", point=(3.2, 2.9, 0), axis=axis),
+        mechanisms.revolute("D", "ground", "rocker", point=(4, 0, 0), axis=up),
+    ]
+    return Mechanism.build(fixed=["ground"], joints=joints, **options)
 
 
 def _from_solids(name: str, fixed: str) -> Callable[[], Mechanism]:
@@ -73,10 +92,11 @@ EVERY: dict[str, Callable[[], Mechanism]] = {
             *(overconstrained.goldberg_linkage, overconstrained.missing_axes, overconstrained.wrist),
             *(mechanisms.ball_in_bore, mechanisms.bennett_linkage, mechanisms.cam, mechanisms.cardan_shafts),
             *(mechanisms.planar_fourbar, mechanisms.rssr_linkage, mechanisms.slider_crank),
-            *(mechanisms.spherical_linkage, schmidt_coupling, spherical_wrist, kite),
+            *(mechanisms.spherical_linkage, schmidt_coupling, spherical_wrist),
         )
     },
-    "five_bar": _five_bar,
+    "five_bar": five_bar,
+    "kite": lambda: mechanisms.planar_fourbar(1.0, ground=50.0, crank=50.0, coupler=120.0, rocker=120.0),
     "three cranks": lambda: catalogue.parallelogram(3),
     "parallel links, cylindrical": lambda: catalogue.parallelogram(4, pin=cylindrical),
     "shaft in contacts": lambda: overconstrained.shaft_in_contacts(5),
