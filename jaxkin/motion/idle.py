@@ -101,12 +101,9 @@ class IdleMotions:
     @cached_property
     def _independent(self) -> tuple[tuple[IdleMotion, ...], Float[np.ndarray, "idle columns"]]:
         basis, motions = np.zeros((0, len(self._found.columns))), []
-        order = {body: k for k, body in enumerate(self._mechanism.structure.parts)}
-        rows = sorted(self._rows(), key=lambda row: (len(row.moving), sorted(order[body] for body in row.bodies)))
-        for row in rows:
+        for row, twists in self._by_size():
             if not self._is_between_bodies(row, basis):
                 continue
-            twists = self._graph.free_of(np.concatenate([row.inner, *(end.forbidden for end in row.ends)]))
             for kind, some in self._turns_and_slides(twists):
                 rates = np.array([self._rates(row, twist) for twist in some])
                 described = self._described(row, kind, rates)
@@ -116,6 +113,21 @@ class IdleMotions:
                         basis = np.concatenate([basis, new[None] / size])
                         motions.append(described)
         return tuple(motions), basis
+
+    def _by_size(self) -> list[tuple[_Row, Twists]]:
+        """Rows that can move while all others rest, and how: few bodies first, then those that can do more.
+
+        Of two that hold each other, as a washer and a block that slides on it, that which can do more is idle.
+        """
+        found = [
+            (row, self._graph.free_of(np.concatenate([row.inner, *(end.forbidden for end in row.ends)])))
+            for row in self._rows()
+        ]
+        order = self._mechanism.structure.parts.index
+        return sorted(
+            ((row, twists) for row, twists in found if twists.size),
+            key=lambda pair: (len(pair[0].moving), -pair[1].shape[1], sorted(map(order, pair[0].bodies))),
+        )
 
     def _is_between_bodies(self, row: _Row, idle: Float[np.ndarray, "idle columns"]) -> bool:
         """Whether the bodies that hold a row are two at least, though links that do nothing but idle were gone.
@@ -208,8 +220,9 @@ class IdleMotions:
         """A basis of some twists in which as many as can be have no angular velocity, by kind."""
         _, sizes, mixes = np.linalg.svd(twists[:3], full_matrices=True)
         turning = int((sizes > self._found.noise.rate).sum())
-        yield "turns", mixes[:turning] @ twists.T
-        yield "slides", mixes[turning:] @ twists.T
+        for kind, some in (("turns", mixes[:turning]), ("slides", mixes[turning:])):
+            if len(some):
+                yield kind, some @ twists.T
 
     def _described(self, row: _Row, kind: str, rates: Float[np.ndarray, "motions columns"]) -> IdleMotion:
         joints, rows_of, order = self._mechanism.all_joints, self._graph.parts_of, self._mechanism.structure.parts.index

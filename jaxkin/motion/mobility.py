@@ -6,6 +6,7 @@ place of six it is right for planar and spherical ones, and still wrong for Benn
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -45,7 +46,7 @@ class Mobility:
     """The displacement subgroup of each loop."""
     drivable: tuple[str, ...]
     """Coordinates whose displacements, given together, leave nothing but idle freedoms; one choice of several, joints
-    at the fixed parts first."""
+    at the fixed parts first, or at the part by which loops hang on the others."""
 
     @property
     def idle_freedoms(self) -> int:
@@ -130,18 +131,19 @@ def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"])
 def drivable(mechanism: Mechanism, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
     """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin.
 
-    Joints at the part that carries the element come first. Columns in which idle motions show are taken only where all
-    others leave something: to give one of them may move nothing but what idles.
+    Joints at the part that carries the element come first, of these hinges and slides before balls. Columns in which
+    idle motions show are taken only where all others leave something: to give one may move nothing but what idles.
     """
     idle = IdleMotions(mechanism, found, spins)
     order = [k for k, (joint, _) in enumerate(found.columns) if not set(spins) & set(found.ends[joint])]
-    order.sort(key=lambda column: idle.carrier.isdisjoint(found.ends[found.columns[column][0]]))
+    owner = [joint for joint, _ in found.columns]
+    of_joint = Counter(owner)
+    order.sort(key=lambda column: (idle.carrier.isdisjoint(found.ends[owner[column]]), of_joint[owner[column]]))
     showing = set(moving_columns(found, idle.rates))
     taken = largest(found, [column for column in order if column not in showing], driven)
     for column in (column for column in order if column in showing):
         left = without(found.motions, [*driven, *taken], found.noise)
-        beside_idle = np.concatenate([idle.rates, left])[:, order]
-        if np.linalg.matrix_rank(beside_idle, tol=found.noise.rate) == len(idle.rates):
+        if independent(np.concatenate([idle.rates, left]), order, found.noise) == len(idle.rates):
             break
         taken += largest(found, [column], [*driven, *taken])
     return taken
