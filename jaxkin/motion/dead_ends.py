@@ -61,7 +61,7 @@ def _mechanism_of(found: LoopFreedoms) -> str:
 
 
 def _driven_blocks(mechanism: Mechanism, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
-    """The loops that hold a driven coordinate, with its columns; none that cannot be closed, of which nothing is known."""
+    """The loops that hold a driven coordinate, with its columns; of loops that cannot be closed nothing is known."""
     for found in mechanism.loop_freedoms:
         columns = [column for column, owner in enumerate(found.columns) if owner in driven]
         if columns and found.closes:

@@ -1,7 +1,7 @@
 """Close the loops of a mechanism whose given pose is open, without a drive, and place its joints anew there.
 
-Joints are written down where they are in the pose of a drawing or a robot file. Where that pose is open, by a gap in the
-file or lengths that were changed, its loops are closed by damped Newton steps (host code, float64, no compilation).
+Joints are written down where they are in the pose of a drawing or a robot file. Where that pose is open, by a gap in
+the file or lengths that were changed, its loops are closed by damped Newton steps (host code, float64, no compilation).
 Which of several assembly modes is meant the steps do not know: other starts, about as far away as the loops had to go,
 tell whether there is another one near.
 """
