@@ -32,7 +32,8 @@ class TimeLimit:
 
         Raises ValueError where `seconds` is no positive number.
         """
-        if seconds is not None and not (isinstance(seconds, int | float) and 0 < seconds < math.inf):
+        number = isinstance(seconds, int | float) and not isinstance(seconds, bool)
+        if seconds is not None and not (number and 0 < seconds < math.inf):
             raise ValueError(f"seconds is the time allowed to read a file, a positive number; got {seconds!r}")
         size = path.stat().st_size
         allowed = SECONDS + SECONDS_PER_MB * size / 1e6 if seconds is None else float(seconds)

@@ -15,7 +15,7 @@ import trimesh
 
 from jaxkin.examples import EXAMPLES, path
 
-DATA = Path(__file__).parent / "data"
+DATA = Path(__file__).parent / "io" / "data"
 
 KINDS = ("step", "stl", "obj", "ply", "3mf", "glb", "toml")
 
