@@ -89,7 +89,23 @@ def _shipped(kind: str) -> dict[str, bytes]:
     if kind == "ply":
         return {name: solid.export(file_type="ply", encoding=name) for name in ("ascii", "binary")}
     packed = scene.export(file_type=kind)
+    if kind == "3mf":  # without the names by which trimesh tells one export from another
+        packed = _archive({name: re.sub(rb' p:UUID="[^"]*"', b"", text) for name, text in _members(packed).items()})
     return {"scene": packed.encode() if isinstance(packed, str) else packed}
+
+
+def _members(content: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def _archive(members: dict[str, bytes]) -> bytes:
+    """An archive in which no time stands."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, member in members.items():
+            archive.writestr(zipfile.ZipInfo(name), member, zipfile.ZIP_DEFLATED)
+    return buffer.getvalue()
 
 
 def _scene() -> trimesh.Scene:
@@ -240,17 +256,12 @@ def _packed_again(change: Mutation) -> Mutation:
 
     def within(content: bytes, rng: Random) -> bytes:
         try:
-            with zipfile.ZipFile(io.BytesIO(content)) as archive:
-                members = {name: archive.read(name) for name in archive.namelist()}
+            members = _members(content)
             largest = max(members, key=lambda name: len(members[name]))
         except Exception:  # damaged by a mutation before
             return content
         members[largest] = change(members[largest], rng)
-        buffer = io.BytesIO()
-        with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, member in members.items():
-                archive.writestr(name, member)
-        return buffer.getvalue()
+        return _archive(members)
 
     within.__name__ = f"{change.__name__} in the archive"
     return within
