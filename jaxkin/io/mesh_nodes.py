@@ -82,6 +82,7 @@ def _by_trimesh(path: Path, limit: TimeLimit) -> list[Node]:
             ]
 
 
+@np.errstate(over="ignore", invalid="ignore")  # sizes that are infinite are refused below
 def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> Node:
     corners, pose = np.asarray(corners, float), np.asarray(pose, float)
     bad = int(np.sum(~np.isfinite(corners).all(axis=(1, 2))))
