@@ -49,6 +49,6 @@ class TimeLimit:
         """The error for a file that was not read in time."""
         return ValueError(
             f"{self.name} ({self.size / 1e6:.3g} MB) was not read within {self.seconds:.3g} seconds: it is damaged, or "
-            f"larger than can be used; export it again, or part by part, or allow more time, "
-            f"jk.load(..., seconds={math.ceil(4 * self.seconds)})"
+            f"larger than can be used; export it again, or part by part, or allow more time with "
+            f"seconds={math.ceil(4 * self.seconds)} in load or load_study"
         )

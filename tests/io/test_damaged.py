@@ -15,6 +15,7 @@ import pytest
 from jaxkin.examples import path
 from jaxkin.io.load import load
 from jaxkin.io.step_convert import convert
+from jaxkin.io.study import load_study
 from jaxkin.io.time_limit import TimeLimit
 from mutations import mutated
 
@@ -57,11 +58,22 @@ def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
     source, old, new = ENDLESS[name]
     file = damaged(tmp_path, DATA / source, old, new)
     begin = time.monotonic()
-    with pytest.raises(ValueError, match=r"^bad\.step \(0\.0\d+ MB\) was not read within 0\.8 seconds: .*seconds=4\)$"):
+    with pytest.raises(
+        ValueError,
+        match=r"^bad\.step \(0\.0\d+ MB\) was not read within 0\.8 seconds: .*with seconds=4 in load or load_study$",
+    ):
         load(file, seconds=0.8)
     assert time.monotonic() - begin < 10.0  # the machine may be busy
     assert capfd.readouterr() == ("", "")
     assert list(tmp_path.iterdir()) == [file]
+
+
+def test_the_time_of_a_study_is_that_of_its_files(tmp_path):
+    damaged(tmp_path, DATA / "splines.step", *ENDLESS["a coordinate that is no number"][1:])
+    study = tmp_path / "study.toml"
+    study.write_text('geometry = "bad.step"\nfixed = ["nose"]\n')
+    with pytest.raises(ValueError, match=r"^bad\.step .* was not read within 0\.8 seconds"):
+        load_study(study, seconds=0.8)
 
 
 @pytest.mark.parametrize("name", UNNOTICED)
