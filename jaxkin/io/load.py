@@ -20,21 +20,28 @@ _TWINS = 1e-6
 """Of the size of the assembly; two copies in the same place differ by the rounding of their placements at most."""
 
 
-def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = None) -> Assembly:
+def load(
+    source: str | Path | Mapping[str, str | Path], *, unit: str | None = None, seconds: float | None = None
+) -> Assembly:
     """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
 
     STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
     one mesh file a part is a node, or a connected body where there is but one node.
 
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
-    have none, `unit` says it ("mm"), and without it the unit is "". Raises FileNotFoundError where there is no such
-    file, and ValueError where one holds no solids, where files differ in their unit, or are in another one than `unit`.
+    have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
+    read, by default 20 s and 5 s a megabyte.
+
+    Raises FileNotFoundError where there is no such file, and ValueError where one holds no solids or is not read in
+    time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
+    be read.
     """
     if unit is not None and unit not in METRES:
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     if isinstance(source, str | Path):
-        parts, said = _read(Path(source))
-        return Assembly(_apart(parts), _agreed({Path(source).name: said}, unit), Path(source).name)
+        name = Path(source).name
+        parts, said = _read(Path(source), seconds)
+        return Assembly(_apart(parts, f"{name}: "), _agreed({name: said}, unit), name)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(
             f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
@@ -45,25 +52,25 @@ def load(source: str | Path | Mapping[str, str | Path], *, unit: str | None = No
             raise ValueError(
                 f"part {name!r}: expected the path of a file, as in {{'crank': 'crank.stl'}}; got {file!r}"
             )
-        found, units[f"{name} ({Path(file).name})"] = _read(Path(file), name)
+        found, units[f"{name} ({Path(file).name})"] = _read(Path(file), seconds, name)
         parts += found
     agreed = _agreed(units, unit)  # first: numbers in different units tell nothing about the same place
     return Assembly(_apart(tuple(parts)), agreed, ", ".join(Path(file).name for file in source.values()))
 
 
-def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
+def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[tuple[Part, ...], str]:
     """The parts in a file, or the one part that it is with a name."""
     suffix = path.suffix.lower()
     if path.is_dir():
         raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
     if suffix in MESHES:
-        return read_mesh(path, name)
+        return read_mesh(path, name, seconds)
     if suffix not in STEP:
         raise ValueError(
             f"{path}: load reads STEP files ({', '.join(STEP)}) and meshes ({', '.join(MESHES)}); got "
             f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
         )
-    parts, unit = read_step(path)
+    parts, unit = read_step(path, seconds)
     if name is None:
         return parts, unit
     if len(parts) > 1:
@@ -74,17 +81,16 @@ def _read(path: Path, name: str | None = None) -> tuple[tuple[Part, ...], str]:
     return tuple(replace(part, name=name) for part in parts), unit
 
 
-def _apart(parts: tuple[Part, ...]) -> tuple[Part, ...]:
-    """The parts, no two of them the same solid in the same place."""
+def _apart(parts: tuple[Part, ...], where: str = "") -> tuple[Part, ...]:
+    """The parts, no two of them the same solid in the same place; `where` begins the message about two that are."""
     near = _TWINS * size(parts)
     seen: dict[int, list[Part]] = {}
     for part in parts:
         for other in seen.setdefault(len(part.triangles), []):
             same = np.abs(part.box - other.box).max() < near
             if same and np.linalg.norm(part.triangles.mean(axis=(0, 1)) - other.triangles.mean(axis=(0, 1))) < near:
-                raise ValueError(
-                    f"the parts {other.name!r} and {part.name!r} are the same solid in the same place: leave one out"
-                )
+                twins = f"{other.name!r} and {part.name!r}"
+                raise ValueError(f"{where}the parts {twins} are the same solid in the same place: leave one out")
         seen[len(part.triangles)].append(part)
     return parts
 

@@ -13,24 +13,30 @@ from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
+from jaxkin.io.files import check_file
 from jaxkin.io.mesh_check import PARTS
 from jaxkin.io.mesh_nodes import Node, read_nodes
 from jaxkin.io.names import unique
+from jaxkin.io.time_limit import TimeLimit
 
 MESHES = (".stl", ".obj", ".ply", ".3mf", ".glb")
 
 
-def read_mesh(path: str | Path, whole: str | None = None) -> tuple[tuple[Part, ...], str]:
+def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None = None) -> tuple[tuple[Part, ...], str]:
     """The parts of a mesh file, in its coordinates, and the unit of its lengths, "" where it has none.
 
     A part is a node of the file; in a file of one node it is a connected body, called as the file, or "part 1",
     "part 2", where there are several. With `whole`, all of the file is one part of that name. Faces that lie on none of
-    the four surfaces, and what was repaired, are in the notes of the part.
+    the four surfaces, and what was repaired, are in the notes of the part. `seconds` is the time allowed, by default
+    that of `TimeLimit`.
 
-    Raises FileNotFoundError where there is no such file, and ValueError where it holds no closed solids.
+    Raises FileNotFoundError where there is no such file, and ValueError where it holds no closed solids, or is not read
+    in time.
     """
     path = Path(path)
-    nodes, unit = read_nodes(path)
+    check_file(path, "mesh file")
+    limit = TimeLimit.start(path, seconds)
+    nodes, unit = read_nodes(path, limit)
     if whole is not None:
         corners = np.concatenate([node.corners for node in nodes])
         solids = [Node(whole, nodes[0].color, corners, max(node.grain for node in nodes))]
@@ -39,8 +45,11 @@ def read_mesh(path: str | Path, whole: str | None = None) -> tuple[tuple[Part, .
     else:
         solids = _bodies(nodes[0], path)
     names = unique(solid.name for solid in solids)
-    parts = tuple(_part(name, solid, path.name) for name, solid in zip(names, solids, strict=True))
-    return parts, unit
+    parts = []
+    for name, solid in zip(names, solids, strict=True):
+        limit.remaining()
+        parts.append(_part(name, solid, path.name))
+    return tuple(parts), unit
 
 
 def _bodies(node: Node, path: Path) -> list[Node]:

@@ -23,15 +23,11 @@ UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "
 
 
 def check(path: Path) -> str | None:
-    """Refuse a file that cannot be a mesh of its kind, with a message; the unit of its lengths, if it says one.
+    """The unit of the lengths of a mesh file that exists, if it says one.
 
-    Raises FileNotFoundError where there is no such file, ValueError for all else.
+    Raises ValueError for a file that cannot be a mesh of its kind.
     """
     kind = path.suffix.lower().removeprefix(".")
-    if path.is_dir():
-        raise ValueError(f"{path} is a folder: give the mesh file itself")
-    if not path.exists():
-        raise FileNotFoundError(f"{path} does not exist: give the path of a mesh file")
     size = path.stat().st_size
     if size == 0:
         raise ValueError(f"{path.name} is empty: expected a mesh in {kind.upper()} format")
@@ -100,27 +96,33 @@ def _ply(path: Path, head: bytes, size: int) -> None:
 
 def _3mf(path: Path, head: bytes, size: int) -> str:
     try:
-        with zipfile.ZipFile(path) as archive:
-            # what is read of a member ends at the size that is stated here
-            unpacked = sum(member.file_size for member in archive.infolist())
-            if unpacked > LARGEST:
-                raise ValueError(
-                    f"{path.name} unpacks to {unpacked / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser"
-                )
-            models = [name for name in archive.namelist() if "3d/3dmodel.model" in name.lower()]
-            if not models:
-                raise ValueError(f"{path.name} is no 3MF file: there is no 3D/3dmodel.model in it")
-            with archive.open(models[0]) as model:
-                start = model.read(20_000)
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError, EOFError) as error:
-        # in this order: no archive, a compression that is not known, a password, and data that end too soon
-        raise ValueError(f"{path.name} is damaged or no 3MF file: {error}; copy or export it again") from None
+        unpacked, start = _unpacked(path)
+    except Exception as error:  # the unpackers raise whatever a damaged archive makes them stumble over
+        why = " ".join(str(error).split())[:200] or type(error).__name__
+        raise ValueError(f"{path.name} is damaged or no 3MF file: {why}; copy or export it again") from None
+    if unpacked > LARGEST:
+        raise ValueError(
+            f"{path.name} unpacks to {unpacked / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser"
+        )
+    if start is None:
+        raise ValueError(f"{path.name} is no 3MF file: there is no 3D/3dmodel.model in it")
     root = re.search(rb"<(?:\w+:)?model\b[^>]*>", start)
     said = re.search(rb"\bunit\s*=\s*[\"'](\w+)[\"']", root[0]) if root else None
     unit = said[1].decode() if said else "millimeter"  # the default of the format
     if unit not in UNITS:
         raise ValueError(f"{path.name} is in the length unit {unit!r}: export it in {', '.join(UNITS)}")
     return UNITS[unit]
+
+
+def _unpacked(path: Path) -> tuple[int, bytes | None]:
+    """The stated bytes of all members of an archive, where reading them ends, and how its model begins, if any."""
+    with zipfile.ZipFile(path) as archive:
+        size = sum(member.file_size for member in archive.infolist())
+        models = [name for name in archive.namelist() if "3d/3dmodel.model" in name.lower()]
+        if not models:
+            return size, None
+        with archive.open(models[0]) as model:
+            return size, model.read(20_000)
 
 
 def _glb(path: Path, head: bytes, size: int) -> str:

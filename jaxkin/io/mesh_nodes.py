@@ -16,9 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import apply
 from jaxkin.io.apart import run_apart
 from jaxkin.io.mesh_check import MOST, PARTS, check, is_binary_stl, too_many
-
-SECONDS = 120
-"""For one file; a binary one of `MOST` triangles takes five, as text half a minute."""
+from jaxkin.io.time_limit import TimeLimit
 
 MEMORY = 8 << 30
 """Bytes of address space for the reader, most of it never used: `MOST` triangles as text take two."""
@@ -44,13 +42,13 @@ class Node:
         return max(1e-6 * float(np.linalg.norm(np.ptp(self.corners.reshape(-1, 3), axis=0))), self.grain)
 
 
-def read_nodes(path: Path) -> tuple[list[Node], str]:
+def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
     """The nodes of a mesh file that have triangles, and its unit, "" where the format has none.
 
-    Raises FileNotFoundError where there is no such file, and ValueError where it is no mesh that can be read.
+    Raises ValueError where it is no mesh that can be read, or not within the limit.
     """
     unit = check(path)
-    nodes = _binary_stl(path) if is_binary_stl(path) else _by_trimesh(path)
+    nodes = _binary_stl(path) if is_binary_stl(path) else _by_trimesh(path, limit)
     if not nodes:
         raise ValueError(f"{path.name} holds no triangles: export the parts as solids")
     if (count := sum(len(node.corners) for node in nodes)) > MOST:
@@ -67,12 +65,12 @@ def _binary_stl(path: Path) -> list[Node]:
     return [_node(path.stem, None, np.fromfile(path, record, offset=84)["corners"], np.eye(4), path.name)]
 
 
-def _by_trimesh(path: Path) -> list[Node]:
+def _by_trimesh(path: Path, limit: TimeLimit) -> list[Node]:
     kind = path.suffix.lower().removeprefix(".")
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "nodes.npz"
         status, said = run_apart(
-            "mesh_worker.py", kind, MOST, PARTS, target, path.resolve(), name=path.name, seconds=SECONDS, memory=MEMORY
+            "mesh_worker.py", kind, MOST, PARTS, target, path.resolve(), folder=folder, limit=limit, memory=MEMORY
         )
         if status:
             why = (said.strip().splitlines() or ["the reader crashed on it"])[-1]
@@ -84,6 +82,7 @@ def _by_trimesh(path: Path) -> list[Node]:
             ]
 
 
+@np.errstate(over="ignore", invalid="ignore")  # sizes that are infinite are refused below
 def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.ndarray, source: str) -> Node:
     corners, pose = np.asarray(corners, float), np.asarray(pose, float)
     bad = int(np.sum(~np.isfinite(corners).all(axis=(1, 2))))

@@ -61,6 +61,8 @@ def read(file, kind: str, most: int, parts: int) -> list[dict]:
             total += len(mesh.faces)
             if total > most:
                 raise Refused(f"it holds more than {most} triangles")
+            if mesh.vertices.shape[1] != 3:
+                raise Refused(f"its corners have {mesh.vertices.shape[1]} coordinates")
             if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices):
                 raise Refused("its triangles name corners that are not there")
             nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": pose})

@@ -8,11 +8,11 @@ PARTS = 20_000
 """Parts of a file; each takes some thousandths of a second."""
 
 
-def check_parts(text: str, name: str) -> None:
-    """Refuse a file whose assemblies hold more than `PARTS` parts, or themselves (ValueError).
+def placed_parts(text: str, name: str) -> int:
+    """How many parts the assemblies of a file place; 0 where it has none.
 
     `name` is what messages call the file. Each occurrence (NEXT_ASSEMBLY_USAGE_OCCURRENCE) names the assembly and what
-    is placed in it.
+    is placed in it. Raises ValueError for more than `PARTS`, and where an assembly holds itself.
     """
     import networkx as nx
 
@@ -27,5 +27,6 @@ def check_parts(text: str, name: str) -> None:
     for each in nx.topological_sort(tree):
         above = sum(times[assembly] for assembly, _ in tree.in_edges(each))
         times[each] = min(above or 1, PARTS + 1)  # enough to know
-    if sum(times[each] for each in tree if tree.out_degree(each) == 0) > PARTS:
+    if (parts := sum(times[each] for each in tree if tree.out_degree(each) == 0)) > PARTS:
         raise ValueError(f"{name} holds more than {PARTS} parts: export it part by part")
+    return parts

@@ -78,8 +78,9 @@ class Study:
         return self.mechanism.sweep(self.drive)
 
 
-def load_study(path: str | Path) -> Study:
-    """The study that a TOML file describes; its geometry is looked for beside the file.
+def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
+    """The study that a TOML file describes; its geometry is looked for beside the file, and read as by
+    `load`, within `seconds` a file.
 
     Raises FileNotFoundError where there is no such file, and ValueError, with the key, what arrived and what was
     expected, where it is no study. What it says about parts and joints is checked when `mechanism` or `drive` is asked
@@ -97,7 +98,8 @@ def load_study(path: str | Path) -> Study:
     place = path.parent
     source = said.geometry
     assembly = load(
-        place / source if isinstance(source, str) else {part: place / file for part, file in source.items()}
+        place / source if isinstance(source, str) else {part: place / file for part, file in source.items()},
+        seconds=seconds,
     )
     if not assembly.unit:  # formats of meshes that have none
         assembly = replace(assembly, unit=said.unit)

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from jaxkin.io.files import check_file
 from jaxkin.io.ranges import FORM, MOST, RADIANS, Range, read_range
 from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
@@ -189,12 +190,8 @@ _KEYS = {
 
 def read_study_file(path: Path) -> StudyFile:
     """The file as it is written, validated; ValueError, FileNotFoundError otherwise."""
-    if path.is_dir():
-        raise ValueError(f"{path} is a folder: give the TOML file of the study itself")
-    if not path.exists():
-        raise FileNotFoundError(f"{path} does not exist: give the path of a study, a TOML file")
-    if path.stat().st_size > LARGEST:
-        raise ValueError(f"{path.name} has {path.stat().st_size} bytes: a study has {LARGEST} at most")
+    if (size := check_file(path, "TOML file of a study")) > LARGEST:
+        raise ValueError(f"{path.name} has {size} bytes: a study has {LARGEST} at most")
     try:
         said = tomllib.loads(path.read_bytes().decode())
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

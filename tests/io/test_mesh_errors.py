@@ -101,6 +101,8 @@ BROKEN = {
     ),
     "zeros.obj": (bytes(500), "is no OBJ file"),
     "points.obj": (b"v 0 0 0\nv 1 0 0\n", "holds no triangles"),
+    "flat.obj": (b"v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "its corners have 2 coordinates"),
+    "overflow.obj": (b"v 0 0 0\nv 1e300 0 0\nv 0 1e300 0\nf 1 2 3\n", "a part of the size inf is none in any unit"),
     "index.obj": (b"v 0 0 0\nv 1 0 0\nf 1 2 99999999\n", "cannot be read as OBJ"),
     "noise.ply": (NOISE, "does not begin with ply"),
     "claims.ply": (ply(4_000_000_000, 1), "announces 4000000000 of vertex, but 0 bytes follow"),

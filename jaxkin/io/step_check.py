@@ -1,0 +1,74 @@
+"""What was read from a STEP file, held against what the file says and against what a solid is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from jaxkin.geometry.pose import Points, Pose, apply
+from jaxkin.geometry.shells import open_loops, volume, wrong_side
+from jaxkin.geometry.weld import weld
+from jaxkin.io.step_glb import Instance
+from jaxkin.io.step_side import Triangles, areas
+
+_SAMPLES = 24
+"""Triangles of a part at which it is looked whether it cuts itself."""
+
+_OUTER = re.compile(r"\b(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*'(?:[^']|'')*'\s*,\s*#(\d+)")
+
+_SHELL = re.compile(r"#(\d+)\s*=\s*CLOSED_SHELL\s*\(\s*'(?:[^']|'')*'\s*,\s*\(([^()]*)\)")
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Something amiss in a solid, at a place in the frame of its mesh."""
+
+    what: str
+    place: Points
+    remedy: str
+    damage: bool
+    """Whether no sound file comes so."""
+
+    def note(self, pose: Pose) -> str:
+        """The doubt in words, the place in the world; `pose` is that of the mesh."""
+        near = ", ".join(f"{x:.4g}" for x in apply(pose, self.place))
+        return f"{self.what}, near ({near}): {self.remedy}"
+
+
+def unsound(triangles: Triangles, tolerance: float) -> list[Doubt]:
+    """What is amiss in the triangles of a solid: holes, no volume, or that it cuts itself; the first of these."""
+    welded = weld(triangles, 2 * tolerance)
+    if holes := open_loops(welded, tolerance):
+        return [Doubt("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
+    if volume(triangles) <= tolerance * np.linalg.norm(areas(triangles), axis=-1).sum() / 2:
+        middle = triangles.mean(axis=(0, 1))
+        return [Doubt("it holds no volume, or is inside out", middle, "a face is missing or wrong", True)]
+    # no damage: its faces are known exactly, and overlapping bodies are common in real assemblies
+    if (place := wrong_side(triangles, tolerance, _SAMPLES)) is not None:
+        what = "it cuts itself, or bodies touch or overlap in it"
+        return [Doubt(what, place, "unite them if they move apart", False)]
+    return []
+
+
+def missing(text: str, placed: int, found: Sequence[Instance]) -> list[str]:
+    """What the text of a file announces and the reader did not make.
+
+    `placed` is how many parts its assemblies place, 0 without assemblies. The faces counted in the text are those of
+    the outer shells of its solids, each once, however often it is placed: never more than there have to be.
+    """
+    said = []
+    if placed and len(found) < placed:
+        said.append(f"{placed} parts are placed in it, {len(found)} can be made as solids")
+    outer, shells = set(), {}
+    for statement in text.split(";"):  # a pattern over all of the text may take a time that grows with its square
+        if solid := _OUTER.search(statement):
+            outer.add(solid[1])
+        elif "CLOSED_SHELL" in statement and (shell := _SHELL.search(statement)):
+            shells[shell[1]] = shell[2].count("#")
+    announced = sum(faces for number, faces in shells.items() if number in outer)
+    if (made := sum(len(instance.faces) for instance in found)) < announced:
+        said.append(f"its solids have {announced} faces, {made} can be made")
+    return said

@@ -1,0 +1,123 @@
+"""A solid of a STEP file in the frame of its mesh: its faces with their analytic surfaces, and what is amiss in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Any
+
+import numpy as np
+from jaxtyping import Int
+
+from jaxkin.geometry.fit import fit_surface, flipped, rounding
+from jaxkin.geometry.merge import merge_faces
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Points, Pose, apply, unit
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
+from jaxkin.io.step_check import Doubt, unsound
+from jaxkin.io.step_glb import Color, Instance
+from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
+
+_GROSS = 1e-3
+"""Distance of triangles from their surface over the size of the solid; sound files come with up to 2e-4."""
+
+Rows = Int[np.ndarray, "rows"]
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A solid that may be placed many times; lengths in the unit of the file."""
+
+    faces: tuple[Face, ...]
+    triangles: Triangles
+    notes: tuple[str, ...]
+    """What could not be read as one of the four surfaces, and what was repaired."""
+    damages: tuple[str, ...]
+    """Notes on faces that are so in damaged files only."""
+    doubts: tuple[Doubt, ...]
+
+    def placed(self, name: str, pose: Pose, color: Color | None) -> tuple[Part, list[str]]:
+        """The part at a pose, and those of its notes that tell of a damage."""
+        faces = tuple(Face(face.name, face.surface.moved(pose), apply(pose, face.triangles)) for face in self.faces)
+        notes = [*self.notes, *(doubt.note(pose) for doubt in self.doubts if not doubt.damage)]
+        damages = [*self.damages, *(doubt.note(pose) for doubt in self.doubts if doubt.damage)]
+        return Part(name, faces, apply(pose, self.triangles), color, (*notes, *damages)), damages
+
+
+def solid_key(instance: Instance) -> bytes:
+    """What two instances of one solid have in common."""
+    content = sha256(repr(instance.faces).encode())
+    for array in (instance.triangles, instance.normals, instance.face_of):
+        content.update(array.tobytes())
+    return content.digest()
+
+
+def make_solid(instance: Instance, metres: float) -> Solid:
+    """The solid of an instance; `metres` is the unit of the file."""
+    triangles = instance.triangles / metres
+    tolerance = rounding(triangles)
+    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 0.0
+    faces, notes, damages, repaired = [], [], [], False
+    for index, described in enumerate(instance.faces):
+        label, rows = f"face {index + 1}", np.flatnonzero(instance.face_of == index)
+        if len(rows) == 0:
+            damages.append(f"{label}: it came without triangles, so where it ends is not known: left out")
+            continue
+        corners, normals = triangles[rows].reshape(-1, 3), instance.normals[rows].reshape(-1, 3)
+        surface = _analytic(described, corners, metres) or fit_surface(corners, normals, 5 * tolerance, angle=1e-2)
+        if surface is None:
+            kind = described["type"] if described else "freeform surface"
+            notes.append(f"{label}: {kind}, not one of the four surfaces")
+            continue
+        surface, corners, note = _oriented(surface, triangles, rows)
+        triangles[rows] = corners
+        off = float(np.abs(surface.distance(corners)).max())
+        if off > 10 * tolerance:
+            to = damages if off > _GROSS * size else notes
+            to.append(f"{label}: its triangles lie up to {off:.2g} off its {surface.kind}")
+        if note:
+            notes.append(f"{label}: {note}")
+            repaired = True
+        faces.append(Face(label, surface, corners))
+    doubts = [] if repaired or not len(triangles) else unsound(triangles, tolerance)
+    return Solid(merge_faces(faces, tolerance), triangles, tuple(notes), tuple(damages), tuple(doubts))
+
+
+def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:
+    """The surface as cascadio describes it, in the frame of the mesh; its side says nothing."""
+    if described is None:
+        return None
+    at = {key: np.array(described[key]) / metres for key in ("origin", "apex", "center") if key in described}
+    match described["type"]:
+        case "plane":
+            return Plane(at["origin"], unit(np.array(described["normal"])))
+        case "cylinder":
+            return Cylinder(at["origin"], unit(np.array(described["axis"])), described["radius"] / metres, 1)
+        case "cone":  # the sign of its angle is that of the axis, which may point either way
+            axis = unit(np.array(described["axis"]))
+            axis = axis if np.sum((corners - at["apex"]) @ axis) > 0 else -axis
+            return Cone(at["apex"], axis, abs(described["semi_angle"]), 1)
+        case "sphere":
+            return Sphere(at["center"], described["radius"] / metres, 1)
+    return None
+
+
+def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surface, Triangles, str]:
+    """The surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
+    corners = triangles[rows]
+    wound = winding(surface, corners)
+    outwards = wound > 0
+    # where tessellations were seen to fail; for all faces of a large solid the rays would take minutes
+    doubtful = isinstance(surface, Sphere) or abs(wound) < 0.9
+    if doubtful:
+        outwards = points_outwards(surface, corners, triangles)
+    surface = surface if outwards else flipped(surface)
+    if outwards == (wound > 0) and abs(wound) >= 0.9:
+        return surface, corners, ""
+    facing_in = np.sum(areas(corners) * surface.normals(corners.mean(axis=1)), axis=-1) < 0
+    corners = np.where(facing_in[:, None, None], corners[:, ::-1], corners)
+    return (
+        surface,
+        corners,
+        f"its triangles overlap or face inwards: the side of the {surface.kind} is that of the solid",
+    )
