@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.mobility import drivable, largest, moving_columns, names
-from jaxkin.motion.spinning import spinning
+from jaxkin.motion.needless import spinning
 from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent
 

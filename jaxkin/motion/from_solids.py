@@ -17,7 +17,7 @@ from jaxkin.joints.regularise import Noise
 from jaxkin.motion.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.spinning import left_at_rest
+from jaxkin.motion.at_rest import left_at_rest
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.structure import structure

@@ -16,7 +16,7 @@ from jaxkin.joints.subgroups import Subgroup
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.idle import IdleMotion, IdleMotions
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.spinning import spinning
+from jaxkin.motion.needless import spinning
 from jaxkin.solve.system import EQUATIONS
 from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent, without

@@ -10,7 +10,7 @@ import trimesh
 import jaxkin as jk
 from jaxkin.examples import path
 from jaxkin.geometry.part import Part
-from jaxkin.motion.spinning import spinning
+from jaxkin.motion.needless import spinning
 from reference.mechanisms import rssr_linkage
 
 FASTENERS = ("washer", "screw", "long screw", "loose washer")
