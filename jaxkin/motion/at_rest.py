@@ -28,6 +28,7 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
     joints: list[Joint] = []
     contacts: dict[str, tuple[Contact, ...]] = {}
     named: dict[frozenset[str], str] = {}
+    dropped: list[Joint] = []
     for each in mechanism.all_joints:
         if not resting.keys() & set(each.parts):
             joints.append(each)
@@ -37,6 +38,12 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
             if name not in contacts:
                 joints.append(joint(name, each.parts, spin.kind, (spin.movement,), [spin.frame]))
             contacts[name] = (*contacts.get(name, ()), *mechanism.contacts[each.name])
+        else:
+            dropped.append(each)
+    for each in dropped:  # told with the joint on which one of the two parts rests
+        part = next(part for part in each.parts if part in resting)
+        name = named[frozenset((part, resting[part].carrier))]
+        contacts[name] = (*contacts[name], *mechanism.contacts[each.name])
     notes = (*mechanism.notes, *_notes(mechanism, resting, found))
     if not resting:
         return replace(mechanism, notes=notes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from jaxkin.motion.freeing import LISTED, freeing
+from jaxkin.motion.freeing import freeing
 from jaxkin.motion.mechanism import Mechanism
 
 
@@ -29,19 +29,18 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     lines += ["", f"Mobility: {mobility}"]
     lines += [f"  {mobility.counting}"] if mobility.counting else []
     if moving and not mobility.useful:
-        lines += _why_it_cannot_move(mechanism)
+        lines += _why_it_cannot_move(mechanism, mobility.freedoms)
     if mechanism.notes:
         lines += ["", "Notes:", *(f"  {note}" for note in mechanism.notes)]
     return "\n".join(lines)
 
 
-def _why_it_cannot_move(mechanism: Mechanism) -> list[str]:
+def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
+    said = "It cannot move."
+    if freedoms:
+        what = "its freedom is" if freedoms == 1 else f"its {freedoms} freedoms are"
+        said = f"Nothing can move but parts about themselves: {what} idle or of parts that only spin."
     ways = freeing(mechanism)
     if not ways:
-        return ["It cannot move, and no single contact is the reason."]
-    more = [f"  and {len(ways) - LISTED} more"] if len(ways) > LISTED else []
-    return [
-        "It cannot move. It could without one of these (leave a contact out with ignore=):",
-        *(f"  {way}" for way in ways[:LISTED]),
-        *more,
-    ]
+        return [f"{said} No single contact is the reason, nor are several between the same two parts."]
+    return [f"{said} It could without one of these (leave a contact out with ignore=):", *(f"  {way}" for way in ways)]

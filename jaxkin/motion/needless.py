@@ -48,10 +48,12 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
         judged = _Judged.of(mechanism, block, held)
         if judged is None:
             continue
-        taken = judged.together(judged.groups)
-        found |= judged.with_carriers(taken)
-        left = [[part for part in group if part not in found] for group in judged.groups]
-        needed += [tuple(group) for group in left if group and judged.is_needless(group)]
+        taken = judged.with_carriers()
+        found |= taken
+        for group in judged.groups:
+            left = tuple(part for part in group if part not in taken)
+            if left and judged.is_needless(group) and not judged.is_needless([*taken, *left]):
+                needed.append(left)
     return Found({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
 
 
@@ -98,10 +100,16 @@ class _Judged(NamedTuple):
         return _Judged(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
 
     def is_needless(self, parts: Sequence[str]) -> bool:
-        """Whether the others move no more freely without these parts, nor these less freely than each by itself."""
+        """Whether the others move no more freely without these parts, and these can do nothing but spin, each by
+        itself, while the others rest."""
+        if not parts:
+            return False
         rows = self.system.rows([k for k, joint in enumerate(self.joints) if set(parts) & set(joint.parts)])
+        own = sum(self.spins[part].freedoms for part in parts)
+        if self.system.alone(parts, rows) != own:
+            return False
         # without its joints each is free six times, of which it has some already
-        return len(self.system.freed(rows)) == sum(6 - self.spins[part].freedoms for part in parts)
+        return len(self.system.freed(rows)) == 6 * len(parts) - own
 
     def together(self, groups: Sequence[Parts], before: Sequence[str] = ()) -> Parts:
         """The parts of these groups that are needless together, besides those taken before.
@@ -119,18 +127,14 @@ class _Judged(NamedTuple):
         first = self.together(groups[:middle], before)
         return [*first, *self.together(groups[middle:], [*before, *first])]
 
-    def with_carriers(self, parts: Parts) -> dict[str, Spin]:
-        """The spins of needless parts with their carriers, but for parts that stay on none, and for those that are
-        not needless without these."""
-        while parts:
+    def with_carriers(self) -> dict[str, Spin]:
+        """The spins of parts that are needless together, with their carriers; but for parts that stay on none."""
+        groups = self.groups
+        while parts := self.together(groups):
             carriers = self.carriers(parts)
-            rest = [part for part in parts if part in carriers]
-            if len(rest) == len(parts):
+            if len(carriers) == len(parts):
                 return {part: replace(self.spins[part], carrier=carriers[part]) for part in parts}
-            if not self.is_needless(rest):
-                whole = {part for group in self.groups if set(group) & set(parts) <= set(rest) for part in group}
-                rest = [part for part in rest if part in whole]
-            parts = rest
+            groups = [carried for group in groups if (carried := [part for part in group if part in carriers])]
         return {}
 
     def carriers(self, parts: Sequence[str]) -> dict[str, str]:
