@@ -158,14 +158,14 @@ class _Judged(NamedTuple):
             pairs[frozenset(joint.parts)].append(k)
         for some in pairs.values():
             found: list[list[int]] = []
-            for kept in some if len(some) > 1 and self._frees(some) else ():
-                removed = list(some)
-                for k in [*(k for k in some if k != kept), kept]:
+            for first in range(len(some)) if len(some) > 1 and self._frees(some) else ():
+                removed = [*some[first:], *some[:first]]
+                for k in removed[::-1]:
                     fewer = [each for each in removed if each != k]
                     if self._frees(fewer):
                         removed = fewer
-                if removed not in found:
-                    found.append(removed)
+                if sorted(removed) not in found:
+                    found.append(sorted(removed))
             yield from found
 
     def _frees(self, removed: Sequence[int]) -> bool:
