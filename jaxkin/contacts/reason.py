@@ -41,13 +41,16 @@ def reason(
     if not region.inside:
         clauses.append("the faces meet only along an edge")
     options = {} if pressed else remedy(touch, region, tolerance, surfaces, works)
+    if not options and wide and len(clauses) == 1:
+        tighter = (touch.clearance or 0.0) - loose
+        return f"{clauses[0]}: no tolerance makes it a contact; if it guides, make it tighter by {tighter:.3g}"
     return "; ".join(clauses) + _advice(options, only=wide and len(clauses) == 1)
 
 
 def _advice(options: Options, only: bool) -> str:
-    """The end of the text; `only`: there is nothing else to correct."""
+    """The end of the text; `only`: there is nothing in the model to correct."""
     if not options:
-        return ": it is a contact with no tolerance up to that, make it fit better or leave it loose" if only else ""
+        return ""
     given = ", ".join(f"{name}={value:g}" for name, value in options.items())
     guides = " if it guides" if "fit" in options else ""
     return f"{':' if only else ', or'} give {given}{guides}"
