@@ -100,7 +100,7 @@ def fasteners() -> cq.Assembly:
 
 
 def flanges() -> cq.Assembly:
-    """Two flanges on each other and six bolts with nuts, 20 mm in holes of 22 mm: none is needed, but two of them are."""
+    """Two flanges on each other and six bolts with nuts, 20 mm in holes of 22 mm: no bolt is needed, but two are."""
     circle = [(80 * np.cos(angle), 80 * np.sin(angle)) for angle in np.arange(6) * np.pi / 3]
     flange = cq.Workplane().circle(110).circle(50).extrude(20)
     flange = flange.cut(cq.Workplane().pushPoints(circle).circle(11).extrude(20))

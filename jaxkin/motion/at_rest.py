@@ -61,7 +61,9 @@ def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:
 
 
 def _neighbours(mechanism: Mechanism, part: str) -> list[str]:
-    return list(dict.fromkeys(p for each in mechanism.all_joints if part in each.parts for p in each.parts if p != part))
+    return list(
+        dict.fromkeys(p for each in mechanism.all_joints if part in each.parts for p in each.parts if p != part)
+    )
 
 
 def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: Found) -> list[str]:
@@ -72,11 +74,10 @@ def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: Found) -> list
             f"part {part!r} only spins: it is left at rest on {spin.carrier!r}, its contacts with "
             f"{', '.join(others)} are not needed; connect it for good with rigid=[[{spin.carrier!r}, {part!r}]]"
         )
-    if found.needed:
-        groups = [" with ".join(map(repr, group)) for group in found.needed]
+    if needed := [repr(part) for group in found.needed for part in group]:
+        one = len(needed) == 1
         notes.append(
-            f"{listed(groups)}: {'it spins' if len(groups) == 1 else 'each of them spins'} and is not needed as long as "
-            "all others that spin are there, but without them all other parts would move more freely: kept in its place "
-            "with all its contacts"
+            f"{listed(needed)} only {'spins' if one else 'spin'} too, but {'holds' if one else 'hold'} other parts "
+            "together where more parts that spin are left at rest: kept with all contacts"
         )
     return notes

@@ -50,9 +50,7 @@ def dead_end(mechanism: Mechanism, driven: Sequence[Coordinate]) -> str | None:
 
 def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
     """Whether the rates of these columns can be given, at the assembled pose or beside it."""
-    return any(
-        independent(motions, columns, found.noise) == len(columns) for motions in (found.at_rest, found.motions)
-    )
+    return any(independent(motions, columns, found.noise) == len(columns) for motions in (found.at_rest, found.motions))
 
 
 def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:

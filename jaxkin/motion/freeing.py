@@ -79,18 +79,18 @@ def freeing(mechanism: Mechanism) -> tuple[Freeing, ...]:
         ways = [way for some in judged.fewest() if (way := judged.way(some))]
     ways.sort(key=lambda way: way.rank)
     listed = LISTED if len(mechanism.all_joints) <= MANY else FEW
+    before = mechanism.mobility().useful
     found: list[Freeing] = []
     for _, way in ways[: _TRIED * listed]:
-        if (tried := _tried(mechanism, way)) is not None:
+        if (tried := _tried(mechanism, way, before)) is not None:
             found.append(tried)
         if len(found) == listed:
             break
     return tuple(found)
 
 
-def _tried(mechanism: Mechanism, way: Freeing) -> Freeing | None:
-    """The freedoms of the mechanism that is found without some contacts; None where nothing is gained by that."""
-    before = mechanism.mobility().useful
+def _tried(mechanism: Mechanism, way: Freeing, before: int) -> Freeing | None:
+    """The freedoms of the mechanism that is found without some contacts; None where they are no more than before."""
     try:
         freedoms = without_contacts(mechanism, way.what).mobility().useful
     except ValueError:  # a part hangs on nothing then

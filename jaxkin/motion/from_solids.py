@@ -16,9 +16,9 @@ from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
 from jaxkin.motion.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.motion.at_rest import left_at_rest
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.at_rest import left_at_rest
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.components import connected

@@ -2,12 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import jaxkin as jk
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import rotation
 from jaxkin.geometry.surfaces import Plane
+from jaxkin.motion.assembly import Assembly
 from jaxkin.motion.freeing import freeing
 
 
@@ -79,3 +82,32 @@ def test_where_no_single_contact_is_the_reason_the_fewest_of_two_parts_are():
     for way in ways:
         left = jk.Mechanism.build(fixed=["base"], joints=[joint for joint in lid if joint.name not in way.what])
         assert left.mobility().useful == way.freedoms == 1
+
+
+def rectangle(name, point, normal, along, half=2.0):
+    """A square face about a point."""
+    across = np.cross(normal, along)
+    corners = np.array([point + half * (i * along + j * across) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    return Face(name, Plane(point, normal), corners[[[0, 1, 2], [0, 2, 3]]])
+
+
+def test_contacts_that_were_perhaps_meant_to_agree_come_first():
+    """A block on a floor between two walls, one of which is turned by 9e-5 rad: the walls hold it, not the floor."""
+    x, y, z = np.eye(3)
+    turned = rotation(z, 9e-5)
+    sides = {"floor": (0 * x, z, x), "left": (-2 * y, y, x), "right": (2 * y, turned @ -y, turned @ x)}
+    parts = []
+    for name, sign in (("base", 1), ("block", -1)):
+        faces = tuple(rectangle(side, point, sign * normal, along) for side, (point, normal, along) in sides.items())
+        parts.append(Part(name, faces, np.concatenate([face.triangles for face in faces])))
+    assembly = Assembly(tuple(parts), "mm", "block")
+    contacts = assembly.contacts()
+    assert len(contacts) == 3
+    mechanism = assembly.mechanism(fixed=["base"])
+    assert mechanism.mobility().freedoms == 0
+    ways = freeing(mechanism)
+    assert [way.what[0].faces[0] for way in ways] == ["left", "right", "floor"]
+    for way in ways:
+        (contact,) = way.what
+        ignored = [[f"{part} {face}" for part, face in zip(contact.parts, contact.faces, strict=True)]]
+        assert assembly.mechanism(fixed=["base"], ignore=ignored).mobility().useful == way.freedoms
