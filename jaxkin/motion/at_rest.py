@@ -28,7 +28,7 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
     joints: list[Joint] = []
     contacts: dict[str, tuple[Contact, ...]] = {}
     named: dict[frozenset[str], str] = {}
-    dropped: list[Joint] = []
+    dropped: list[Contact] = []
     for each in mechanism.all_joints:
         if not resting.keys() & set(each.parts):
             joints.append(each)
@@ -39,17 +39,14 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
                 joints.append(joint(name, each.parts, spin.kind, (spin.movement,), [spin.frame]))
             contacts[name] = (*contacts.get(name, ()), *mechanism.contacts[each.name])
         else:
-            dropped.append(each)
-    for each in dropped:  # told with the joint on which one of the two parts rests
-        part = next(part for part in each.parts if part in resting)
-        name = named[frozenset((part, resting[part].carrier))]
-        contacts[name] = (*contacts[name], *mechanism.contacts[each.name])
+            dropped += mechanism.contacts[each.name]
     notes = (*mechanism.notes, *_notes(mechanism, resting, found))
     if not resting:
         return replace(mechanism, notes=notes)
     described = [(each.name, *each.parts) for each in joints]
     structured = structure(mechanism.parts, described, mechanism.fixed)
-    return replace(mechanism, all_joints=tuple(joints), structure=structured, notes=notes, contacts=contacts)
+    mechanism = replace(mechanism, all_joints=tuple(joints), structure=structured, notes=notes)
+    return replace(mechanism, contacts=contacts, contacts_at_rest=tuple(dropped))
 
 
 def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:

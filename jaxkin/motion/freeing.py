@@ -17,7 +17,7 @@ import numpy as np
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import NEARLY, joints_from_contacts
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.from_solids import without_contacts
+from jaxkin.motion.from_solids import all_contacts, without_contacts
 from jaxkin.motion.needless import spinning
 from jaxkin.motion.twists import Twists, middle, twists
 from jaxkin.topology.bodies import bodies
@@ -113,7 +113,7 @@ class _Judged(NamedTuple):
     @staticmethod
     def of(mechanism: Mechanism) -> _Judged:
         """Those of a mechanism, and those that its parts that only spin would have."""
-        contacts = tuple(contact for some in mechanism.contacts.values() for contact in some)
+        contacts = all_contacts(mechanism)
         by_hand = [joint for joint in mechanism.all_joints if joint.name not in mechanism.contacts]
         found = joints_from_contacts(contacts, mechanism.parts, combine=False)
         ties = [joint.parts for joint in by_hand if joint.kind == "fixed"]

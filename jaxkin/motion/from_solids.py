@@ -76,12 +76,17 @@ def mechanism_from_solids(
     return replace(mechanism, notes=(*told, *mechanism.notes))
 
 
+def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
+    """The contacts that a mechanism was found from, those of parts at rest too."""
+    return (*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest)
+
+
 def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
     """The mechanism from the same solids without some contacts, or joints by hand by their names.
 
     Raises ValueError where that leaves a part that hangs on nothing.
     """
-    every = [each for some in mechanism.contacts.values() for each in some]
+    every = all_contacts(mechanism)
     by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
     body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == "fixed"])
     given = tuple(each for each in by_hand if each.name not in left_out)
