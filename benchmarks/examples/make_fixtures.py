@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import cadquery as cq
+import numpy as np
 from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
 from shapes import write
 from single import SOLIDS
@@ -98,6 +99,22 @@ def fasteners() -> cq.Assembly:
     return assembly
 
 
+def flanges() -> cq.Assembly:
+    """Two flanges on each other and six bolts with nuts, 20 mm in holes of 22 mm: no bolt is needed, but two are."""
+    circle = [(80 * np.cos(angle), 80 * np.sin(angle)) for angle in np.arange(6) * np.pi / 3]
+    flange = cq.Workplane().circle(110).circle(50).extrude(20)
+    flange = flange.cut(cq.Workplane().pushPoints(circle).circle(11).extrude(20))
+    bolt = cq.Workplane().polygon(6, 34).extrude(12).union(cq.Workplane().circle(10).extrude(-60))
+    nut = cq.Workplane().polygon(6, 34).circle(10).extrude(-14)
+    assembly = cq.Assembly(name="pipe", loc=cq.Location((40, -15, 60), (0.2, -0.7, 0.4), 35))
+    assembly.add(flange, name="lower", loc=cq.Location((0, 0, -40)))
+    assembly.add(flange, name="upper", loc=cq.Location((0, 0, -20)))
+    for number, (x, y) in enumerate(circle, 1):
+        assembly.add(bolt, name=f"bolt {number}", loc=cq.Location((x, y, 0)))
+        assembly.add(nut, name=f"nut {number}", loc=cq.Location((x, y, -40)))
+    return assembly
+
+
 def _single(name: str, shape: cq.Workplane) -> cq.Assembly:
     return cq.Assembly(name=f"{name} alone").add(shape, name=name)
 
@@ -111,9 +128,9 @@ def solids() -> cq.Assembly:
 
 
 def main() -> None:
-    for make in (nested, halves, fillet, ball, splines, painted, sheet, fasteners, solids):
+    for make in (nested, halves, fillet, ball, splines, painted, sheet, fasteners, flanges, solids):
         path = FOLDER / f"{make.__name__}.step"
-        write(make(), path, parameter_curves=make is not solids)
+        write(make(), path, parameter_curves=make not in (flanges, solids))
         print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")
 
 

@@ -7,6 +7,7 @@ the contact region lie on both trimmed faces?
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import NamedTuple
 
 import numpy as np
 
@@ -66,12 +67,32 @@ def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list
     return [miss for miss in near_misses if not (miss.rim and touching & set(zip(miss.parts, miss.faces, strict=True)))]
 
 
+class _Nearly(NamedTuple):
+    """A state that two faces are nearly in."""
+
+    state: ContactState
+    touch: Touch
+    region: ContactRegion
+
+
+Found = tuple[ContactState, Touch, ContactRegion]
+"""A state that two faces are in."""
+
+
 def _examine(
     parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
 ) -> Contact | NearMiss | None:
     """The first state that the pair of faces is in, else what it nearly is by the least misfit."""
     if KINDS.index(faces[0].surface.kind) > KINDS.index(faces[1].surface.kind):
         parts, faces = (parts[1], parts[0]), (faces[1], faces[0])
+    found = _state(faces, at, tol)
+    if isinstance(found, _Nearly):
+        return _near_miss(found, parts, faces, at, tol)
+    return None if found is None else _contact(parts, faces, *found)
+
+
+def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nearly | None:
+    """The state of two faces whose kinds are in the order of the states."""
     s1, s2 = faces[0].surface, faces[1].surface
     near, least = None, np.inf
     for state in _ROWS[s1.kind, s2.kind]:
@@ -85,18 +106,18 @@ def _examine(
             touch = state.touch(s1, s2, region.centre) or touch
             fits = tol.fits(touch, region.extent, s1, s2)
             if fits and region.inside:
-                return _contact(state, parts, faces, touch, region)
+                return state, touch, region
             if fits or region.inside:
                 excess = tol.excess(touch, region.extent, s1, s2)
                 if excess < least / 2:  # only what is much nearer supersedes a fit, which comes first
-                    near, least = _near_miss(state, parts, faces, touch, region, tol), excess
+                    near, least = _Nearly(state, touch, region), excess
         if tol.fits(touch, 0.0, s1, s2):
             break  # what fills its hole is not also a loose pin that leans against it
     return near
 
 
 def _contact(
-    state: ContactState, parts: tuple[Part, Part], faces: tuple[Face, Face], touch: Touch, region: ContactRegion
+    parts: tuple[Part, Part], faces: tuple[Face, Face], state: ContactState, touch: Touch, region: ContactRegion
 ) -> Contact:
     surfaces = (faces[0].surface, faces[1].surface)
     return Contact(
@@ -112,22 +133,23 @@ def _contact(
 
 
 def _near_miss(
-    state: ContactState,
-    parts: tuple[Part, Part],
-    faces: tuple[Face, Face],
-    touch: Touch,
-    region: ContactRegion,
-    tol: Tolerance,
+    nearly: _Nearly, parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
 ) -> NearMiss:
+    def works(other: Tolerance) -> bool:
+        found = _state(faces, at, other)
+        return found is not None and not isinstance(found, _Nearly) and found[0] is nearly.state
+
+    state, touch, region = nearly
+    names = (parts[0].name, parts[1].name)
     return NearMiss(
-        parts=(parts[0].name, parts[1].name),
+        parts=names,
         faces=(faces[0].name, faces[1].name),
         state=state.letter,
         region=state.region,
         gap=touch.gap,
         tilt=touch.tilt,
         rim=not region.inside,
-        reason=reason(touch, region, tol, faces[0].surface, faces[1].surface),
+        reason=reason(names, touch, region, tol, (faces[0].surface, faces[1].surface), works),
     )
 
 

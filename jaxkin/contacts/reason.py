@@ -2,28 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from jaxkin.contacts.region import ContactRegion
+from jaxkin.contacts.remedy import Options, remedy, told_apart
 from jaxkin.contacts.tolerance import Tolerance, reach, smaller_radius
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
 
 
-def reason(touch: Touch, region: ContactRegion, tolerance: Tolerance, s1: Surface, s2: Surface) -> str:
-    """One clause for each thing that keeps the touch from being a contact."""
+def reason(
+    parts: tuple[str, str],
+    touch: Touch,
+    region: ContactRegion,
+    tolerance: Tolerance,
+    surfaces: tuple[Surface, Surface],
+    works: Callable[[Tolerance], bool],
+) -> str:
+    """One clause for each thing that keeps the touch from being a contact, with what to correct in the model; and the
+    tolerances with which it would be one, if there are such. `works` tells whether others do."""
     clauses = []
-    loose = max(tolerance.length, tolerance.fit * smaller_radius(s1, s2))
-    allowed = tolerance.length
-    if touch.clearance is not None:
-        allowed += max(0.0, touch.clearance)
-        if touch.clearance < -tolerance.length:
-            clauses.append(
-                f"thicker than its hole by {-touch.clearance:.3g}: a press fit holds the parts together, join them"
-            )
-        elif touch.clearance > loose:
-            fit = touch.clearance / smaller_radius(s1, s2)
-            clauses.append(
-                f"radial clearance {touch.clearance:.3g}, allowed {loose:.3g}: give fit={fit:.2g} if it guides"
-            )
+    loose = max(tolerance.length, tolerance.fit * smaller_radius(*surfaces))
+    allowed = tolerance.length + min(max(0.0, touch.clearance or 0.0), loose)
+    pressed = touch.clearance is not None and touch.clearance < -tolerance.length
+    if pressed:
+        clauses.append(
+            f"thicker than its hole by {-(touch.clearance or 0.0):.3g}: a press fit holds the parts together, join "
+            f"them with rigid=[[{parts[0]!r}, {parts[1]!r}]]"
+        )
+    wide = touch.clearance is not None and touch.clearance > loose
+    if wide:
+        clauses.append("radial clearance {}, allowed {}".format(*told_apart(touch.clearance or 0.0, loose)))
     if touch.tilt > tolerance.angle or reach(touch, region.extent) > allowed:
         if touch.tilt > tolerance.angle or touch.tilt * region.extent > allowed:
             clauses.append(f"tilted by {touch.tilt:.3g} rad over {region.extent:.3g}: align the parts")
@@ -31,12 +40,25 @@ def reason(touch: Touch, region: ContactRegion, tolerance: Tolerance, s1: Surfac
             clauses.append(_gap(touch, allowed))
     if not region.inside:
         clauses.append("the faces meet only along an edge")
-    return "; ".join(clauses)
+    options = {} if pressed else remedy(touch, region, tolerance, surfaces, works)
+    if not options and wide and len(clauses) == 1:
+        tighter = (touch.clearance or 0.0) - loose
+        return f"{clauses[0]}: no tolerance makes it a contact; if it guides, make it tighter by {tighter:.3g}"
+    return "; ".join(clauses) + _advice(options, only=wide and len(clauses) == 1)
+
+
+def _advice(options: Options, only: bool) -> str:
+    """The end of the text; `only`: there is nothing in the model to correct."""
+    if not options:
+        return ""
+    given = ", ".join(f"{name}={value:g}" for name, value in options.items())
+    guides = " if it guides" if "fit" in options else ""
+    return f"{':' if only else ', or'} give {given}{guides}"
 
 
 def _gap(touch: Touch, allowed: float) -> str:
     if touch.clearance is not None:
-        return f"off centre by {touch.gap:.3g}, allowed {allowed:.3g}: centre it"
+        return "off centre by {}, allowed {}: centre it".format(*told_apart(abs(touch.gap), allowed))
     if touch.gap < 0:
         return f"the parts overlap by {-touch.gap:.3g}: move them apart"
-    return f"a gap of {touch.gap:.3g}: close it, or give length={2 * touch.gap:.1g}"
+    return f"a gap of {touch.gap:.3g}: close it"

@@ -14,7 +14,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.motion.assembly import Assembly
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
-from jaxkin.topology.names import nearest
+from jaxkin.topology.names import listed, nearest
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +67,10 @@ class Study:
         if not self.ranges:
             joints = self.mechanism.all_joints
             names = ", ".join(f"{joint.name}.{c}" for joint in joints for c in joint.coordinates)
+            drivable = self.mechanism.mobility().drivable
+            enough = f"; {listed(drivable)} would be enough" if drivable else ""
             raise ValueError(
-                "nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study; there are "
+                f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study{enough}; there are "
                 f"{names or 'no coordinates at all'}"
             )
         return in_radians(self.mechanism, self.ranges)

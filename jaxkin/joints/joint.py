@@ -51,6 +51,17 @@ class Joint:
         return tuple(result)
 
     @property
+    def driven_together(self) -> tuple[tuple[int, ...], ...]:
+        """The coordinates by their indices, those that can be driven together only in one tuple: a ball's angles are
+        one rotation."""
+        groups: list[tuple[int, ...]] = []
+        for movement in self.movements:
+            first = sum(map(len, groups))
+            here = range(first, first + len(MOVEMENTS[movement].coordinates))
+            groups += [tuple(here)] if MOVEMENTS[movement].ball else [(index,) for index in here]
+        return tuple(groups)
+
+    @property
     def freedoms(self) -> int:
         """Number of coordinates."""
         return len(self.coordinates)

@@ -73,6 +73,11 @@ class Assembly:
             self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine, align=align
         )
 
+    @property
+    def found(self) -> tuple[Contacts, ...]:
+        """What was detected so far, with whichever tolerances."""
+        return tuple(self._found.values())
+
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
         return {}

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from jaxkin.motion.freedoms import LoopFreedoms
+from jaxkin.motion.freeing import freeing
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.mobility import drivable, largest, moving_columns, names
-from jaxkin.motion.spinning import spinning
+from jaxkin.motion.mobility import drivable, largest, names
+from jaxkin.motion.needless import spinning
 from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent
 
@@ -19,30 +20,66 @@ def dead_end(mechanism: Mechanism, driven: Sequence[Coordinate]) -> str | None:
     """Why the loops cannot follow a drive of these coordinates; None where they can, or where it is not sure.
 
     It is sure where the rates cannot be given at the assembled pose nor at a pose beside it: at a singular pose, where
-    the motion may branch, the drive is left to the solver.
+    the motion may branch, the drive is left to the solver. What is to be driven instead can be given at both poses,
+    where there is such.
     """
     for found, columns in _driven_blocks(mechanism, driven):
-        if independent(found.at_rest, columns, found.noise) == len(columns):
-            continue
-        if independent(found.motions, columns, found.noise) == len(columns):
+        if _follows(found, columns):
             continue
         given = names(mechanism, found, columns)
-        movable = moving_columns(found, found.motions)
-        others = names(mechanism, found, movable)
-        if not others:
-            return f"{listed(given)} cannot be driven: {_mechanism_of(found)} has no freedom; look for a joint too many"
+        if not len(found.motions):
+            said = f"{listed(given)} cannot be driven: {_mechanism_of(found)} has no freedom"
+            return f"{said}; {_what_holds(mechanism, found)}"
+        choices = _choices(found)
+        movable = {column for group in choices for column in group}
         if stuck := names(mechanism, found, [column for column in columns if column not in movable]):
             what = "has no freedom left to it" if len(stuck) == 1 else "have no freedom left to them"
-            return f"{listed(stuck)} {what} by the loops; what can be driven is {listed(others)}"
-        kept = largest(found, columns)
+            others = _or(mechanism, found, _surest(found, choices))
+            return f"{listed(stuck)} {what} by the loops" + (f"; what can be driven is {others}" if others else "")
+        kept = largest(found, sorted(columns, key=[c for group in choices for c in group].index))
         freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
         if len(kept) < len(found.motions):
             freedoms += f", {len(kept)} of them for these"
-        instead = f"drive only {listed(names(mechanism, found, kept))}"
-        if len(kept) == 1:
-            instead += f", or one of {listed(names(mechanism, found, [c for c in movable if c not in kept]))}"
+        instead = f"drive only {listed(names(mechanism, found, sorted(kept)))}"
+        others = [group for group in _surest(found, choices) if not set(group) & set(kept)]
+        if len(kept) == 1 and others:
+            instead += f", or one of {_or(mechanism, found, others)}"
         return f"driven {listed(given)}, but {_mechanism_of(found)} has {freedoms}: {instead}"
     return None
+
+
+def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
+    """Whether the rates of these columns can be given, at the assembled pose or beside it."""
+    return any(independent(motions, columns, found.noise) == len(columns) for motions in (found.at_rest, found.motions))
+
+
+def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
+    """The columns that can be driven, alone or as the angles of a ball: first those that can at the assembled pose."""
+    groups = dict.fromkeys(found.driven_together.values())
+    movable = [group for group in groups if independent(found.motions, group, found.noise) == len(group)]
+    surest = _surest(found, movable)
+    return [*surest, *(group for group in movable if group not in surest)]
+
+
+def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence[tuple[int, ...]]:
+    """Those that can be driven at the assembled pose too, if there are such: not a slide at its dead centre."""
+    at_rest = [group for group in choices if independent(found.at_rest, group, found.noise) == len(group)]
+    return at_rest or choices
+
+
+def _or(mechanism: Mechanism, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
+    """The names of columns to choose from, the angles of a ball together."""
+    return listed([" with ".join(names(mechanism, found, group)) for group in groups])
+
+
+def _what_holds(mechanism: Mechanism, found: LoopFreedoms) -> str:
+    """The contacts or joints without which the loops could move."""
+    rows = {row for pair in found.ends.values() for row in pair}
+    row_of = mechanism.structure.row_of
+    ways = [way for way in freeing(mechanism) if rows & {row_of[part] for part in way.parts}]
+    if not ways:
+        return "no single contact or joint is the reason"
+    return f"without one of these it would have some: {'; '.join(map(str, ways))}"
 
 
 def left_free(mechanism: Mechanism, driven: Sequence[Coordinate]) -> tuple[str, ...]:

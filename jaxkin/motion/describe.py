@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from jaxkin.motion.freeing import LISTED, freeing
+from jaxkin.motion.freeing import freeing
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.open_loops import opening
 
@@ -38,16 +38,15 @@ def describe_mechanism(mechanism: Mechanism) -> str:
 def _mobility(mechanism: Mechanism, moving: int) -> list[str]:
     mobility = mechanism.mobility()
     lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
-    return [*lines, *_why_it_cannot_move(mechanism)] if moving and not mobility.useful else lines
+    return lines if mobility.useful or not moving else [*lines, *_why_it_cannot_move(mechanism, mobility.freedoms)]
 
 
-def _why_it_cannot_move(mechanism: Mechanism) -> list[str]:
+def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
+    said = "It cannot move."
+    if freedoms:
+        what = "its freedom is" if freedoms == 1 else f"its {freedoms} freedoms are"
+        said = f"Nothing can move but parts about themselves: {what} idle or of parts that only spin."
     ways = freeing(mechanism)
     if not ways:
-        return ["It cannot move, and no single contact is the reason."]
-    more = [f"  and {len(ways) - LISTED} more"] if len(ways) > LISTED else []
-    return [
-        "It cannot move. It could without one of these (leave a contact out with ignore=):",
-        *(f"  {way}" for way in ways[:LISTED]),
-        *more,
-    ]
+        return [f"{said} No single contact is the reason, nor are several between the same two parts."]
+    return [f"{said} It could without one of these (leave a contact out with ignore=):", *(f"  {way}" for way in ways)]

@@ -10,7 +10,6 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Bool, Float
 
-from jaxkin.geometry.motions import MOVEMENTS
 from jaxkin.geometry.traced import traced
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.topology.names import by_name, nearest
@@ -96,8 +95,12 @@ def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
     if key in names:
         joint = mechanism.all_joints[names.index(key)]
         if joint.freedoms != 1:
-            choices = " or ".join(repr(f"{key}.{name}") for name in joint.coordinates)
-            what = f"has {joint.freedoms} coordinates: write {choices}" if choices else "has no coordinate to drive"
+            choices = [
+                " with ".join(repr(f"{key}.{joint.coordinates[index]}") for index in group)
+                for group in joint.driven_together
+            ]
+            said = f"has {joint.freedoms} coordinates: write {' or '.join(choices)}"
+            what = said if choices else "has no coordinate to drive"
             raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
         return names.index(key), 0
     name, _, part = key.rpartition(".")
@@ -139,11 +142,7 @@ def _values(key: str, values: Any) -> Given:
 def _whole_balls(mechanism: Mechanism, driven: Collection[tuple[int, int]]) -> None:
     """A ball's angles are one rotation: all three are driven or none."""
     for index, joint in enumerate(mechanism.all_joints):
-        column = 0
-        for movement in joint.movements:
-            count = len(MOVEMENTS[movement].coordinates)
-            chosen = [c for c in range(column, column + count) if (index, c) in driven]
-            if MOVEMENTS[movement].ball and 0 < len(chosen) < count:
-                names = [f"{joint.name}.{joint.coordinates[c]}" for c in range(column, column + count)]
+        for group in joint.driven_together:
+            if 0 < sum((index, c) in driven for c in group) < len(group):
+                names = [f"{joint.name}.{joint.coordinates[c]}" for c in group]
                 raise ValueError(f"joint {joint.name!r} is a ball: drive all of {', '.join(map(repr, names))}, or none")
-            column += count

@@ -42,6 +42,14 @@ class LoopFreedoms:
         """The origin of all numbers here, and the characteristic length."""
         self.ends = self._loops.ends
         """For each joint the rows of its parts, all fixed parts together."""
+        column_of = {place: column for column, place in enumerate(self.columns)}
+        self.driven_together = {
+            column_of[index, k]: tuple(column_of[index, other] for other in group)
+            for index in block.joints
+            for group in mechanism.solved_joints[index].driven_together
+            for k in group
+        }
+        """For each column those that can be driven with it only: the three angles of a ball."""
         self.fixed = mechanism.structure.row_of[mechanism.fixed[0]]
         """The row of the fixed parts."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,11 +16,12 @@ from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
 from jaxkin.motion.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.motion.at_rest import left_at_rest
 from jaxkin.motion.ignore import without
 from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.spinning import left_at_rest
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
+from jaxkin.topology.components import connected
 from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
@@ -27,6 +29,17 @@ if TYPE_CHECKING:
 
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
+
+
+class Begun(NamedTuple):
+    """A mechanism without its contacts."""
+
+    joints: tuple[Joint, ...]
+    """Those by hand, and the ties of rigid groups."""
+    parts: tuple[str, ...]
+    fixed: tuple[str, ...]
+    unit: str
+    solids: tuple[Part, ...]
 
 
 def mechanism_from_solids(
@@ -52,24 +65,51 @@ def mechanism_from_solids(
 
     used = without(contacts, ignore)
     ties = _ties(assembly, body, fixed)
-    _refuse_loose(assembly, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
+    _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
     moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]
     by_hand = {_pair(given.parts, body): given.name for given in joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
-    noise = noise_of(assembly.parts, moving)
+    begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
+    mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
+    told = (*_left_out(len(contacts) - len(used), replaced, by_hand, body), *_told(contacts))
+    return replace(mechanism, notes=(*told, *mechanism.notes))
+
+
+def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
+    """The contacts that a mechanism was found from, those of parts at rest too."""
+    return (*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest)
+
+
+def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
+    """The mechanism from the same solids without some contacts, or joints by hand by their names.
+
+    Raises ValueError where that leaves a part that hangs on nothing.
+    """
+    every = all_contacts(mechanism)
+    by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
+    body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == "fixed"])
+    given = tuple(each for each in by_hand if each.name not in left_out)
+    begun = Begun(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
+    contacts = [each for each in every if each not in left_out]
+    return _joined(begun, contacts, body, noise_of(mechanism.solids, every), combine=True, align=None)
+
+
+def _joined(
+    begun: Begun,
+    contacts: Sequence[Contact],
+    body: Mapping[str, str],
+    noise: Noise,
+    combine: bool,
+    align: float | int | None,
+) -> Mechanism:
+    """Parts with some joints, joined by contacts as well, all free of noise, and what only spins left at rest."""
+    parts, fixed = begun.parts, begun.fixed
+    found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
+    structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
+    notes = (*found.notes, *_aligned(found, begun.unit))
+    mechanism = Mechanism(found.joints, structured, begun.unit, begun.solids, notes, found.contacts)
     most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
-    found = joints_from_contacts(kept, names, combine, noise, body, joints)
-    every = (*found.joints, *ties)
-    described = [(each.name, *each.parts) for each in every]
-    notes = (
-        *found.notes,
-        *_left_out(len(contacts) - len(used), replaced, by_hand, body),
-        *_told(contacts),
-        *_aligned(found, assembly.unit),
-    )
-    structured = structure(names, described, fixed)
-    mechanism = Mechanism(every, structured, assembly.unit, assembly.parts, notes, found.contacts)
     return aligned(left_at_rest(mechanism) if combine else mechanism, most)
 
 
@@ -120,31 +160,47 @@ def _told(contacts: Sequence[Contact]) -> tuple[str, ...]:
     return (*map(str, contacts.near_misses), *contacts.notes) if isinstance(contacts, Contacts) else ()
 
 
-def _refuse_loose(assembly: Assembly, fixed: Sequence[str], ties: Sequence[tuple[str, str]]) -> None:
+def _refuse_loose(
+    assembly: Assembly, contacts: Sequence[Contact], fixed: Sequence[str], ties: Sequence[tuple[str, str]]
+) -> None:
     """Refuse parts that no chain of contacts and joints ties to the fixed ones, with what is nearly a contact there."""
-    neighbours: dict[str, set[str]] = {name: set() for name in assembly.names}
-    for one, other in ties:
-        neighbours[one].add(other)
-        neighbours[other].add(one)
-    held, todo = set(fixed), list(fixed)
-    while todo:
-        new = neighbours[todo.pop()] - held
-        held |= new
-        todo += new
-    loose = [name for name in assembly.names if name not in held]
-    if not loose:
+    groups = connected(assembly.names, [*ties, *((fixed[0], part) for part in fixed[1:])])
+    held = next(group for group in groups if fixed[0] in group)
+    islands = [sorted(group, key=assembly.names.index) for group in groups if group is not held]
+    if not islands:
         return
-    alone = [name for name in loose if not neighbours[name]]
+    loose = [name for name in assembly.names if name not in held]
+    alone = [island[0] for island in islands if len(island) == 1]
     if alone:
         problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
     else:
         problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
-    found = assembly.contacts()
+    found = _told_by(assembly, contacts)
     misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
     said = [note for note in found.notes if any(name in note for name in alone or loose)]
     nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
-    advice = "correct the model, fix the part, connect it with rigid=, or leave it out:"
+    groups = [[_nearest(assembly, island, held), island[0]] for island in islands[:_LISTED]]
+    advice = f"correct the model, fix the part, connect it, as with rigid={groups}, or leave it out of the file:"
     raise ValueError("\n".join([f"{assembly.source}: {problem}; {advice}", *nearly]))
+
+
+def _told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
+    """The detection that some contacts are from: what it nearly found depends on the tolerances that it was given."""
+    if isinstance(contacts, Contacts):
+        return contacts
+    sources = [found for found in assembly.found if contacts and any(each is contacts[0] for each in found)]
+    return sources[0] if sources else assembly.contacts()
+
+
+def _nearest(assembly: Assembly, island: Sequence[str], held: Collection[str]) -> str:
+    """The held part whose box is nearest to the first part of an island."""
+    boxes = {part.name: part.box for part in assembly.parts}
+    low, high = boxes[island[0]]
+
+    def distance(name: str) -> float:
+        return float(np.linalg.norm(np.maximum(np.maximum(boxes[name][0] - high, low - boxes[name][1]), 0.0)))
+
+    return min((name for name in assembly.names if name in held), key=distance)
 
 
 def _listed(names: Sequence[str]) -> str:

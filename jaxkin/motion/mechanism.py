@@ -47,6 +47,8 @@ class Mechanism:
     """What was found, combined or refused on the way from solids to joints, in words."""
     contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
     """The contacts that a joint stands for, by its name; none for joints by hand."""
+    contacts_at_rest: tuple[Contact, ...] = field(default=())
+    """Contacts of parts that only spin and are left at rest, which no joint stands for."""
     ideal: tuple[Joint, ...] = field(default=())
     """The nearest joints whose loops close throughout their motion, where those of `all_joints`, which disagree by more
     than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to

@@ -17,8 +17,8 @@ from jaxkin.joints.subgroups import Subgroup
 from jaxkin.motion.freedoms import LoopFreedoms
 from jaxkin.motion.idle import IdleMotion, IdleMotions
 from jaxkin.motion.mechanism import Mechanism
+from jaxkin.motion.needless import spinning
 from jaxkin.motion.open_loops import check_closed
-from jaxkin.motion.spinning import spinning
 from jaxkin.solve.system import EQUATIONS
 from jaxkin.topology.names import listed
 from jaxkin.topology.rates import independent, without
@@ -150,10 +150,15 @@ def drivable(mechanism: Mechanism, found: LoopFreedoms, driven: Sequence[int], s
 
 
 def largest(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
-    """Those of the columns, each in turn, that can be given besides the ones before."""
+    """Those of the columns, each in turn, that can be given besides the ones before; the angles of a ball are given
+    together."""
     taken: list[int] = []
-    for column in columns:
-        together = [*given, *taken, column]
+    offered = list(columns)
+    for column in offered:
+        group = found.driven_together[column]
+        together = [*given, *taken, *group]
+        if column in taken or not set(group) <= set(offered):
+            continue
         if independent(found.motions, together, found.noise) == len(together):
-            taken.append(column)
+            taken += group
     return taken

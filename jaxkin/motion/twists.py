@@ -50,6 +50,12 @@ class Twists:
         """The rows of some joints."""
         return np.flatnonzero(np.isin(self.owner, joints))
 
+    def alone(self, bodies: Sequence[str], rows: Rows) -> int:
+        """Independent twists that some of the rows allow these bodies while all others rest."""
+        own = np.concatenate([6 * self.bodies.index(body) + np.arange(6) for body in bodies])
+        strengths = np.linalg.svd(self.matrix[np.ix_(rows, own)], compute_uv=False)
+        return len(own) - int((strengths > DOUBLE.rank * strengths.max(initial=0.0)).sum())
+
     def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
         """The motions that the system gains without some of its rows: of the bodies, beside those that it has anyway.
 
@@ -59,6 +65,13 @@ class Twists:
         _, strengths, directions = np.linalg.svd(u[rows], full_matrices=False)
         lost = directions[strengths**2 > 1 - _LOST]
         return ((lost / s) @ vt).reshape(len(lost), len(self.bodies), 6)
+
+    def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
+        """By how much some rows forbid the motion that they forbid the least, of those gained without them: lengths
+        over the extent of the joints, or radians, for a motion of the size one."""
+        motions = gained.reshape(len(gained), -1)
+        unit = np.linalg.svd(motions, full_matrices=False)[2]
+        return float(np.linalg.svd(self.matrix[rows] @ unit.T, compute_uv=False).min(initial=1.0))
 
     def relative(self, one: str, other: str) -> Float[np.ndarray, "6 columns"]:
         """The twists of a body relative to another in all motions of the system, projected from unit twists."""

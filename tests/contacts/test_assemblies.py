@@ -110,11 +110,11 @@ def test_the_report_of_misses_and_refusals(solids):
     assert str(contacts).splitlines() == [
         "no contacts",
         "1 near miss",
-        "  nearly (d) table plane - ball sphere: ball on plane: a gap of 0.002: close it, or give length=0.004",
+        "  nearly (d) table plane - ball sphere: ball on plane: a gap of 0.002: close it, or give length=0.0021",
         "notes",
         "  ring: face 3: torus, not one of the four surfaces",
     ]
-    assert len(find_contacts((one, solids.part("ball", solids.moved(pair.face2, away))), length=0.004)) == 1
+    assert len(find_contacts((one, solids.part("ball", solids.moved(pair.face2, away))), length=0.0021)) == 1
 
 
 def test_fewer_than_two_parts_have_no_contacts(solids):

@@ -1,0 +1,70 @@
+"""Tolerances with which a near miss would be a contact: rounded up to few digits, and tried before they are advised."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from jaxkin.contacts.region import ContactRegion
+from jaxkin.contacts.tolerance import Tolerance, reach, smaller_radius
+from jaxkin.contacts.touch import Touch
+from jaxkin.geometry.surfaces import Surface
+
+DIGITS = 2
+"""Digits of an advised tolerance: one that is rounded up by a tenth at most hardly makes other pairs touch."""
+_MORE = (1.0, 1.1, 1.3, 1.6, 2.0)
+"""Factors on what a near miss is measured to need, in turn: where its faces overlap depends on the tolerance too."""
+_CLOSE = 9
+"""Digits of two numbers of which one is larger, at most: rounding is what differs beyond them."""
+
+Options = dict[str, float]
+"""Values by the names of arguments of `Assembly.contacts`."""
+
+
+def remedy(
+    touch: Touch,
+    region: ContactRegion,
+    tolerance: Tolerance,
+    surfaces: tuple[Surface, Surface],
+    works: Callable[[Tolerance], bool],
+) -> Options:
+    """The tolerances to give for a contact, as few as will do; none where none worth a report will do.
+
+    `works` tells whether the faces are in contact with other tolerances.
+    """
+    if touch.tilt > tolerance.angle or not region.inside:
+        return {}
+    for options in _candidates(touch, region, tolerance, surfaces):
+        if works(replace(tolerance, **options)):
+            return options
+    return {}
+
+
+def _candidates(
+    touch: Touch, region: ContactRegion, tolerance: Tolerance, surfaces: tuple[Surface, Surface]
+) -> Iterator[Options]:
+    radius, clearance = smaller_radius(*surfaces), touch.clearance
+    fits: list[Options] = [{}]
+    if clearance is not None and clearance > max(tolerance.length, tolerance.fit * radius):
+        fits = [{"fit": value} for more in _MORE if (value := rounded_up(more * clearance / radius)) > tolerance.fit]
+    yield from filter(None, fits)
+    needed = reach(touch, region.extent) - max(0.0, clearance or 0.0)
+    for more in _MORE if needed > 0 else ():
+        length = rounded_up(more * needed)
+        if tolerance.length < length <= tolerance.near_length:
+            yield {**fits[0], "length": length}
+
+
+def rounded_up(value: float, digits: int = DIGITS) -> float:
+    """The next larger number of so many digits; the number itself where it has no more."""
+    step = 10.0 ** (np.floor(np.log10(value)) + 1 - digits)
+    up = float(f"{np.ceil(value / step * (1 - 1e-12)) * step:.{digits}g}")
+    return up if up >= value else float(f"{up + step:.{digits}g}")
+
+
+def told_apart(more: float, less: float) -> tuple[str, str]:
+    """Two numbers with as many digits as tell them apart, three at least."""
+    texts = [(f"{more:.{digits}g}", f"{less:.{digits}g}") for digits in range(3, _CLOSE + 1)]
+    return next((pair for pair in texts if pair[0] != pair[1]), texts[-1])
