@@ -1,7 +1,6 @@
 """Idle motions: passive parts that move about themselves while all others rest; no motor is called idle."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from jaxkin.motion.idle import IdleMotions
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion
 from reference import catalogue
+from reference.cassie import cassie_leg
 from reference.mechanisms import Z, planar_fourbar, rssr_linkage
 
 X = (1.0, 0.0, 0.0)
@@ -66,43 +66,6 @@ def leg(tail=True) -> Mechanism:
             universal("cross", "rod", "shin", point=(1.2, 0.2, 0.1), axis1=Z, axis2=X),
         ],
     )
-
-
-CASSIE = (
-    # body, parent, place and axes x and y in it
-    ("hip-roll", "pelvis", (0.021, 0.135, 0), (0, 0, -1), (0, 1, 0)),
-    ("hip-yaw", "hip-roll", (0, 0, -0.07), (0, 0, 1), (0, 1, 0)),
-    ("hip-pitch", "hip-yaw", (0, 0, -0.09), (0, 0, -1), (1, 0, 0)),
-    ("rod", "hip-pitch", (0, 0, 0.045), (0.7922, -0.60599, -0.072096), (0.60349, 0.79547, -0.054922)),
-    ("knee", "hip-pitch", (0.12, 0, 0.0045), (1, -1, 0), (1, 1, 0)),
-    ("shin", "knee", (0.06068, 0.04741, 0), (1, 0, 0), (0, 1, 0)),
-    ("tarsus", "shin", (0.43476, 0.02, 0), (0.52992, 0.84805, 0), (-0.84805, 0.52992, 0)),
-    ("heel", "tarsus", (-0.01269, -0.03059, 0.00092), (-0.91211, 0.40829, 0.036948), (-0.40992, -0.90952, -0.068841)),
-    ("foot-crank", "tarsus", (0.058, -0.034, 0.02275), (1, 0, 0), (0, 1, 0)),
-    ("plantar-rod", "foot-crank", (0.055, 0, -0.00791), (1, 0, 0), (0, 1, 0)),
-    ("foot", "tarsus", (0.408, -0.04, 0), (1, 0, 0), (0, 1, 0)),
-)
-
-
-def cassie_leg() -> Mechanism:
-    """A leg of the robot Cassie by the numbers of its MJCF model (MuJoCo Menagerie, Agility Robotics, MIT), in metres.
-
-    Every body turns about its z axis on the one before, but for the rod at the heel, which has a ball at either end.
-    """
-    pose, joints = {"pelvis": np.eye(4)}, []
-    for name, parent, place, x, y in CASSIE:
-        place, x, y = np.array([place, x, y], float)
-        pose[name] = pose[parent] @ frame(place, np.cross(x, y), x)
-        pin = {"point": pose[name][:3, 3]}
-        ball = name == "rod"
-        joints.append(
-            spherical(name, parent, name, **pin)
-            if ball
-            else revolute(name, parent, name, **pin, axis=pose[name][:3, 2])
-        )
-    for rod, length, other in (("rod", 0.5012, "heel"), ("plantar-rod", 0.35012, "foot")):
-        joints.append(spherical(f"connect {other}", rod, other, point=(pose[rod] @ [length, 0, 0, 1])[:3]))
-    return Mechanism.build(fixed=["pelvis"], joints=joints)
 
 
 def left_free(mechanism: Mechanism, drive) -> list[str]:
@@ -183,64 +146,6 @@ def test_rods_of_parallel_robots_spin_where_their_balls_are_hinges():
         assert set(written.drivable) == set(plain.drivable)
         for one, other in zip(plain.idle_motions, written.idle_motions, strict=True):
             assert set(one.parts) <= set(other.parts) and one.between == other.between
-
-
-def with_legs(make) -> Mechanism:
-    """The hexapod with other legs: `make(name, base, top)` gives the joints of one from "ground" to "platform"."""
-    joints = {joint.name: joint for joint in catalogue.hexapod().all_joints}
-    made = []
-    for i in range(6):
-        ends = [np.asarray(joints[f"{end} {i}"].before)[0, :3, 3] for end in ("base", "top")]
-        made += make(str(i), *ends)
-    return Mechanism.build(fixed=["ground"], joints=made)
-
-
-def cross_and_ball(name, base, top, sleeve=prismatic, other=spherical) -> list[Joint]:
-    line = top - base
-    across = np.cross(line, Z)
-    tube, rod = f"tube {name}", f"rod {name}"
-    cross = {"axis1": across, "axis2": np.cross(line, across)}
-    return [
-        universal(f"base {name}", "ground", tube, point=base, **cross),
-        sleeve(f"leg {name}", tube, rod, point=base, axis=line),
-        other(f"top {name}", rod, "platform", point=top, **(cross if other is universal else {})),
-    ]
-
-
-def with_knee(name, base, top) -> list[Joint]:
-    knee, across = (base + top) / 2 + [40.0, 10.0, 0.0], np.cross(top - base, (1.0, 2.0, 3.0))
-    return [
-        spherical(f"base {name}", "ground", f"thigh {name}", point=base),
-        revolute(f"leg {name}", f"thigh {name}", f"shin {name}", point=knee, axis=across),
-        spherical(f"top {name}", f"shin {name}", "platform", point=top),
-    ]
-
-
-def turning_halves(name, base, top) -> list[Joint]:
-    tube, rod = f"tube {name}", f"rod {name}"
-    return [
-        spherical(f"base {name}", "ground", tube, point=base),
-        cylindrical(f"leg {name}", tube, rod, point=base, axis=top - base),
-        spherical(f"top {name}", rod, "platform", point=top),
-    ]
-
-
-@pytest.mark.parametrize(
-    ("make", "freedoms", "idle", "parts"),
-    [
-        (cross_and_ball, 6, 0, 0),
-        (partial(cross_and_ball, sleeve=cylindrical, other=universal), 6, 0, 0),
-        (partial(cross_and_ball, sleeve=cylindrical), 12, 6, 1),  # the rod turns in its tube
-        (turning_halves, 18, 12, 1),
-        (with_knee, 12, 0, 0),  # thigh and shin swing about the line of the balls, and the knee with them
-    ],
-    ids=["UPS", "UCU", "UCS", "SCS", "SRS"],
-)
-def test_legs_of_a_hexapod(make, freedoms, idle, parts):
-    found = with_legs(make).mobility()
-    assert (found.freedoms, found.idle_freedoms) == (freedoms, idle)
-    assert all(len(motion.parts) == parts for motion in found.idle_motions)
-    assert not {name for name in found.idle if name.startswith("leg") and name.endswith(".z")}
 
 
 def rod_with(*joints: Joint) -> Mechanism:
