@@ -285,16 +285,8 @@ def _in_chunk(change: Mutation, chunk: int) -> Mutation:
 
 
 _ANY = (flipped_bytes, deleted, repeated, moved, cut_off, without_middle)
-_TEXT = (
-    *_ANY,
-    flipped_letters,
-    special_numbers,
-    scaled_numbers,
-    swapped_numbers,
-    deleted_lines,
-    repeated_lines,
-    exchanged_lines,
-)
+_LINES = (deleted_lines, repeated_lines, exchanged_lines)
+_TEXT = (*_ANY, flipped_letters, special_numbers, scaled_numbers, swapped_numbers, *_LINES)
 _MUTATIONS: dict[str, tuple[Mutation, ...]] = {
     "step": (*_TEXT, other_references, other_references, repeated_knots, other_keywords),
     "stl": (*_TEXT, other_counts),
