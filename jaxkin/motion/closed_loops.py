@@ -131,7 +131,7 @@ class ClosedLoops:
             skew = left[:3, :3] - left[:3, :3].T
             square += float(((left - np.eye(4)) ** 2).sum())
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        jacobian = jacobian.reshape(-1, len(q))
+        jacobian = jacobian.reshape(6 * len(residual), len(q))
         return Travel(residual.ravel(), jacobian, screws, tuple(starts), float(np.sqrt(square)), places)
 
 
