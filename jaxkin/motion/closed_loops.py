@@ -53,7 +53,7 @@ class Travel(NamedTuple):
     def merit(self) -> float:
         """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2.
 
-        `residual` times the Jacobian is its gradient; `residual` alone vanishes where loops are open by half a turn too.
+        `residual` times the Jacobian is its gradient. `residual` alone vanishes at half a turn too.
         """
         squares = (self.left_open - np.eye(4)) ** 2
         return float(0.25 * squares[:, :3, :3].sum() + 0.5 * squares[:, :3, 3].sum())
@@ -152,7 +152,7 @@ class ClosedLoops:
             skew = left[:3, :3] - left[:3, :3].T
             left_open.append(left)
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        jacobian = jacobian.reshape(-1, len(q))
+        jacobian = jacobian.reshape(6 * len(residual), len(q))
         return Travel(residual.ravel(), jacobian, screws, tuple(starts), np.array(left_open), places)
 
 

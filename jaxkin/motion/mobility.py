@@ -145,7 +145,8 @@ def drivable(mechanism: Mechanism, found: LoopFreedoms, driven: Sequence[int], s
         left = without(found.motions, [*driven, *taken], found.noise)
         if independent(np.concatenate([idle.rates, left]), order, found.noise) == len(idle.rates):
             break
-        taken += largest(found, [column], [*driven, *taken])
+        if column not in taken:
+            taken += largest(found, found.driven_together[column], [*driven, *taken])
     return taken
 
 

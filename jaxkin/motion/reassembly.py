@@ -142,7 +142,7 @@ class _Block:
 
 
 def _closed(mechanism: Mechanism, block: Block, noise: float) -> _Block:
-    """Close loops from the given pose; where these steps end at a residual, from the nearest other start that closes."""
+    """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = ClosedLoops(mechanism, block)
     q = np.zeros(len(loops.columns))
     before = loops.travel(q).gap

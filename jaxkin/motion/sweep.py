@@ -164,7 +164,9 @@ def _collect(
 
 def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"]):
     """Arrays with a row a pose, NaN where the pose is not `finite`."""
-    return jax.tree.map(lambda array: jnp.where(finite.reshape(-1, *[1] * (array.ndim - 1)), array, jnp.nan), rows)
+    return jax.tree.map(
+        lambda array: jnp.where(finite.reshape(len(finite), *[1] * (array.ndim - 1)), array, jnp.nan), rows
+    )
 
 
 def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:

@@ -58,10 +58,9 @@ def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
     source, old, new = ENDLESS[name]
     file = damaged(tmp_path, DATA / source, old, new)
     begin = time.monotonic()
-    with pytest.raises(
-        ValueError,
-        match=r"^bad\.step \(0\.0\d+ MB\) was not read within 0\.8 seconds: .*with seconds=4 in load or load_study$",
-    ):
+    late = r"\(0\.0\d+ MB\) was not read within 0\.8 seconds: .*with seconds=4 in load or load_study$"
+    # a kernel that fills its memory sooner than its time has crashed
+    with pytest.raises(ValueError, match=rf"^bad\.step ?(: the reader of STEP files crashed .* 4 GB of memory|{late})"):
         load(file, seconds=0.8)
     assert time.monotonic() - begin < 10.0  # the machine may be busy
     assert capfd.readouterr() == ("", "")
@@ -69,7 +68,7 @@ def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
 
 
 def test_the_time_of_a_study_is_that_of_its_files(tmp_path):
-    damaged(tmp_path, DATA / "splines.step", *ENDLESS["a coordinate that is no number"][1:])
+    damaged(tmp_path, DATA / "fillet.step", *ENDLESS["a line without length"][1:])
     study = tmp_path / "study.toml"
     study.write_text('geometry = "bad.step"\nfixed = ["nose"]\n')
     with pytest.raises(ValueError, match=r"^bad\.step .* was not read within 0\.8 seconds"):

@@ -1,6 +1,6 @@
 """A thousand files damaged at random: refused in one clear line, or read with a word about it, or none is needed.
 
-On two cores that other programs use as well a hundred take two and a half minutes, and all of them twenty to thirty.
+On two cores that other programs use as well a hundred take two and a half minutes, and all of them twenty.
 """
 
 import tempfile

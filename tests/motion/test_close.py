@@ -135,11 +135,10 @@ def test_other_assembly_modes_are_tried():
     for tilt in (0.05, -0.05):
         found = drawn_flat(tilt).close()
         assert found.closed and found.others and "led to another assembly mode" in str(found)
-        coupler, rocker = (found.mechanism.joints[name].before[0, :3, 3] for name in "CD")
-        crank = found.mechanism.joints["B"].before[0, :3, 3]
+        crank, pin = (found.mechanism.joints[name].before[0, :3, 3] for name in "BC")
         angle = np.arctan2(crank[1], crank[0])
         modes = [fourbar(np.array([angle]), side=side).rocker_pin[0] for side in (1, -1)]
-        here = [np.linalg.norm(coupler[:2] - mode) for mode in modes]
+        here = [np.linalg.norm(pin[:2] - mode) for mode in modes]
         assert min(here) < 1e-9 < max(here)
         # no crank angle of the other circuit takes the pin of the rocker to where it is
         assert min(found.others) > 0.3

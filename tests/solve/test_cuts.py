@@ -75,7 +75,14 @@ def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
     np.testing.assert_allclose(np.asarray(one[0])[compared], np.asarray(other[0])[compared], atol=1e-11)
 
 
-@pytest.mark.parametrize("make, drive", [(ball_in_bore, ["A"]), (rssr_linkage, ["A"]), (hexapod, ["leg 0", "leg 3"])])
+@pytest.mark.parametrize(
+    "make, drive",
+    [
+        (ball_in_bore, ["A"]),
+        pytest.param(rssr_linkage, ["A"], marks=pytest.mark.long),
+        pytest.param(hexapod, ["leg 0", "leg 3"], marks=pytest.mark.long),
+    ],
+)
 def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, drive):
     cut, _, joints = systems(make(), drive)
     geometry, _ = scaled(cut, joints)
