@@ -56,3 +56,10 @@ def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:
 def apply(pose: Pose, points: Points) -> Points:
     """Points moved by the pose."""
     return points @ pose[:3, :3].T + pose[:3, 3]
+
+
+def turned_by(pose: Pose) -> float:
+    """The angle of the rotation of a pose, 0 to pi."""
+    turn = pose[:3, :3]
+    sine = np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    return float(np.arctan2(sine, np.trace(turn) - 1.0))

@@ -137,10 +137,11 @@ def _made_exact(mechanism: Mechanism, block: Block, level: float) -> list[Joint]
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:
     farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.before, joint.after))
-    return Noise(level, level * _extent(joints) + _SINGLE * farthest)
+    return Noise(level, level * extent(joints) + _SINGLE * farthest)
 
 
-def _extent(joints: Sequence[Joint]) -> float:
+def extent(joints: Sequence[Joint]) -> float:
+    """The diagonal of the box around the origins of all frames."""
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
     return float(np.linalg.norm(np.ptp(origins, axis=0)))
 
@@ -195,8 +196,8 @@ def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | 
             change = np.asarray(getattr(other, side)) - np.asarray(getattr(one, side))
             angles[number] = max(angles[number], np.linalg.norm(change[:, :3, 2], axis=1).max(initial=0.0))
             lengths[number] = max(lengths[number], np.linalg.norm(change[:, :3, 3], axis=1).max(initial=0.0))
-    extent = _extent(given)
-    lengths[lengths < _ROUNDING * extent] = 0.0
+    size = extent(given)
+    lengths[lengths < _ROUNDING * size] = 0.0
     angles[angles < _ROUNDING] = 0.0
     if not angles.any() and not lengths.any():
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import jax
@@ -19,6 +19,8 @@ _ITERATIONS = 200
 """Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
 _LONGEST_STEP = 0.5
 """Radians, or characteristic lengths: what a linear model of a rotation is good for."""
+_STAGNANT = 1e-9
+"""Relative decrease of the merit in a step without more damping than at first, below which it is the least."""
 _LEAST_TRUST = 1e12
 """Damping, over the square of the residual, at which no step lessens the residual: it is the least."""
 
@@ -37,10 +39,24 @@ class Travel(NamedTuple):
     """Of the coordinates of all joints."""
     starts: tuple[Pose, ...]
     """Displacement of the part at which each loop starts."""
-    gap: float
-    """Square root of Eq. 12: over all twelve equations of all loops."""
+    left_open: Float[np.ndarray, "loops 4 4"]
+    """Displacement of the part at which each loop starts that is left when it has been travelled: none if closed."""
     places: Mapping[str, Pose]
     """Displacement of each row of parts from its assembled pose; that at which the first loop starts is at rest."""
+
+    @property
+    def gap(self) -> float:
+        """Square root of Eq. 12: over all twelve equations of all loops."""
+        return float(np.linalg.norm(self.left_open - np.eye(4)))
+
+    @property
+    def merit(self) -> float:
+        """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2.
+
+        `residual` times the Jacobian is its gradient. `residual` alone vanishes at half a turn too.
+        """
+        squares = (self.left_open - np.eye(4)) ** 2
+        return float(0.25 * squares[:, :3, :3].sum() + 0.5 * squares[:, :3, 3].sum())
 
 
 class ClosedLoops:
@@ -71,30 +87,35 @@ class ClosedLoops:
         names = [name for joint in joints.values() for name in joint.coordinates]
         self.units = np.array([length if name.split(".")[-1] in ("x", "y", "z") else 1.0 for name in names])
         """Of each column: what its scaled coordinate is multiplied by."""
+        self.coincide = all(np.array_equal(joint.before, joint.after) for joint in joints.values())
+        """Whether all joints have one frame on both of their parts: then the assembled pose is closed as it is given,
+        though frames that are rigid to some digits only leave a residual of their own."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
 
     def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
         """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
         return self.travel(q)[1]
 
-    def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
+    def closed(self, q: Row) -> tuple[Row, Travel]:
         """The closed coordinates that damped Newton steps of least norm lead to, and what is met there.
 
-        Steps that do not lessen the residual are refused and damped more (Levenberg-Marquardt), so that loops may begin
-        wide open; where they cannot close, those of least residual are found. Columns that are `held` stay.
+        Steps that do not lessen the merit are refused and damped more (Levenberg-Marquardt), so that loops may begin
+        wide open; where they cannot close, those of least residual are found.
         """
-        found, trust, still = self.travel(q), 1.0, np.isin(np.arange(len(q)), list(held))
+        found, trust = self.travel(q), 1.0
         for _ in range(_ITERATIONS):
-            gap = float(np.linalg.norm(found.residual))
-            if gap < 1e-14 or trust > _LEAST_TRUST:
+            if found.gap < 1e-14 or trust > _LEAST_TRUST:
                 break
-            jacobian = np.where(still, 0.0, found.jacobian)
-            step = least_norm(jacobian, found.residual, max(1e-14, trust * 1e-2 * min(1.0, gap**2)))
+            damping = max(1e-14, trust * 1e-2 * min(1.0, 2 * found.merit))
+            step = least_norm(found.jacobian, found.residual, damping)
             step *= min(1.0, _LONGEST_STEP / max(float(np.linalg.norm(step)), _LONGEST_STEP))
             trial = self.travel(q - step)
-            if np.linalg.norm(trial.residual) < gap:
+            if trial.merit < found.merit:
+                least = trust <= 1.0 and trial.merit > (1.0 - _STAGNANT) * found.merit
                 q, found, trust = q - step, trial, max(0.3 * trust, 1e-2)
-            elif gap < self.noise.closed:
+                if least:
+                    break
+            elif found.gap < self.noise.closed:
                 break  # rounding
             else:
                 trust *= 8.0
@@ -108,7 +129,7 @@ class ClosedLoops:
         }
         places: dict[str, Pose] = {}
         starts: list[Pose] = []
-        square = 0.0
+        left_open: list[Pose] = []
         residual = np.zeros((len(self.block.loops), 6))
         jacobian = np.zeros((len(self.block.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
@@ -129,10 +150,10 @@ class ClosedLoops:
                 places.setdefault(self.ends[joint][1 if sign > 0 else 0], pose)
             left = pose @ inverse(start)
             skew = left[:3, :3] - left[:3, :3].T
-            square += float(((left - np.eye(4)) ** 2).sum())
+            left_open.append(left)
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
         jacobian = jacobian.reshape(6 * len(residual), len(q))
-        return Travel(residual.ravel(), jacobian, screws, tuple(starts), float(np.sqrt(square)), places)
+        return Travel(residual.ravel(), jacobian, screws, tuple(starts), np.array(left_open), places)
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

@@ -60,7 +60,7 @@ class LoopFreedoms:
     @property
     def closes(self) -> bool:
         """Whether Newton's method closes the loops from the assembled pose: of others nothing is known."""
-        return self._home[1].gap < self.noise.closed
+        return self._loops.coincide or self._home[1].gap < self.noise.closed
 
     @property
     def assembled(self) -> Screws:

@@ -207,18 +207,19 @@ class Mechanism:
 
         return mobility(self)
 
-    def close(self) -> Reassembly:
+    def close(self, *, align: float | int | None = None) -> Reassembly:
         """Close the loops without a drive, where the given pose is open, and place the joints anew there.
 
         Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
         part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
         re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
         where these stand now) and without solids. Where the loops cannot be closed, `closed` is False and `print` says
-        which disagree. Raises ValueError inside `jit`, `vmap` and `grad`.
+        which disagree. Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed. Raises
+        ValueError inside `jit`, `vmap` and `grad`, and for a wrong `align`.
         """
         from jaxkin.motion.reassembly import close
 
-        return close(self)
+        return close(self, align)
 
     @cached_property
     def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.geometry.traced import traced
-from jaxkin.joints.screws import chain
+from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.motion.closed_loops import ClosedLoops, Row
 from jaxkin.topology.names import listed
 
@@ -27,7 +28,7 @@ class Opening:
     joints: tuple[str, ...]
     """Its joints."""
     length: float
-    """How far its two ends are apart, in the unit of the mechanism."""
+    """How far its two ends are apart at `joint`, in the unit of the mechanism."""
     angle: float
     """The angle between them, radians."""
     joint: str
@@ -44,12 +45,17 @@ class Opening:
 
 def opening(mechanism: Mechanism) -> Opening | None:
     """The loop that is open the most in the given pose; None where all close to rounding, or where JAX traces."""
-    return None if traced(mechanism) else _most(mechanism, closed=False)
-
-
-def stays_open(mechanism: Mechanism) -> Opening | None:
-    """The loop that stays open the most when Newton's method closes them from the given pose."""
-    return _most(mechanism, closed=True)
+    if traced(mechanism):
+        return None
+    worst: Opening | None = None
+    for block in mechanism.structure.blocks:
+        loops = ClosedLoops(mechanism, block)
+        at_rest = np.zeros(len(loops.columns))
+        if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.noise.closed:
+            continue
+        if worst is None or gap > worst.residual:
+            worst = tell_opening(mechanism, loops, at_rest)
+    return worst
 
 
 def check_closed(mechanism: Mechanism, what: str, call: str) -> None:
@@ -61,36 +67,30 @@ def check_closed(mechanism: Mechanism, what: str, call: str) -> None:
         )
 
 
-def _most(mechanism: Mechanism, closed: bool) -> Opening | None:
-    worst: Opening | None = None
-    for block in mechanism.structure.blocks:
-        loops = ClosedLoops(mechanism, block)
-        q = np.zeros(len(loops.columns))
-        if (found := loops.travel(q)).gap <= loops.noise.closed:
-            continue
-        if closed:
-            q, found = loops.closed(q)
-        if found.gap > loops.noise.closed and (worst is None or found.gap > worst.residual):
-            worst = _opening(mechanism, loops, q, found.gap)
-    return worst
-
-
-def _opening(mechanism: Mechanism, loops: ClosedLoops, q: Row, gap: float) -> Opening:
-    misfits = loops.travel(q).residual.reshape(-1, 6)
-    loop = loops.block.loops[int(np.argmax(np.linalg.norm(misfits, axis=1)))]
-    twist = misfits[int(np.argmax(np.linalg.norm(misfits, axis=1)))]
-    joints = [mechanism.all_joints[joint] for joint, _ in loop]
-    apart = []
-    for joint, _ in loop:
-        names, before, after, pitch = loops.chains[joint]
-        zero = np.zeros(mechanism.all_joints[joint].freedoms)
-        apart.append(float(np.abs(chain(names, before, zero, pitch, after)[0] - np.eye(4)).max()))
+def tell_opening(mechanism: Mechanism, loops: ClosedLoops, q: Row) -> Opening:
+    """The loop of a structure element that is open the most at these scaled coordinates, and its worst joint."""
+    found = loops.travel(q)
+    number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
+    loop, left = loops.block.loops[number], found.left_open[number]
+    joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
+    place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
+    joints = [mechanism.all_joints[index] for index, _ in loop]
     return Opening(
-        residual=gap,
+        residual=found.gap,
         parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
         joints=tuple(joint.name for joint in joints),
-        length=float(np.linalg.norm(twist[3:])) * loops.length,
-        angle=float(np.arcsin(min(1.0, float(np.linalg.norm(twist[:3]))))),
-        joint=joints[int(np.argmax(apart))].name,
+        length=float(np.linalg.norm(apply(left, place) - place)) * loops.length,
+        angle=turned_by(left),
+        joint=mechanism.all_joints[joint].name,
         unit=mechanism.unit,
     )
+
+
+def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
+    """How far the frames of a joint on its two parts are apart as they are given: by what it forbids, and in all."""
+    names, before, after, pitch = loops.chains[joint]
+    apart, screws = chain(names, before, np.zeros(freedoms(names)), pitch, after)
+    skew = apart[:3, :3] - apart[:3, :3].T
+    twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *apart[:3, 3]])
+    forbidden = float(np.linalg.norm(complement(screws) @ twist)) if screws.size else float(np.linalg.norm(twist))
+    return forbidden if forbidden > loops.noise.closed else 0.0, float(np.linalg.norm(apart - np.eye(4)))

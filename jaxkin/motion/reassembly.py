@@ -8,32 +8,30 @@ tell whether there is another one near.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.motions import MOVEMENTS
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Pose, inverse, turned_by
 from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, freedoms
+from jaxkin.motion.alignment import aligned, asked_noise, extent
+from jaxkin.motion.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.motion.closed_loops import ClosedLoops, Row
-from jaxkin.motion.open_loops import Opening, opening, stays_open
+from jaxkin.motion.open_loops import Opening, tell_opening
 from jaxkin.topology.names import listed
-from jaxkin.topology.rates import independent, null_space
 
 if TYPE_CHECKING:
     from jaxkin.motion.mechanism import Mechanism
+    from jaxkin.topology.structure import Block
 
-STARTS = 12
-"""Other starts from which each structure element is closed."""
-NEAREST = 0.1
-"""Radians, or characteristic lengths: other starts are at least so far away, however little the loops had to move."""
-APART = 1e-6
-"""Radians, or characteristic lengths, between poses that are not the same: far above what closure leaves."""
+_TOLD = 1e-6
+"""Moves are told of parts that move by more than this part of what the most moved one does: not by rounding."""
 
 
 @dataclass(frozen=True)
@@ -74,11 +72,18 @@ class Reassembly:
                 f"the loops cannot be closed from the given pose: the residual fell from {self.residual_before:.2g} to "
                 f"{self.residual:.2g}; {self.left}. Check the numbers of these joints, or begin nearer to a closed pose"
             )
-        if not any(move.length or move.angle for move in self.moves.values()):
+        least = Move(*(_TOLD * max(sizes) for sizes in zip(*map(astuple, self.moves.values()), strict=True)))
+        if not least.length and not least.angle:
             return f"closed as given: residual {self.residual_before:.1g}; no part was moved"
         unit = f" {self.mechanism.unit}".rstrip()
         moves = sorted(self.moves.items(), key=lambda item: -item[1].length)
-        said = listed([f"{part} {move.length:.3g}{unit}, {move.angle:.3g} rad" for part, move in moves if move.angle])
+        said = listed(
+            [
+                f"{part} by {move.length:.3g}{unit} and {move.angle:.3g} rad"
+                for part, move in moves
+                if move.length > least.length or move.angle > least.angle
+            ]
+        )
         lines = [f"closed: residual {self.residual_before:.2g} before, {self.residual:.1g} now; moved: {said}"]
         if self.others:
             lines.append(
@@ -90,90 +95,89 @@ class Reassembly:
         return "\n".join(lines)
 
 
-def close(mechanism: Mechanism) -> Reassembly:
+def close(mechanism: Mechanism, align: float | int | None = None) -> Reassembly:
     """The mechanism with its loops closed: see `Mechanism.close`."""
+    noise = asked_noise(align)
     if traced(mechanism):
         raise ValueError(
             "close() is for numbers: inside jit, vmap and grad sweep the mechanism, which closes its loops"
         )
-    coordinates = {index: np.zeros(joint.freedoms) for index, joint in enumerate(mechanism.all_joints)}
-    before, after, others, starts = 0.0, 0.0, [], 0
-    for block in mechanism.structure.blocks:
-        loops = ClosedLoops(mechanism, block)
-        home = loops.travel(np.zeros(len(loops.columns)))
-        before = float(np.hypot(before, home.gap))
-        if home.gap <= loops.noise.closed:
-            after = float(np.hypot(after, home.gap))
-            continue
-        q, found = loops.closed(np.zeros(len(loops.columns)))
-        after = float(np.hypot(after, found.gap))
-        for index in block.joints:
-            coordinates[index] = q[loops.slices[index]] * loops.units[loops.slices[index]]
-        if found.gap <= loops.noise.closed:
-            others += _other_modes(loops, q)
-            starts += STARTS
-    if left := stays_open(mechanism):
-        rest = {part: Move(0.0, 0.0) for part in mechanism.parts}
+    given = replace(mechanism, ideal=())
+    blocks = [_closed(given, block, noise) for block in given.structure.blocks]
+    before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
+    rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
+    if still_open := [block for block in blocks if not block.is_closed]:
+        worst = max(still_open, key=lambda block: block.after)
+        left = tell_opening(given, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    places = _places(mechanism, coordinates)
-    moves = {part: _move(mechanism, part, places[mechanism.structure.row_of[part]]) for part in mechanism.parts}
-    if opening(mechanism) is None:
-        return Reassembly(mechanism, True, before, after, moves, (), 0, None)
-    joints = [
-        _placed(joint, places[mechanism.structure.row_of[joint.parts[0]]], coordinates[index])
-        for index, joint in enumerate(mechanism.all_joints)
-    ]
-    closed = replace(mechanism, all_joints=tuple(joints), ideal=(), solids=(), contacts={}, known_forms=None)
-    return Reassembly(closed, True, before, after, moves, tuple(sorted(others)), starts, None)
+    if all(np.array_equal(joint.before, joint.after) for joint in given.all_joints):
+        return Reassembly(mechanism, True, before, after, rest, (), 0, None)
+    moved = [block for block in blocks if block.q.any()]
+    others = [apart for block in moved for apart in other_modes(block.loops, block.q)]
+    coordinates = [np.zeros(joint.freedoms) for joint in given.all_joints]
+    for block in moved:
+        for index, columns in block.loops.slices.items():
+            coordinates[index] = (block.q * block.loops.units)[columns]
+    places = _places(given, coordinates)
+    joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.all_joints, coordinates, strict=True)]
+    notes = (*given.notes, *_rounding(given, moved))
+    found = replace(given, all_joints=tuple(joints), notes=notes, solids=(), contacts={}, known_forms=None)
+    moves = {part: _move(given, part, place) for part, place in places.items()}
+    starts = STARTS * len(moved)
+    return Reassembly(aligned(found, noise), True, before, after, moves, tuple(sorted(others)), starts, None)
 
 
-def _other_modes(loops: ClosedLoops, q: Row) -> list[float]:
-    """How far away the poses are that other starts lead to, a set of coordinates that determine the pose held."""
-    found = loops.travel(q)
-    motions = null_space(found.jacobian, loops.noise)[1]
-    held: list[int] = []
-    for column in range(len(q)):
-        if independent(motions, [*held, column], loops.noise) == len(held) + 1:
-            held.append(column)
-    rng, distances = np.random.default_rng(0), []
-    reach = max(NEAREST, float(np.abs(q).max(initial=0.0)))
-    for _ in range(STARTS):
-        start = q + reach * rng.uniform(-1.0, 1.0, len(q)) * ~np.isin(np.arange(len(q)), held)
-        there = loops.closed(start, held)[1]
-        apart = max(float(np.abs(there.places[part] - place).max()) for part, place in found.places.items())
-        if there.gap <= loops.noise.closed and apart > APART:
-            distances.append(apart)
-    return distances
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """What became of the loops of a structure element."""
+
+    loops: ClosedLoops
+    q: Row
+    """The scaled coordinates found; zero where the loops are closed as they are given."""
+    before: float
+    after: float
+    """Square roots of Eq. 12."""
+    is_closed: bool
+    """Within the rounding of the numbers."""
 
 
-def _places(mechanism: Mechanism, coordinates: Mapping[int, Float[np.ndarray, " k"]]) -> dict[str, Pose]:
-    """Displacements of the rows of parts, in world coordinates, from the fixed ones along the joints."""
-    row_of = mechanism.structure.row_of
-    places = {row_of[mechanism.fixed[0]]: np.eye(4)}
-    joints = list(enumerate(mechanism.all_joints))
-    while joints:
-        waiting = []
-        for index, joint in joints:
-            one, other = (row_of[part] for part in joint.parts)
-            step = _displacement(joint, coordinates[index])
-            if one in places:
-                places.setdefault(other, places[one] @ step)
-            elif other in places:
-                places[one] = places[other] @ inverse(step)
-            else:
-                waiting.append((index, joint))
-        if len(waiting) == len(joints):
-            break
-        joints = waiting
-    return places
+def _closed(mechanism: Mechanism, block: Block, noise: float) -> _Block:
+    """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
+    loops = ClosedLoops(mechanism, block)
+    q = np.zeros(len(loops.columns))
+    before = loops.travel(q).gap
+    if loops.coincide or before <= loops.noise.closed:
+        return _Block(loops, q, before, before, True)
+    q, found = loops.closed(q)
+    size = extent([mechanism.all_joints[index] for index in block.joints])
+    enough = max(noise * size / loops.length, loops.noise.closed)
+    if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough)):
+        q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
+    return _Block(loops, q, before, found.gap, found.gap <= enough)
 
 
-def _displacement(joint: Joint, q: Float[np.ndarray, " k"]) -> Pose:
+def _rounding(mechanism: Mechanism, moved: Sequence[_Block]) -> list[str]:
+    """What was closed for the rounding of the numbers, in words."""
+    left = [block.after * block.loops.length for block in moved if block.after > block.loops.noise.closed]
+    said = f"{max(left, default=0.0):.1g} {mechanism.unit}".rstrip()
+    return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
+
+
+def _places(mechanism: Mechanism, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Pose]:
+    """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
+    places = {part: np.eye(4) for part in mechanism.fixed}
+    for part, parent, index, sign in mechanism.structure.tree:
+        step = _displacement(mechanism.all_joints[index], coordinates[index])
+        places[part] = places[parent] @ (step if sign > 0 else inverse(step))
+    return {part: places[part] for part in mechanism.parts}
+
+
+def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
     before, after = (np.asarray(side, float) for side in (joint.before, joint.after))
     return chain(joint.movements, before, q, float(joint.pitch), after)[0]
 
 
-def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " k"]) -> Joint:
+def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
     """The joint in its new place, the frames on its two parts the same.
 
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
@@ -189,7 +193,7 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " k"]) -> Joint:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
         frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
         place = place @ chain([name], before, own, float(joint.pitch), after)[0]
-    stacked = np.array(frames)
+    stacked = np.array(frames, np.asarray(joint.before).dtype)
     return replace(joint, before=stacked, after=stacked)
 
 
@@ -202,6 +206,4 @@ def _move(mechanism: Mechanism, part: str, place: Pose) -> Move:
     ]
     origins = np.array(sides).reshape(-1, 3)
     shifts = origins @ place[:3, :3].T + place[:3, 3] - origins
-    turn = place[:3, :3]
-    sine = np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    return Move(float(np.linalg.norm(shifts, axis=1).max(initial=0.0)), float(np.arctan2(sine, np.trace(turn) - 1.0)))
+    return Move(float(np.linalg.norm(shifts, axis=1).max(initial=0.0)), turned_by(place))

@@ -99,7 +99,9 @@ def driven_rate(
 
 
 def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordinates:
-    """The inputs in their columns; anything in the others."""
+    """The inputs in their columns; anything in the others, zeros where nothing is driven."""
+    if not system.driven:
+        return jnp.zeros((system.columns, inputs.shape[-1]), inputs.dtype)
     which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
     return inputs if len(system.driven) == 1 else inputs[which]
 

@@ -11,6 +11,7 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.open_loops import opening
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import cam, cardan_shafts, planar_fourbar, rssr_linkage
+from reference.planar import fourbar
 
 Array = np.ndarray
 
@@ -121,16 +122,44 @@ def test_moves_are_those_of_the_parts():
     assert "moved: " in str(found) and "mm" not in str(found)  # no unit was given
 
 
+def drawn_flat(tilt: float) -> Mechanism:
+    """Norton's four-bar, whose two circuits are two assembly modes, drawn with coupler and rocker nearly in line."""
+    mechanism, pin, pivot = planar_fourbar(), 40.0 * np.array([np.cos(1.0), np.sin(1.0), 0.0]), np.array([100.0, 0, 0])
+    along = Rotation.from_rotvec([0.0, 0.0, tilt]).apply((pivot - pin) / np.linalg.norm(pivot - pin))
+    points = {("coupler", "C"): pin + 120.0 * along, ("rocker", "C"): pivot + 80.0 * along}
+    return mechanism.with_points(points)
+
+
 def test_other_assembly_modes_are_tried():
-    """A four-bar drawn with its pin between the two modes: beside the one that is found there is another."""
-    mechanism = planar_fourbar()
-    joint = mechanism.joints["C"]
-    flat = np.array(joint.before[0])
-    flat[1, 3] *= 0.02  # nearly on the line of the other two pins
-    found = mechanism.with_frames({("rocker", "C"): flat}, align=0).close()
-    assert found.closed and found.others and "led to another assembly mode" in str(found)
-    far = pushed(mechanism, ("rocker", "C"), (0.01, 0.0, 0.0)).close()
+    """Of the two modes between which the four-bar is drawn one is found, and some other starts lead to the other."""
+    for tilt in (0.05, -0.05):
+        found = drawn_flat(tilt).close()
+        assert found.closed and found.others and "led to another assembly mode" in str(found)
+        crank, pin = (found.mechanism.joints[name].before[0, :3, 3] for name in "BC")
+        angle = np.arctan2(crank[1], crank[0])
+        modes = [fourbar(np.array([angle]), side=side).rocker_pin[0] for side in (1, -1)]
+        here = [np.linalg.norm(pin[:2] - mode) for mode in modes]
+        assert min(here) < 1e-9 < max(here)
+        # no crank angle of the other circuit takes the pin of the rocker to where it is
+        assert min(found.others) > 0.3
+    far = pushed(planar_fourbar(), ("rocker", "C"), (0.01, 0.0, 0.0)).close()
     assert far.closed and not far.others and "no other assembly mode" in str(far)
+
+
+@pytest.mark.parametrize(
+    "mechanism",
+    [
+        # the elbow passes through the dead points: one circuit, on which other starts stand elsewhere
+        pushed(planar_fourbar(), ("rocker", "C"), (0.0, -60.0, 0.0)),
+        # rods and legs that only spin about themselves
+        pushed(rssr_linkage(), ("rod", "C"), (40.0, -50.0, 30.0)),
+        pushed(hexapod(), ("platform", "top 2"), (60.0, -40.0, 70.0)),
+    ],
+    ids=["non-Grashof four-bar", "RSSR", "hexapod"],
+)
+def test_poses_that_freedoms_lead_to_are_no_other_mode(mechanism):
+    found = mechanism.close()
+    assert found.closed and not found.others
 
 
 def test_what_cannot_be_closed_says_which_loop():
