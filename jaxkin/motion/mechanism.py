@@ -152,7 +152,8 @@ class Mechanism:
         first joint, from its origin, the other one stands: the foot of a ball, or of the common normal of the two axes.
         `(joint, "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the
         sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
-        parts are one part; a joint without movement has no lengths.
+        parts are one part; a joint without movement has no lengths. Each is measured on its own part, where this stands
+        in the given pose: it is the same whether that pose is closed or open.
         """
         from jaxkin.motion.lengths import lengths
 
