@@ -152,8 +152,11 @@ class Mechanism:
         first joint, from its origin, the other one stands: the foot of a ball, or of the common normal of the two axes.
         `(joint, "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the
         sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
-        parts are one part; a joint without movement has no lengths. Each is measured on its own part, where this stands
-        in the given pose: it is the same whether that pose is closed or open.
+        parts are one part; a joint without movement has no lengths.
+
+        Lengths are of the parts, each measured between the frames on its own side of the joints: they are the same
+        whether the given pose is closed or open. Only where a slide or a screw stands along its own axis follows from
+        the pose in which its two frames coincide: an offset along a screw, the distance of a plane across a slide.
         """
         from jaxkin.motion.lengths import lengths
 
@@ -214,9 +217,10 @@ class Mechanism:
         Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
         part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
         re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
-        where these stand now) and without solids. Where the loops cannot be closed, `closed` is False and `print` says
-        which disagree. Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed. Raises
-        ValueError inside `jit`, `vmap` and `grad`, and for a wrong `align`.
+        where these stand now) and its solids moved. Where the loops cannot be closed, `closed` is False and `print`
+        says which disagree. Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed.
+
+        Raises ValueError inside `jit`, `vmap` and `grad`, and for a wrong `align`.
         """
         from jaxkin.motion.reassembly import close
 

@@ -23,6 +23,7 @@ from jaxkin.joints.screws import chain, freedoms
 from jaxkin.motion.alignment import aligned, asked_noise, extent
 from jaxkin.motion.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.motion.closed_loops import ClosedLoops, Row
+from jaxkin.motion.moved_solids import with_moved_solids
 from jaxkin.motion.open_loops import Opening, tell_opening
 from jaxkin.topology.names import listed
 
@@ -121,10 +122,11 @@ def close(mechanism: Mechanism, align: float | int | None = None) -> Reassembly:
     places = _places(given, coordinates)
     joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.all_joints, coordinates, strict=True)]
     notes = (*given.notes, *_rounding(given, moved))
-    found = replace(given, all_joints=tuple(joints), notes=notes, solids=(), contacts={}, known_forms=None)
+    found = aligned(replace(given, all_joints=tuple(joints), notes=notes, known_forms=None), noise)
+    found = with_moved_solids(given, found, places)
     moves = {part: _move(given, part, place) for part, place in places.items()}
     starts = STARTS * len(moved)
-    return Reassembly(aligned(found, noise), True, before, after, moves, tuple(sorted(others)), starts, None)
+    return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,19 +11,10 @@ from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.open_loops import opening
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import cam, cardan_shafts, planar_fourbar, rssr_linkage
+from reference.open_poses import assert_same_lengths, pushed
 from reference.planar import fourbar
 
 Array = np.ndarray
-
-
-def pushed(mechanism: Mechanism, place: tuple[str, str], shift, turn=(0.0, 0.0, 0.0)) -> Mechanism:
-    """A joint moved on one of its parts only: the given pose is open by as much."""
-    name = place[1]
-    joint = mechanism.joints[name]
-    pose = np.array((joint.before if joint.parts[0] == place[0] else joint.after)[0])
-    pose[:3, :3] = Rotation.from_rotvec(turn).as_matrix() @ pose[:3, :3]
-    pose[:3, 3] += shift
-    return mechanism.with_frames({place: pose}, align=0)
 
 
 OPEN = {
@@ -49,10 +40,7 @@ def test_an_open_pose_is_told_and_closed(name):
     assert opening(found.mechanism) is None
     assert all(np.array_equal(joint.before, joint.after) for joint in found.mechanism.all_joints)
     assert found.mechanism.mobility().freedoms == mechanism_as_drawn(name).mobility().freedoms
-    lengths, expected = found.mechanism.lengths, mechanism.lengths
-    for key in expected:  # those of the parts are as they were; along what slides they are counted anew
-        if key[-1] != "offset" and not {"guide", "touch"} & set(key):
-            assert lengths[key] == pytest.approx(expected[key], abs=1e-9 * 500), key
+    assert_same_lengths(found.mechanism, mechanism)
 
 
 def mechanism_as_drawn(name: str) -> Mechanism:

@@ -1,0 +1,43 @@
+"""Mechanisms whose given pose is open, made from closed ones."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from jaxkin.geometry.motions import MOVEMENTS, is_length
+from jaxkin.joints.screws import chain
+from jaxkin.motion.mechanism import Mechanism
+
+
+def pushed(mechanism: Mechanism, place: tuple[str, str], shift, turn=(0.0, 0.0, 0.0)) -> Mechanism:
+    """A joint moved on one of its parts only: the given pose is open by as much."""
+    name = place[1]
+    joint = mechanism.joints[name]
+    pose = np.array((joint.before if joint.parts[0] == place[0] else joint.after)[0])
+    pose[:3, :3] = Rotation.from_rotvec(turn).as_matrix() @ pose[:3, :3]
+    pose[:3, 3] += shift
+    return mechanism.with_frames({place: pose}, align=0)
+
+
+def zeroed_elsewhere(mechanism: Mechanism, angle: float, seed: int = 0) -> Mechanism:
+    """The mechanism with displacements of all joints counted from other positions: the pose is open, and can close."""
+    rng, joints = np.random.default_rng(seed), []
+    size = float(np.ptp(np.concatenate([joint.before[:, :3, 3] for joint in mechanism.all_joints]), axis=0).max())
+    for joint in mechanism.all_joints:
+        frames = []
+        for name, frame in zip(joint.movements, joint.after, strict=True):
+            scales = [0.3 * size if is_length(each) else 1.0 for each in MOVEMENTS[name].coordinates]
+            q = angle * np.array(scales) * rng.uniform(-1.0, 1.0, len(scales))
+            frames.append(chain([name], frame[None], q, float(joint.pitch))[0] @ frame)
+        joints.append(replace(joint, after=np.array(frames)))
+    return replace(mechanism, all_joints=tuple(joints))
+
+
+def assert_same_lengths(one: Mechanism, other: Mechanism) -> None:
+    """But for where the follower of the cam stands along its slide, which its pose says."""
+    lengths = one.lengths
+    for key, expected in other.lengths.items():
+        if key != ("follower", "guide", "touch"):
+            assert lengths[key] == pytest.approx(expected, rel=1e-12, abs=1e-10), key
