@@ -20,10 +20,11 @@ class Noise(NamedTuple):
     """Singular values of a Jacobian below this, over the largest, are zero: for mobility, plan and sweep alike, since
     the solver damps its least-norm steps by the square of this."""
     rate: float
-    """Rates below this, of motions of unit size, are zero."""
+    """Rates below this, of motions of unit size, are zero: a few roundings of numbers of six digits, since what moves
+    about itself (a leg that slides along its line) need not be aligned for the loops to move."""
 
 
-DOUBLE, SINGLE = Noise(1e-11, 1e-7, 1e-6), Noise(1e-5, 1e-3, 1e-3)
+DOUBLE, SINGLE = Noise(1e-11, 1e-7, 2e-5), Noise(1e-5, 1e-3, 1e-3)
 """For mechanisms in float64 and in float32."""
 
 SPREAD = 30.0
