@@ -67,16 +67,16 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
     return given
 
 
-def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"]]:
+def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
     """The displacements with each pose that holds NaN or infinity replaced by the finite one before it, and where that
-    was not so; at the beginning by the first finite pose, zero where there is none.
+    was not so (None: nowhere); at the beginning by the first finite pose, zero where there is none.
 
     So the poses between which the motion is followed are those that there would be without the ones replaced.
     """
     xp = jnp if traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
     if not len(finite) or (xp is np and finite.all()):
-        return given, finite
+        return given, None
     numbers = xp.where(finite, xp.arange(len(finite)), -1)
     last = xp.maximum.accumulate(numbers)
     source = xp.where(last < 0, xp.argmax(finite), last)

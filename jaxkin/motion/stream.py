@@ -91,7 +91,7 @@ class Stream:
     def _as_given(self, motion: Motion, first: int) -> Motion:
         """The motion of a chunk, NONFINITE where its inputs are not finite."""
         chunk = slice(first, first + len(motion))
-        if (finite := self._finite[chunk]).all():
+        if self._finite is None or (finite := self._finite[chunk]).all():
             return motion
         displacements, residual = spoilt((motion.displacements, motion.residual), finite)
         status = jnp.where(finite, motion.status, Status.NONFINITE.value)

@@ -127,7 +127,7 @@ class Layout(NamedTuple):
 def _collect(
     layout: Layout,
     values: tuple[Given, ...],
-    finite: Bool[Array | np.ndarray, " poses"],
+    finite: Bool[Array | np.ndarray, " poses"] | None,
     solutions: list[Solution],
 ) -> tuple[
     tuple[Float[Array, " poses"], ...],
@@ -147,7 +147,9 @@ def _collect(
     for (joint, coordinate), given in zip(layout.driven, values, strict=True):
         moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
-    worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE)).astype(jnp.int32)
+    worst = jnp.zeros(poses, jnp.int32)
+    if finite is not None:
+        worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
     square = jnp.zeros(poses, dtype)
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
         for joint in dict.fromkeys(joint for joint, _ in columns):
@@ -162,8 +164,10 @@ def _collect(
     return tuple(map(jnp.asarray, values)), moved, resting, status, residual
 
 
-def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"]):
-    """Arrays with a row a pose, NaN where the pose is not `finite`."""
+def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
+    """Arrays with a row a pose, NaN where the pose is not `finite`; None: all are."""
+    if finite is None:
+        return rows
     return jax.tree.map(
         lambda array: jnp.where(finite.reshape(len(finite), *[1] * (array.ndim - 1)), array, jnp.nan), rows
     )
