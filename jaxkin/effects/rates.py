@@ -15,7 +15,8 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.motion.drive import resolve
 from jaxkin.motion.mechanism import Mechanism
 from jaxkin.motion.motion import Motion, as_point
-from jaxkin.motion.sweep import sweep
+from jaxkin.motion.sweep import spoilt, sweep
+from jaxkin.solve.status import Status
 from jaxkin.topology.names import by_name, nearest
 
 Inputs = dict[str, Float[Array, " poses"]]
@@ -25,7 +26,7 @@ Inputs = dict[str, Float[Array, " poses"]]
 class Rates:
     """First or second derivatives of a motion with respect to time. A pytree; poses come first.
 
-    Poses that did not close have rates zero: `motion.closed` tells them.
+    Poses that did not close have rates zero, and NONFINITE ones NaN: `motion.status` tells them.
     """
 
     motion: Motion
@@ -78,7 +79,7 @@ def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
     """
     tangents = _tangents(motion, rates)
     found = jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (motion.inputs,), (tangents,))[1]
-    return Rates(motion, tangents, *found)
+    return Rates(motion, tangents, *_without_nonfinite(motion, found))
 
 
 def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
@@ -93,12 +94,17 @@ def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mappi
         return jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (inputs,), (tangents,))[1]
 
     found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
-    return Rates(motion, second, *found)
+    return Rates(motion, second, *_without_nonfinite(motion, found))
 
 
 def _place(mechanism: Mechanism, inputs: Inputs):
     motion = sweep(mechanism, inputs)
     return motion.displacements, tuple(motion.transforms.values())
+
+
+def _without_nonfinite(motion: Motion, found):
+    """The rates, NaN at poses that are NONFINITE: to them the sweep gives poses of no meaning."""
+    return spoilt(found, motion.status != Status.NONFINITE.value)
 
 
 def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:

@@ -154,9 +154,9 @@ class Mechanism:
         sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
         parts are one part; a joint without movement has no lengths.
 
-        Lengths are of the parts, each measured between the frames on its own side of the joints: they are the same
-        whether the given pose is closed or open. Only where a slide or a screw stands along its own axis follows from
-        the pose in which its two frames coincide: an offset along a screw, the distance of a plane across a slide.
+        Each is measured on its own part, where this stands in the given pose: it is the same whether that pose is
+        closed or open. Only where a slide or a screw stands along its own axis follows from the pose in which its two
+        frames coincide: an offset along a screw, the distance of a plane across a slide.
         """
         from jaxkin.motion.lengths import lengths
 

@@ -37,8 +37,11 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
 
 
 def _rank(mechanism: Mechanism, number: int, system: LoopSystem, columns: Columns) -> int:
-    """Independent equations for the free coordinates where nothing is singular; as many as may be where JAX traces."""
-    if traced(mechanism.all_joints):
+    """Independent equations for the free coordinates where nothing is singular.
+
+    As many as may be where JAX traces, and where the host finds no closed pose to count them at.
+    """
+    if traced(mechanism.all_joints) or not mechanism.loop_freedoms[number].closes:
         return min(system.whole.equations, len(system.free))
     freedoms = mechanism.loop_freedoms[number]
     free = [freedoms.columns.index(columns[column]) for column in system.free]

@@ -35,6 +35,18 @@ def test_slider_crank_against_its_formula():
     np.testing.assert_allclose(second.angular("crank"), np.tile([0.0, 0.0, growth], (30, 1)), atol=1e-12)
 
 
+@pytest.mark.parametrize("rates", [velocities, accelerations])
+def test_nan_is_in_the_rates_of_its_own_pose_only(rates):
+    """In the inputs as in the rates given: where the sweep has no pose, and where the rate is none."""
+    mechanism, inputs, given, rest = planar_fourbar(), INPUTS.copy(), np.ones(30), np.arange(30) != 7
+    expected = rates(mechanism.sweep({"A": inputs}), {"A": given})
+    inputs[7], without = np.nan, given.copy()
+    without[7] = np.nan
+    for found in (rates(mechanism.sweep({"A": inputs}), {"A": given}), rates(expected.motion, {"A": without})):
+        for one, other in zip(found.displacements, expected.displacements, strict=True):
+            assert np.all(np.isnan(one[7])) and np.array_equal(one[rest], other[rest])
+
+
 @pytest.mark.long
 def test_cardan_shaft_speeds_up_and_slows_down():
     """Output over input: cos(shafts) / (1 - sin^2(shafts) cos^2(theta)), theta from the normal of the shafts' plane."""
