@@ -29,6 +29,8 @@ from jaxkin.motion.assembly import Assembly as Assembly
 from jaxkin.motion.lost_contacts import LostContact as LostContact
 from jaxkin.motion.mechanism import Mechanism as Mechanism
 from jaxkin.motion.motion import Motion as Motion
+from jaxkin.motion.open_loops import Opening as Opening
+from jaxkin.motion.reassembly import Move as Move
 from jaxkin.motion.reassembly import Reassembly as Reassembly
 from jaxkin.solve.status import Status as Status
 from jaxkin.view import page as _page

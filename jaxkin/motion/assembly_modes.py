@@ -7,7 +7,7 @@ closed pose that was found first. Where it arrives, the two are one assembly mod
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
@@ -31,28 +31,33 @@ _STEPS = 100
 """Steps on the way back at most: ten radians at a tenth of one."""
 
 
-def closed_from_elsewhere(loops: ClosedLoops, q: Row, enough: float) -> list[tuple[Row, Travel]]:
+def closed_from_elsewhere(
+    loops: ClosedLoops, q: Row, enough: float, held: Sequence[int] = ()
+) -> list[tuple[Row, Travel]]:
     """Coordinates with a gap of at most `enough` that other starts lead to, about as far from the given pose as `q`.
 
-    The given pose is where the coordinates are zero. The starts are the same each time.
+    The given pose is where the coordinates are zero: columns that are `held` stay there. The starts are the same each
+    time.
     """
-    rng, found = np.random.default_rng(0), []
+    rng, found, free = np.random.default_rng(0), [], np.ones(len(q))
+    free[list(held)] = 0.0
     reach = max(NEAREST, float(np.abs(q).max(initial=0.0)))
     for _ in range(STARTS):
-        there, travel = loops.closed(reach * rng.uniform(-1.0, 1.0, len(q)))
+        there, travel = loops.closed(reach * rng.uniform(-1.0, 1.0, len(q)) * free, held)
         if travel.gap <= enough:
             found.append((there, travel))
     return found
 
 
-def other_modes(loops: ClosedLoops, q: Row) -> list[float]:
+def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[float]:
     """How far from the closed coordinates `q` other assembly modes stay that starts around the given pose lead to.
 
+    Columns that are `held` are as they are given where the loops are closed; then they may move as all others.
     Distances are the largest entries of the differences of the displacements of parts, in radians and characteristic
     lengths.
     """
     home = loops.travel(q).places
-    distances = [_led_back(loops, *found, home) for found in closed_from_elsewhere(loops, q, loops.noise.closed)]
+    distances = [_led_back(loops, *found, home) for found in closed_from_elsewhere(loops, q, loops.noise.closed, held)]
     return [left for left in distances if left > APART]
 
 

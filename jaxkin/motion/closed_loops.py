@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import jax
@@ -96,18 +96,19 @@ class ClosedLoops:
         """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
         return self.travel(q)[1]
 
-    def closed(self, q: Row) -> tuple[Row, Travel]:
+    def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
         """The closed coordinates that damped Newton steps of least norm lead to, and what is met there.
 
         Steps that do not lessen the merit are refused and damped more (Levenberg-Marquardt), so that loops may begin
-        wide open; where they cannot close, those of least residual are found.
+        wide open; where they cannot close, those of least residual are found. Columns that are `held` stay.
         """
-        found, trust = self.travel(q), 1.0
+        found, trust, free = self.travel(q), 1.0, np.ones(len(q))
+        free[list(held)] = 0.0
         for _ in range(_ITERATIONS):
             if found.gap < 1e-14 or trust > _LEAST_TRUST:
                 break
             damping = max(1e-14, trust * 1e-2 * min(1.0, 2 * found.merit))
-            step = least_norm(found.jacobian, found.residual, damping)
+            step = least_norm(found.jacobian * free, found.residual, damping)
             step *= min(1.0, _LONGEST_STEP / max(float(np.linalg.norm(step)), _LONGEST_STEP))
             trial = self.travel(q - step)
             if trial.merit < found.merit:

@@ -211,20 +211,21 @@ class Mechanism:
 
         return mobility(self)
 
-    def close(self, *, align: float | int | None = None) -> Reassembly:
+    def close(self, *, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
         """Close the loops without a drive, where the given pose is open, and place the joints anew there.
 
         Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
         part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
         re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
         where these stand now) and its solids moved. Where the loops cannot be closed, `closed` is False and `print`
-        says which disagree. Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed.
+        says which disagree. Coordinates named in `hold`, as in a drive, stay as they are given: motors, for one.
+        Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed.
 
-        Raises ValueError inside `jit`, `vmap` and `grad`, and for a wrong `align`.
+        Raises ValueError inside `jit`, `vmap` and `grad`, for names that are not there, and for a wrong `align`.
         """
         from jaxkin.motion.reassembly import close
 
-        return close(self, align)
+        return close(self, hold, align)
 
     @cached_property
     def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:

@@ -8,7 +8,7 @@ tell whether there is another one near.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import astuple, dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ from jaxkin.joints.screws import chain, freedoms
 from jaxkin.motion.alignment import aligned, asked_noise, extent
 from jaxkin.motion.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.motion.closed_loops import ClosedLoops, Row
+from jaxkin.motion.drive import coordinate
 from jaxkin.motion.moved_solids import with_moved_solids
 from jaxkin.motion.open_loops import Opening, tell_opening
 from jaxkin.topology.names import listed
@@ -96,15 +97,18 @@ class Reassembly:
         return "\n".join(lines)
 
 
-def close(mechanism: Mechanism, align: float | int | None = None) -> Reassembly:
+def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
     """The mechanism with its loops closed: see `Mechanism.close`."""
     noise = asked_noise(align)
     if traced(mechanism):
         raise ValueError(
             "close() is for numbers: inside jit, vmap and grad sweep the mechanism, which closes its loops"
         )
+    if isinstance(hold, str):
+        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
+    held = {coordinate(mechanism, key) for key in hold}
     given = replace(mechanism, ideal=())
-    blocks = [_closed(given, block, noise) for block in given.structure.blocks]
+    blocks = [_closed(given, block, held, noise) for block in given.structure.blocks]
     before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
     rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
     if still_open := [block for block in blocks if not block.is_closed]:
@@ -114,7 +118,7 @@ def close(mechanism: Mechanism, align: float | int | None = None) -> Reassembly:
     if all(np.array_equal(joint.before, joint.after) for joint in given.all_joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [block for block in blocks if block.q.any()]
-    others = [apart for block in moved for apart in other_modes(block.loops, block.q)]
+    others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
     coordinates = [np.zeros(joint.freedoms) for joint in given.all_joints]
     for block in moved:
         for index, columns in block.loops.slices.items():
@@ -136,6 +140,8 @@ class _Block:
     loops: ClosedLoops
     q: Row
     """The scaled coordinates found; zero where the loops are closed as they are given."""
+    held: list[int]
+    """Columns that stay as they are given."""
     before: float
     after: float
     """Square roots of Eq. 12."""
@@ -143,19 +149,19 @@ class _Block:
     """Within the rounding of the numbers."""
 
 
-def _closed(mechanism: Mechanism, block: Block, noise: float) -> _Block:
+def _closed(mechanism: Mechanism, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = ClosedLoops(mechanism, block)
-    q = np.zeros(len(loops.columns))
+    q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
     if loops.coincide or before <= loops.noise.closed:
-        return _Block(loops, q, before, before, True)
-    q, found = loops.closed(q)
+        return _Block(loops, q, held, before, before, True)
+    q, found = loops.closed(q, held)
     size = extent([mechanism.all_joints[index] for index in block.joints])
     enough = max(noise * size / loops.length, loops.noise.closed)
-    if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough)):
+    if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
-    return _Block(loops, q, before, found.gap, found.gap <= enough)
+    return _Block(loops, q, held, before, found.gap, found.gap <= enough)
 
 
 def _rounding(mechanism: Mechanism, moved: Sequence[_Block]) -> list[str]:

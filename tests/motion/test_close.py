@@ -1,5 +1,7 @@
 """Mechanisms whose given pose is open: told as such, and closed without a drive."""
 
+from dataclasses import astuple
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -148,6 +150,19 @@ def test_other_assembly_modes_are_tried():
 def test_poses_that_freedoms_lead_to_are_no_other_mode(mechanism):
     found = mechanism.close()
     assert found.closed and not found.others
+
+
+@pytest.mark.parametrize("name", ["four-bar, lengths changed", "RSSR, a gap of 20 mm"])
+def test_what_is_held_stays_as_by_a_drive_of_zero(name):
+    """The crank stays as it is drawn; the rocker goes where a sweep that drives the crank by zero takes it."""
+    mechanism = OPEN[name]()
+    found, motion = mechanism.close(hold=["A"]), mechanism.sweep({"A": [0.0]})
+    assert found.closed and max(astuple(found.moves["crank"])) < 1e-12  # rounding of products of frames
+    assert found.moves["rocker"].angle == pytest.approx(abs(float(motion.coordinates["D"][0, 0])), abs=1e-9)
+    with pytest.raises(ValueError, match=r"write \['A'\]"):
+        mechanism.close(hold="A")
+    with pytest.raises(ValueError, match="no joint 'Q'"):
+        mechanism.close(hold=["Q"])
 
 
 def test_what_cannot_be_closed_says_which_loop():
