@@ -7,6 +7,7 @@ motion.save("out/")
 """
 
 from jaxkin import design as design
+from jaxkin.assembly.assembly import Assembly as Assembly
 from jaxkin.design.optimize import optimize as optimize
 from jaxkin.effects.accuracy import work_precision as work_precision
 from jaxkin.effects.rates import accelerations as accelerations
@@ -25,13 +26,12 @@ from jaxkin.joints.pairs import revolute as revolute
 from jaxkin.joints.pairs import screw as screw
 from jaxkin.joints.pairs import spherical as spherical
 from jaxkin.joints.pairs import universal as universal
-from jaxkin.motion.assembly import Assembly as Assembly
-from jaxkin.motion.lost_contacts import LostContact as LostContact
-from jaxkin.motion.mechanism import Mechanism as Mechanism
-from jaxkin.motion.motion import Motion as Motion
-from jaxkin.motion.open_loops import Opening as Opening
-from jaxkin.motion.reassembly import Move as Move
-from jaxkin.motion.reassembly import Reassembly as Reassembly
+from jaxkin.mechanism.lost_contacts import LostContact as LostContact
+from jaxkin.mechanism.mechanism import Mechanism as Mechanism
+from jaxkin.mechanism.motion import Motion as Motion
+from jaxkin.mechanism.reassembly import Move as Move
+from jaxkin.mechanism.reassembly import Reassembly as Reassembly
+from jaxkin.mobility.open_loops import Opening as Opening
 from jaxkin.solve.status import Status as Status
 from jaxkin.view import page as _page
 from jaxkin.view import storyboard as _storyboard

@@ -13,13 +13,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from jaxkin.geometry.motions import is_length
+from jaxkin.geometry.movements import is_length
 
 if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
     from jaxkin.contacts.contact import Contacts
-    from jaxkin.motion.assembly import Assembly
-    from jaxkin.motion.mechanism import Mechanism
-    from jaxkin.motion.motion import Motion
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 
 def say(text: str = "") -> None:

@@ -24,7 +24,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     import jax
 
     from jaxkin.cli import report
-    from jaxkin.motion.writers import filenames
+    from jaxkin.mechanism.writers import filenames
 
     with progress(2) as step:
         study = found(files, options, step)

@@ -36,7 +36,7 @@ class ContactState:
     """Table 1, a frame each: what z is parallel to and what O lies on, in the symbols of the paper: surface f, its
     normal n, axis a, centre c, apex v; m the common normal, l the line, p the point of contact."""
     movements: tuple[str, ...]
-    """Table 2 as corrected, a frame each: keys of `jaxkin.geometry.motions.MOVEMENTS`."""
+    """Table 2 as corrected, a frame each: keys of `jaxkin.geometry.movements.MOVEMENTS`."""
     freedoms: int
     touch: Callable[..., touch.Touch | None]
     """`(surface 1, surface 2, at) -> Touch`: where the infinite surfaces touch and by how much they miss."""

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.design.measures import joint_coordinate, length_now, transmission_angle
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.motion import Motion
 
 Constraint = Callable[[Motion, Mapping[str, Any]], Any]
 Key = tuple[str, ...]

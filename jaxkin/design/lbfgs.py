@@ -1,6 +1,6 @@
 """Bounded L-BFGS from jaxopt, for any loss.
 
-jaxopt is imported when it is used: see `jaxkin.solve.outside`.
+jaxopt is imported when it is used: see `jaxkin.solve.reference_methods.optional_jaxopt`.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import numpy as np
 
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
-from jaxkin.solve.compiled import jit_options
-from jaxkin.solve.outside import jaxopt
+from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
 
 MEMORY = 12
 """Pairs of steps and gradients that L-BFGS keeps."""

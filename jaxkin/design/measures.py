@@ -6,10 +6,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.motion.lengths import find_length
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
-from jaxkin.topology.names import nearest
+from jaxkin._names import nearest
+from jaxkin.dimensions.lengths import find_length
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:

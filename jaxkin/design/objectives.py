@@ -16,7 +16,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.design.measures import as_rows, joint_coordinate, transmission_angle
 from jaxkin.design.measures import stroke as stroke_between
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.motion import Motion
 
 Extras = Mapping[str, Any]
 Rows = Callable[[Motion, Extras], Any]

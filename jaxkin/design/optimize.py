@@ -20,8 +20,8 @@ from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 
 POOL = 8
 """So many designs are drawn for each start, and the best of them begin."""

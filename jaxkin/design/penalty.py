@@ -14,8 +14,8 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.rigid import inverse, product
-from jaxkin.motion.drive import resolve
-from jaxkin.motion.motion import Motion, joint_motion
+from jaxkin.linkage.coordinates import resolve
+from jaxkin.mechanism.motion import Motion, joint_motion
 
 
 def closure_gaps(motion: Motion) -> Float[Array, " poses"]:

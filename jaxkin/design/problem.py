@@ -15,11 +15,11 @@ from jaxkin.design.constraints import Constraint
 from jaxkin.design.objectives import Objective
 from jaxkin.design.penalty import closure_gaps
 from jaxkin.design.variables import Variables
-from jaxkin.motion.lengths import rearranged
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.placing import with_points
-from jaxkin.motion.sweep import sweep
+from jaxkin.dimensions.frames import with_points
+from jaxkin.dimensions.lengths import rearranged
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.sweep import sweep
 
 HOPELESS = 1e6
 """Stands for residuals and losses that are not finite, so that the other designs of a batch are not spoilt."""

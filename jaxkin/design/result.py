@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from jaxkin.design.objectives import Objective
-from jaxkin.geometry.motions import is_length
+from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.writers import whole
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.writers import whole
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 

@@ -10,9 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.design.measures import length_now
-from jaxkin.motion.lengths import find_length
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.placing import locate
+from jaxkin.dimensions.frames import locate
+from jaxkin.dimensions.lengths import find_length
+from jaxkin.mechanism.mechanism import Mechanism
 
 Vector = Float[np.ndarray, " variables"]
 

@@ -13,9 +13,9 @@ import jax
 import numpy as np
 
 from jaxkin.effects.extended import Extended
-from jaxkin.motion.drive import coordinate
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.methods import CONTINUATION, METHODS
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.closed_loops import ClosedLoops
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import Block
 
 DIGITS, STEPS, STILL = 50, 12, 1e-22

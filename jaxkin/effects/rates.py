@@ -12,12 +12,12 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from jaxkin.motion.drive import resolve
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion, as_point
-from jaxkin.motion.sweep import spoilt, sweep
+from jaxkin._names import by_name, nearest
+from jaxkin.linkage.coordinates import resolve
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion, as_point
+from jaxkin.mechanism.sweep import spoilt, sweep
 from jaxkin.solve.status import Status
-from jaxkin.topology.names import by_name, nearest
 
 Inputs = dict[str, Float[Array, " poses"]]
 

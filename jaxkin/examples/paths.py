@@ -16,7 +16,7 @@ import numpy as np
 
 from jaxkin import design
 from jaxkin.joints.pairs import revolute
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 
 BARS = (("ground", "A", "D"), ("crank", "A", "B"), ("coupler", "B", "C"), ("rocker", "C", "D"))
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.evidence import UNEVEN, arcs, on, surface_of
 from jaxkin.geometry.facets import Facets
-from jaxkin.geometry.growth import LOOSE, TIGHT, Growth, Region
+from jaxkin.geometry.region_growing import LOOSE, TIGHT, Growth, Region
+from jaxkin.geometry.tessellation_test import UNEVEN, arcs, on, surface_of
 
 _STRAY = 0.8
 """Radians between a lone triangle and the surface that holds its corners, next to facets of that surface."""

@@ -16,9 +16,9 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.io.units import METRES
-from jaxkin.motion.drawing import drawn_parts
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.writers import register
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.writers import register
+from jaxkin.view.drawing import drawn_parts
 
 DURATION = 6.0
 """Seconds that the whole range takes."""

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
 from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.step import read_step
 from jaxkin.io.units import METRES
-from jaxkin.motion.assembly import Assembly
 
 STEP = (".step", ".stp")
 

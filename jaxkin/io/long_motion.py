@@ -11,10 +11,10 @@ from typing import BinaryIO
 import numpy as np
 
 from jaxkin.io.tables import poses_of, words_of
-from jaxkin.motion.lost_contacts import LostContact, joined
-from jaxkin.motion.motion import largest_residuals, tally
-from jaxkin.motion.stream import Stream
-from jaxkin.motion.writers import whole
+from jaxkin.mechanism.lost_contacts import LostContact, joined
+from jaxkin.mechanism.motion import largest_residuals, tally
+from jaxkin.mechanism.stream import Stream
+from jaxkin.mechanism.writers import whole
 from jaxkin.solve.status import Status
 
 

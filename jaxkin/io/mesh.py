@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from jaxkin._files import check_file
 from jaxkin.geometry.facets import facets
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
@@ -13,7 +14,6 @@ from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
-from jaxkin.io.files import check_file
 from jaxkin.io.mesh_check import PARTS
 from jaxkin.io.mesh_nodes import Node, read_nodes
 from jaxkin.io.names import unique

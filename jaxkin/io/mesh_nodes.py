@@ -14,8 +14,8 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
-from jaxkin.io.apart import run_apart
 from jaxkin.io.mesh_check import MOST, PARTS, check, is_binary_stl, too_many
+from jaxkin.io.sandbox import run_apart
 from jaxkin.io.time_limit import TimeLimit
 
 MEMORY = 8 << 30

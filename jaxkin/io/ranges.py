@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.motions import is_length
+from jaxkin.geometry.movements import is_length
 from jaxkin.io.units import METRES
 
 if TYPE_CHECKING:
-    from jaxkin.motion.mechanism import Mechanism
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Values = Float[np.ndarray, " poses"]
 
@@ -50,7 +50,7 @@ def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, V
 
     Raises ValueError for names that do not exist, for a unit of length on an angle, and the other way round.
     """
-    from jaxkin.motion.drive import resolve
+    from jaxkin.linkage.coordinates import resolve
 
     for key, given in ranges.items():
         wrong = np.flatnonzero(~np.isfinite(given.values))

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from jaxkin._files import check_file
 from jaxkin.geometry.part import Part
-from jaxkin.io.files import check_file
 from jaxkin.io.names import unique
 from jaxkin.io.step_check import missing
 from jaxkin.io.step_convert import convert

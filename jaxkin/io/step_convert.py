@@ -7,7 +7,7 @@ import re
 import tempfile
 from pathlib import Path
 
-from jaxkin.io.apart import run_apart
+from jaxkin.io.sandbox import run_apart
 from jaxkin.io.time_limit import TimeLimit
 
 TESSELLATION = {"tol_linear": 0.01, "tol_relative": True, "tol_angular": 0.2}

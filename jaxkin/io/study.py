@@ -7,14 +7,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
+from jaxkin._names import listed, nearest
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
 from jaxkin.io.ranges import Range, Values, in_radians
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.assembly import Assembly
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
-from jaxkin.topology.names import listed, nearest
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 
 
 @dataclass(frozen=True, eq=False)

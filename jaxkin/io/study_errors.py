@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from jaxkin.topology.names import nearest
+from jaxkin._names import nearest
 
 if TYPE_CHECKING:
     from pydantic import ValidationError

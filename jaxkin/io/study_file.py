@@ -12,14 +12,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
-from jaxkin.io.files import check_file
+from jaxkin._files import check_file
+from jaxkin._names import closest
 from jaxkin.io.ranges import FORM, MOST, RADIANS, Range, read_range
 from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
-from jaxkin.motion.alignment import PLAY
-from jaxkin.topology.names import closest
+from jaxkin.mobility.alignment import PLAY
 
 KINDS = {
     "revolute": pairs.revolute,

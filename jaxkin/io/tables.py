@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from jaxkin.geometry.motions import is_length
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.writers import register
+from jaxkin.geometry.movements import is_length
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.writers import register
 from jaxkin.solve.status import Status
 
 

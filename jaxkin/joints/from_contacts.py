@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Pose, Vector
-from jaxkin.geometry.traced import traced
 from jaxkin.joints.combine import combine as combine_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise, align, movements, regularise

@@ -16,8 +16,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.motions import MOVEMENTS
-from jaxkin.geometry.traced import traced
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS
 
 Array = np.ndarray | jax.Array
 

@@ -13,9 +13,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import frame
-from jaxkin.geometry.traced import traced
 from jaxkin.joints.joint import Joint, joint
 
 Triple = Sequence[float | int] | np.ndarray | jax.Array

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, rotation
 from jaxkin.joints.joint import Joint
 

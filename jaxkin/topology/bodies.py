@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from jaxkin.topology.names import nearest
+from jaxkin._names import nearest
 
 
 def bodies(parts: Sequence[str], fixed: Sequence[str], rigid: Sequence[Sequence[str]] = ()) -> Mapping[str, str]:

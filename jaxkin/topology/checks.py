@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
+from jaxkin._names import nearest
 from jaxkin.topology.graph import Graph
-from jaxkin.topology.names import nearest
 
 
 def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:

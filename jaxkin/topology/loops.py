@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
 from jaxkin.topology.chords import aligned, fundamental_circuits
-from jaxkin.topology.ears import directed_circuits
+from jaxkin.topology.cycle_basis import directed_circuits
 from jaxkin.topology.elements import Node
 from jaxkin.topology.graph import Circuit, Graph, Step
 

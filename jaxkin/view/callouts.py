@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region
 from jaxkin.view.sheet import MARGIN, Place, Sheet

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.states import find_state
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Part
-from jaxkin.motion.assembly import Assembly
-from jaxkin.motion.drawing import PALETTE
-from jaxkin.motion.writers import whole
+from jaxkin.mechanism.writers import whole
 from jaxkin.view.callouts import COLORS, draw_contacts
+from jaxkin.view.drawing import PALETTE
 from jaxkin.view.glass import canvas_of, see_through
 from jaxkin.view.illustration import INK, Canvas
 from jaxkin.view.inspection import legend_of_regions

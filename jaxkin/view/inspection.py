@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
-from jaxkin.motion.assembly import Assembly
-from jaxkin.motion.drawing import GREY as STILL
-from jaxkin.motion.drawing import PALETTE
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.writers import whole
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.writers import whole
 from jaxkin.view.callouts import CHAIN, COLORS, MOST, draw_axes, draw_contacts, draw_states
+from jaxkin.view.drawing import GREY as STILL
+from jaxkin.view.drawing import PALETTE
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of

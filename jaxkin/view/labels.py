@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.motions import is_length
-from jaxkin.motion.motion import Motion
+from jaxkin.geometry.movements import is_length
+from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.status import Status
 
 LISTED = 3  # driven displacements that are told; there may be many, and no place for them

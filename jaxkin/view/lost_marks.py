@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin.motion.lost_contacts import LostContact
+from jaxkin.mechanism.lost_contacts import LostContact
 from jaxkin.view.camera import Displacements, move
 
 WARNING = (0.80, 0.07, 0.12)

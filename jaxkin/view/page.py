@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin.geometry.part import Part
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.writers import register
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.writers import register
 from jaxkin.solve.status import Status
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.lost_marks import told

@@ -10,9 +10,9 @@ from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
-from jaxkin.motion.drawing import drawn_parts
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.motion import Motion
 from jaxkin.view.camera import Displacements, View, choose_view, move
+from jaxkin.view.drawing import drawn_parts
 from jaxkin.view.lost_marks import LostMark, lost_marks
 from jaxkin.view.traces import default_marks, given_marks
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.motion.motion import Motion
-from jaxkin.motion.writers import register
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.writers import register
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title
 from jaxkin.view.lost_marks import WARNING, told

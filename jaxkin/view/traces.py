@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._names import nearest
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.topology.names import nearest
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.camera import Displacements, View, move
 
 Marks = list[tuple[str, Vector]]

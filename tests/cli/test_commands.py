@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from jaxkin.cli.app import app
 from jaxkin.examples import path
-from jaxkin.motion.writers import filenames
+from jaxkin.mechanism.writers import filenames
 from reference.planar import fourbar
 from tessellation import tessellated, write_stl
 

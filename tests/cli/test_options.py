@@ -8,7 +8,7 @@ import pytest
 from jaxkin.cli.options import parse_drives, parse_parts
 from jaxkin.io.ranges import Range, in_radians
 from jaxkin.joints.pairs import cylindrical, revolute
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 
 MECHANISM = Mechanism.build(
     fixed=["base"],

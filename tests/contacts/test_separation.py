@@ -9,7 +9,7 @@ from scipy.optimize import linprog
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.contacts.hulls import PlaneMotion, gaps_between_hulls, hull
 from jaxkin.contacts.states import find_state
-from jaxkin.geometry.motions import MOVEMENTS, is_length
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import joint
 from jaxkin.joints.screws import displacements
 

@@ -8,12 +8,12 @@ import pytest
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.rulings import ruling
 from jaxkin.contacts.states import STATES, find_state
-from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import apply, perpendicular, rotation
 from jaxkin.geometry.rigid import as_matrices
 from jaxkin.geometry.surfaces import Cone, Cylinder, Sphere
 from jaxkin.joints.joint import joint
-from jaxkin.motion.motion import joint_motion
+from jaxkin.mechanism.motion import joint_motion
 
 displacements = jax.jit(joint_motion)
 

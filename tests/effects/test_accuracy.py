@@ -54,7 +54,7 @@ def test_other_methods_find_the_same_poses(method):
 
 @pytest.mark.long
 def test_a_tolerance_is_kept_and_compiles_nothing():
-    from jaxkin.solve.compiled import _program, _solve
+    from jaxkin.solve.execution.programs import _program, _solve
 
     mechanism = cardan_shafts()
     mechanism.sweep({"in": TURN})

@@ -5,7 +5,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.geometry.motions import MOVEMENTS, displaced, is_length
+from jaxkin.geometry.movements import MOVEMENTS, displaced, is_length
 from jaxkin.geometry.pose import rotation, unit
 from jaxkin.geometry.rigid import as_matrices, as_rigid
 from reference.movements import matrix

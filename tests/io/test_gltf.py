@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.io.gltf import DURATION, KEYFRAMES, keyframes, quaternions
-from jaxkin.motion.drawing import GREY, PALETTE, drawn_parts
+from jaxkin.view.drawing import GREY, PALETTE, drawn_parts
 
 EPS32 = float(np.finfo(np.float32).eps)
 COMPONENTS = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from jaxkin.examples import path
-from jaxkin.geometry import growth
+from jaxkin.geometry import region_growing as growth
 from jaxkin.io.load import load
 from jaxkin.io.mesh_check import MOST, PARTS
 from tessellation import RECORD, write_stl

@@ -4,7 +4,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.pairs import revolute, spherical
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 
 CASSIE = (
     # body, parent, place and axes x and y in it

@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import contact_joint, prismatic, revolute, spherical
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from reference import parallel, planar
 from reference.mechanisms import Z, flat
 

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import jax
 import numpy as np
 
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.status import Status
 
 Array = np.ndarray

@@ -9,8 +9,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jaxkin.joints.pairs import cylindrical
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.motion import Motion
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.status import Status
 from reference import catalogue, mechanisms, overconstrained, planar, spatial
 from reference.hard_case import TURN, HardCase, angles, displacements, off_turns, turn, whole_turns

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jaxkin.solve.blocks import Block
+from jaxkin.solve.system.equation_blocks import Block
 
 
 def block_triangular(rng, poses):

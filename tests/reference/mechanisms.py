@@ -3,7 +3,7 @@
 import numpy as np
 
 from jaxkin.joints.pairs import contact_joint, prismatic, revolute, spherical, universal
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from reference.planar import FourBar, fourbar
 from reference.spatial import bennett, bennett_length, rssr, spherical_fourbar
 

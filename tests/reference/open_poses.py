@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from jaxkin.geometry.motions import MOVEMENTS, is_length
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.screws import chain
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 
 
 def pushed(mechanism: Mechanism, place: tuple[str, str], shift, turn=(0.0, 0.0, 0.0)) -> Mechanism:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.joints.pairs import cylindrical, planar, revolute, spherical
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from reference.mechanisms import Z, denavit_hartenberg
 from reference.spatial import bennett, bennett_length, half_turns, spherical_fourbar
 

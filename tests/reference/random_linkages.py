@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.joints.pairs import revolute, spherical
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 
 Array = np.ndarray
 Z = np.array([0.0, 0.0, 1.0])

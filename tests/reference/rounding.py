@@ -13,7 +13,7 @@ from jaxkin.geometry.pose import frame
 from jaxkin.io.load import load
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import cylindrical
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from reference import catalogue, mechanisms, overconstrained
 
 Array = np.ndarray

@@ -5,13 +5,13 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.geometry.motions import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import rotation
-from jaxkin.solve import closure as module
-from jaxkin.solve import spatial
-from jaxkin.solve.reading import as_state, read_off
-from jaxkin.solve.state import angles, assembled, from_angles, matrix, multiply, retract
-from jaxkin.solve.system import Form, LoopSystem
+from jaxkin.solve.closure import closure as module
+from jaxkin.solve.closure import spatial
+from jaxkin.solve.closure.joint_coordinates import as_state, read_off
+from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.state import angles, assembled, from_angles, matrix, multiply, retract
 from reference.movements import matrix as movement_matrix
 
 closure = jax.jit(module.closure, static_argnums=0)

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from jaxkin.motion.systems import block_joints, block_system
-from jaxkin.solve.closure import closure
-from jaxkin.solve.compiled import solve
+from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.closure.rod_spin import turn_between, without_spin
+from jaxkin.solve.execution.programs import solve
 from jaxkin.solve.methods import CONTINUATION
-from jaxkin.solve.spins import turn_between, without_spin
-from jaxkin.solve.state import assembled, retract
+from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.status import Status, Tolerance
-from jaxkin.solve.sweep import scaled
-from jaxkin.solve.system import Form, LoopSystem
+from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.state import assembled, retract
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import ball_in_bore, rssr_linkage
 

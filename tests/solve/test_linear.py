@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear import inverse, least_norm, refined_least_norm, solve_blocks
+from jaxkin.solve.linear.least_norm import inverse, least_norm, refined_least_norm, solve_blocks
 from reference.matrices import block_triangular
 
 

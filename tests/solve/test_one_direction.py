@@ -10,10 +10,10 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples import path
 from jaxkin.joints.pairs import cylindrical, revolute
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.systems import block_joints, block_system
-from jaxkin.solve.closure import closure, loop_geometry
-from jaxkin.solve.state import State
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.solve.closure.closure import closure, loop_geometry
+from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.state import State
 from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
 
 

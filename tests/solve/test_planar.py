@@ -9,13 +9,13 @@ import pytest
 
 from jaxkin.geometry.pose import rotation, unit
 from jaxkin.joints.pairs import prismatic, revolute
-from jaxkin.motion.mechanism import Mechanism
-from jaxkin.motion.plane import plane_columns
-from jaxkin.motion.systems import block_joints, block_system
-from jaxkin.solve.closure import closure, loop_geometry
-from jaxkin.solve.state import State
+from jaxkin.linkage.planes import plane_columns
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.status import Status
-from jaxkin.solve.system import Form
+from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.loop_system import Form
+from jaxkin.solve.system.state import State
 from reference.catalogue import jansen, oldham, scotch_yoke
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
 

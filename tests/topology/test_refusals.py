@@ -2,7 +2,7 @@
 
 import pytest
 
-from jaxkin.topology.names import nearest
+from jaxkin._names import nearest
 from jaxkin.topology.structure import structure
 
 PARTS = ["ground", "crank", "coupler", "rocker"]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import prismatic, revolute
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from reference.mechanisms import planar_fourbar
 from reference.planar import fourbar
 from view.bars import COLORS, TURN, bar, box

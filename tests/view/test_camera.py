@@ -4,8 +4,8 @@ from scipy.spatial.transform import Rotation
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import rotation
-from jaxkin.motion.drawing import drawn_parts
 from jaxkin.view.camera import choose_view, move
+from jaxkin.view.drawing import drawn_parts
 from view.bars import box
 
 X, Y, Z = np.eye(3)

@@ -7,10 +7,10 @@ import pytest
 from PIL import Image
 
 import jaxkin as jk
+from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.io.step import read_step
-from jaxkin.motion.assembly import Assembly
 from jaxkin.view.callouts import COLORS
 from jaxkin.view.gallery import PANEL, draw_gallery
 from jaxkin.view.inspection import draw_inspection

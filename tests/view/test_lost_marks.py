@@ -14,7 +14,7 @@ from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.from_contacts import joints_from_contacts
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.lost_marks import WARNING, told
 from jaxkin.view.page import page
 from jaxkin.view.scene import make_scene

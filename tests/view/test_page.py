@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.status import Status
 from jaxkin.view.page import MOST, page
 from view.bars import TURN

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.image import imread
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.motion.mechanism import Mechanism
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.sheet import CAPTION, GAP, HEAD, MARGIN
 from jaxkin.view.storyboard import WIDTHS, storyboard
 from reference.planar import fourbar

@@ -1,0 +1,31 @@
+"""Joints, displacements and transforms by name: a dictionary whose KeyError says which names there are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NoReturn, TypeVar
+
+import jax
+
+from jaxkin._names import nearest
+
+Entry = TypeVar("Entry")
+
+
+class Named(dict[str, Entry]):
+    """What there is, by name. A pytree, whose entries keep their order."""
+
+    def __init__(self, what: str, entries: Iterable[tuple[str, Entry]]) -> None:
+        super().__init__(entries)
+        self.what = what
+        """What an entry is called in the message: "joint"."""
+
+    def __missing__(self, name: Any) -> NoReturn:
+        raise KeyError(f"there is no {self.what} {name!r}{nearest(str(name), self)}")
+
+
+jax.tree_util.register_pytree_with_keys(
+    Named,
+    lambda named: ([(jax.tree_util.DictKey(key), entry) for key, entry in named.items()], (named.what, tuple(named))),
+    lambda static, entries: Named(static[0], zip(static[1], entries, strict=True)),
+)

@@ -1,0 +1,1 @@
+"""Solids in their assembled pose, and the way from their contacts to a mechanism."""

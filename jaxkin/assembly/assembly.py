@@ -1,0 +1,97 @@
+"""An assembly: the parts of a mechanism as solids in their assembled pose, and the way from there to a mechanism."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from jaxkin.assembly.to_mechanism import mechanism_from_solids
+from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.contacts.detect import find_contacts
+from jaxkin.geometry.part import Part
+from jaxkin.joints.joint import Joint
+from jaxkin.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """Solids in their assembled pose, as they were read."""
+
+    parts: tuple[Part, ...]
+    unit: str
+    """Unit of all lengths, such as "mm"; "" where the files have none and none was said."""
+    source: str
+    """The file that it was read from."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the parts."""
+        return tuple(part.name for part in self.parts)
+
+    def contacts(self, *, length: float | None = None, angle: float = 1e-4, fit: float = 0.02) -> Contacts:
+        """The contacts between the parts, and what is nearly one; found once for each choice of tolerances.
+
+        `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
+        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        """
+        tolerances = (length, angle, fit)
+        if tolerances not in self._found:
+            self._found[tolerances] = find_contacts(self.parts, *tolerances)
+        return self._found[tolerances]
+
+    def mechanism(
+        self,
+        *,
+        fixed: Sequence[str],
+        rigid: Sequence[Sequence[str]] = (),
+        ignore: Sequence[Sequence[str]] = (),
+        joints: Sequence[Joint] = (),
+        combine: bool = True,
+        contacts: Sequence[Contact] | None = None,
+        align: float | int | None = None,
+    ) -> Mechanism:
+        """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+
+        - `rigid`: groups of parts that do not move relative to each other, `[["bolt", "plate"]]`. A group is one body;
+          its first part in the order of the assembly holds each of the others by a joint without freedoms.
+        - `ignore`: contacts to leave out, by their two parts, `[["slider", "stop"]]`, or by their faces as reports
+          print them, `[["slider face 3", "stop face 7"]]`.
+        - `joints`: joints by hand. They replace all contacts between their two bodies, or join what does not touch.
+        - `combine`: the contacts of two bodies become the one joint that they amount to, where there is one; without
+          it every contact is a joint, as in the paper. All fixed parts are one body (Section 4.1).
+        - `contacts`: those found with other tolerances, or a selection; by default `self.contacts()`.
+        - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
+          `Mechanism.build`. What files in single precision leave is taken out in any case.
+
+        Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
+        groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
+        """
+        contacts = self.contacts() if contacts is None else contacts
+        return mechanism_from_solids(
+            self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine, align=align
+        )
+
+    @property
+    def found(self) -> tuple[Contacts, ...]:
+        """What was detected so far, with whichever tolerances."""
+        return tuple(self._found.values())
+
+    @cached_property
+    def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
+        return {}
+
+    def __str__(self) -> str:
+        unit = self.unit or "a unit that the file does not say"
+        lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {unit}"]
+        width = max(len(name) for name in self.names)
+        for part in self.parts:
+            kinds = Counter(face.surface.kind for face in part.faces)
+            faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
+            lines.append(f"  {part.name.ljust(width)}  {faces or 'no face that was understood'}")
+            lines += [f"  {' ' * width}    {note}" for note in part.notes]
+        return "\n".join(lines)
+
+    def __repr__(self) -> str:
+        return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"

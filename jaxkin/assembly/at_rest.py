@@ -1,0 +1,80 @@
+"""Leave parts that only spin at rest: their contacts hold nothing that would not be held without them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from jaxkin._names import listed
+from jaxkin.contacts.contact import Contact
+from jaxkin.joints.joint import Joint, joint
+from jaxkin.mobility.needless import Found, found_spinning
+from jaxkin.mobility.spinning import Spin
+from jaxkin.topology.structure import structure
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+def left_at_rest(mechanism: Mechanism) -> Mechanism:
+    """The mechanism in which a part that only spins is joined to its carrier alone, by what it can do by itself.
+
+    Its other contacts hold nothing that would not be held without them: they only close loops in which it idles. Parts
+    of which some must stay for that are kept, and told of in the notes; so are parts with a joint by hand.
+    """
+    by_hand = [part for each in mechanism.all_joints if each.name not in mechanism.contacts for part in each.parts]
+    found = found_spinning(mechanism, kept=by_hand)
+    resting = {part: spin for part, spin in found.spins.items() if len(_neighbours(mechanism, part)) > 1}
+    joints: list[Joint] = []
+    contacts: dict[str, tuple[Contact, ...]] = {}
+    named: dict[frozenset[str], str] = {}
+    dropped: list[Contact] = []
+    for each in mechanism.all_joints:
+        if not resting.keys() & set(each.parts):
+            joints.append(each)
+            contacts |= {each.name: mechanism.contacts[each.name]} if each.name in mechanism.contacts else {}
+        elif (spin := _carried_by(resting, each)) is not None:
+            name = named.setdefault(frozenset(each.parts), "-".join(each.parts))
+            if name not in contacts:
+                joints.append(joint(name, each.parts, spin.kind, (spin.movement,), [spin.frame]))
+            contacts[name] = (*contacts.get(name, ()), *mechanism.contacts[each.name])
+        else:
+            dropped += mechanism.contacts[each.name]
+    notes = (*mechanism.notes, *_notes(mechanism, resting, found))
+    if not resting:
+        return replace(mechanism, notes=notes)
+    described = [(each.name, *each.parts) for each in joints]
+    structured = structure(mechanism.parts, described, mechanism.fixed)
+    mechanism = replace(mechanism, all_joints=tuple(joints), structure=structured, notes=notes)
+    return replace(mechanism, contacts=contacts, contacts_at_rest=tuple(dropped))
+
+
+def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:
+    """The spin of one of the two parts of a joint on the other."""
+    for part, other in (between.parts, between.parts[::-1]):
+        if part in resting and resting[part].carrier == other:
+            return resting[part]
+    return None
+
+
+def _neighbours(mechanism: Mechanism, part: str) -> list[str]:
+    return list(
+        dict.fromkeys(p for each in mechanism.all_joints if part in each.parts for p in each.parts if p != part)
+    )
+
+
+def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: Found) -> list[str]:
+    notes = []
+    for part, spin in resting.items():
+        others = [repr(other) for other in _neighbours(mechanism, part) if other != spin.carrier]
+        notes.append(
+            f"part {part!r} only spins: it is left at rest on {spin.carrier!r}, its contacts with "
+            f"{', '.join(others)} are not needed; connect it for good with rigid=[[{spin.carrier!r}, {part!r}]]"
+        )
+    if needed := [repr(part) for group in found.needed for part in group]:
+        one = len(needed) == 1
+        notes.append(
+            f"{listed(needed)} only {'spins' if one else 'spin'} too, but {'holds' if one else 'hold'} other parts "
+            "together where more parts that spin are left at rest: kept with all contacts"
+        )
+    return notes

@@ -1,0 +1,53 @@
+"""Contacts that a user leaves out: faces that touch only in the modelled pose break assumption 4 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from jaxkin._names import closest, nearest
+from jaxkin.contacts.contact import Contact
+
+Sides = tuple[tuple[str, str], tuple[str, str]]
+"""What each of the two sides of a contact may be called: its part, and the part with the face."""
+
+
+def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tuple[Contact, ...]:
+    """The contacts but for those between the two sides of an entry of `ignore`.
+
+    A side is a part, "stop", for all of its contacts with the other side, or one of its faces as reports print it,
+    "stop face 7". Raises ValueError for an entry that is no pair, or that no contact is between.
+    """
+    if isinstance(ignore, str) or any(isinstance(pair, str) or len(pair) != 2 for pair in ignore):
+        raise ValueError(
+            'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
+            f'[["slider face 3", "stop face 7"]], got {ignore!r}'
+        )
+    sides = [_sides(contact) for contact in contacts]
+    left_out = set()
+    for one, other in ignore:
+        between = [k for k, pair in enumerate(sides) if _is_between(pair, one, other)]
+        if not between:
+            raise ValueError(
+                f"there is no contact between {one!r} and {other!r} to ignore{_instead(sides, one, other)}"
+            )
+        left_out.update(between)
+    return tuple(contact for k, contact in enumerate(contacts) if k not in left_out)
+
+
+def _sides(contact: Contact) -> Sides:
+    (part1, part2), (face1, face2) = contact.parts, contact.faces
+    return (part1, f"{part1} {face1}"), (part2, f"{part2} {face2}")
+
+
+def _is_between(sides: Sides, one: str, other: str) -> bool:
+    return any(one in first and other in second for first, second in (sides, sides[::-1]))
+
+
+def _instead(sides: Sequence[Sides], one: str, other: str) -> str:
+    """The end of the message: what a misspelt side may be meant for, or what the first side does touch."""
+    known = dict.fromkeys(name for pair in sides for side in pair for name in side)
+    for name in (one, other):
+        if name not in known:
+            return closest(name, known) or nearest(name, dict.fromkeys(part for pair in sides for part, _ in pair))
+    touching = [second for pair in sides for first, second in (pair, pair[::-1]) if one in first]
+    return f"; {one!r} touches {', '.join(dict.fromkeys(repr(part) for part, _ in touching))}"

@@ -1,0 +1,208 @@
+"""The way from the contacts of solids to a mechanism: bodies, what the user adds or leaves out, joints, notes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.at_rest import left_at_rest
+from jaxkin.assembly.ignored_contacts import without
+from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.geometry.fit_uncertainty import doubt
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import frame
+from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
+from jaxkin.joints.joint import Joint, joint
+from jaxkin.joints.regularise import Noise
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.topology.bodies import bodies
+from jaxkin.topology.checks import check_names
+from jaxkin.topology.components import connected
+from jaxkin.topology.structure import structure
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
+
+_LISTED = 8
+"""Names, or near misses, that a message lists at most."""
+
+
+class Begun(NamedTuple):
+    """A mechanism without its contacts."""
+
+    joints: tuple[Joint, ...]
+    """Those by hand, and the ties of rigid groups."""
+    parts: tuple[str, ...]
+    fixed: tuple[str, ...]
+    unit: str
+    solids: tuple[Part, ...]
+
+
+def mechanism_from_solids(
+    assembly: Assembly,
+    contacts: Sequence[Contact],
+    *,
+    fixed: Sequence[str],
+    rigid: Sequence[Sequence[str]],
+    ignore: Sequence[Sequence[str]],
+    joints: Sequence[Joint],
+    combine: bool,
+    align: float | int | None,
+) -> Mechanism:
+    """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
+    names = assembly.names
+    check_names(names, [(given.name, *given.parts) for given in joints], fixed)
+    body = bodies(names, fixed, rigid)
+    owners = {body[part] for part in fixed}
+    fixed = (*fixed, *(part for part in names if body[part] in owners and part not in fixed))
+    for given in joints:
+        if body[given.parts[0]] == body[given.parts[1]]:
+            raise ValueError(f"joint {given.name!r} joins parts that are rigidly connected: {', '.join(given.parts)}")
+
+    used = without(contacts, ignore)
+    ties = _ties(assembly, body, fixed)
+    _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
+    moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]
+    by_hand = {_pair(given.parts, body): given.name for given in joints}
+    replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
+    kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
+    begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
+    mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
+    told = (*_left_out(len(contacts) - len(used), replaced, by_hand, body), *_told(contacts))
+    return replace(mechanism, notes=(*told, *mechanism.notes))
+
+
+def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
+    """The contacts that a mechanism was found from, those of parts at rest too."""
+    return (*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest)
+
+
+def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
+    """The mechanism from the same solids without some contacts, or joints by hand by their names.
+
+    Raises ValueError where that leaves a part that hangs on nothing.
+    """
+    every = all_contacts(mechanism)
+    by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
+    body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == "fixed"])
+    given = tuple(each for each in by_hand if each.name not in left_out)
+    begun = Begun(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
+    contacts = [each for each in every if each not in left_out]
+    return _joined(begun, contacts, body, noise_of(mechanism.solids, every), combine=True, align=None)
+
+
+def _joined(
+    begun: Begun,
+    contacts: Sequence[Contact],
+    body: Mapping[str, str],
+    noise: Noise,
+    combine: bool,
+    align: float | int | None,
+) -> Mechanism:
+    """Parts with some joints, joined by contacts as well, all free of noise, and what only spins left at rest."""
+    parts, fixed = begun.parts, begun.fixed
+    found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
+    structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
+    notes = (*found.notes, *_aligned(found, begun.unit))
+    mechanism = Mechanism(found.joints, structured, begun.unit, begun.solids, notes, found.contacts)
+    most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
+    return aligned(left_at_rest(mechanism) if combine else mechanism, most)
+
+
+def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
+    """The noise of single precision; more where surfaces were fitted to few corners that are near to each other."""
+    faces = {(part.name, face.name): (face, part.grain) for part in parts if part.grain for face in part.faces}
+    touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))
+    doubts = [doubt(*faces[key]) for key in touching if key in faces]
+    return Noise.of(contacts).with_doubt(*np.max(doubts, axis=0, initial=0.0)) if doubts else Noise.of(contacts)
+
+
+def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:
+    return frozenset(body[part] for part in parts)
+
+
+def _ties(assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str]) -> list[Joint]:
+    """A joint without freedoms from the first part of each rigid group to each of the others."""
+    centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
+    return [
+        joint(f"{first}-{part}", (first, part), "fixed", ("I",), [frame(centres[part], np.array([0.0, 0.0, 1.0]))])
+        for part, first in body.items()
+        if part != first and part not in fixed
+    ]
+
+
+def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body: Mapping[str, str]) -> list[str]:
+    """What the user's words did to the contacts."""
+    notes = [f"{ignored} contact{'' if ignored == 1 else 's'} ignored, as was asked for"] if ignored else []
+    for pair, name in by_hand.items():
+        states = [f"({contact.state})" for contact in replaced if _pair(contact.parts, body) == pair]
+        if states:
+            what = "contact" if len(states) == 1 else f"{len(states)} contacts"
+            notes.append(f"joint {name!r}, given by hand, replaces the {what} {', '.join(states)} between its parts")
+    return notes
+
+
+def _aligned(found: FoundJoints, unit: str) -> list[str]:
+    if not found.angle and not found.length:
+        return []
+    return [
+        f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
+        f"and axes by {found.length:.1g} {unit}"
+    ]
+
+
+def _told(contacts: Sequence[Contact]) -> tuple[str, ...]:
+    """Near misses and refusals of the detection, where the contacts are a whole result of it."""
+    return (*map(str, contacts.near_misses), *contacts.notes) if isinstance(contacts, Contacts) else ()
+
+
+def _refuse_loose(
+    assembly: Assembly, contacts: Sequence[Contact], fixed: Sequence[str], ties: Sequence[tuple[str, str]]
+) -> None:
+    """Refuse parts that no chain of contacts and joints ties to the fixed ones, with what is nearly a contact there."""
+    groups = connected(assembly.names, [*ties, *((fixed[0], part) for part in fixed[1:])])
+    held = next(group for group in groups if fixed[0] in group)
+    islands = [sorted(group, key=assembly.names.index) for group in groups if group is not held]
+    if not islands:
+        return
+    loose = [name for name in assembly.names if name not in held]
+    alone = [island[0] for island in islands if len(island) == 1]
+    if alone:
+        problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
+    else:
+        problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
+    found = _told_by(assembly, contacts)
+    misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
+    said = [note for note in found.notes if any(name in note for name in alone or loose)]
+    nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
+    groups = [[_nearest(assembly, island, held), island[0]] for island in islands[:_LISTED]]
+    advice = f"correct the model, fix the part, connect it, as with rigid={groups}, or leave it out of the file:"
+    raise ValueError("\n".join([f"{assembly.source}: {problem}; {advice}", *nearly]))
+
+
+def _told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
+    """The detection that some contacts are from: what it nearly found depends on the tolerances that it was given."""
+    if isinstance(contacts, Contacts):
+        return contacts
+    sources = [found for found in assembly.found if contacts and any(each is contacts[0] for each in found)]
+    return sources[0] if sources else assembly.contacts()
+
+
+def _nearest(assembly: Assembly, island: Sequence[str], held: Collection[str]) -> str:
+    """The held part whose box is nearest to the first part of an island."""
+    boxes = {part.name: part.box for part in assembly.parts}
+    low, high = boxes[island[0]]
+
+    def distance(name: str) -> float:
+        return float(np.linalg.norm(np.maximum(np.maximum(boxes[name][0] - high, low - boxes[name][1]), 0.0)))
+
+    return min((name for name in assembly.names if name in held), key=distance)
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+    return ", ".join(map(repr, names[:_LISTED])) + more

@@ -1,0 +1,1 @@
+"""Link lengths, and frames of joints placed anew."""

@@ -1,0 +1,122 @@
+"""What the joints of a part are to that part: points, axes and planes. Its lengths are the distances between them.
+
+A joint is to each of its two parts what its movements leave in place there: a ball its centre, a hinge or a pin its
+axis, a plane on a plane the plane. Between two frames of a contact joint lies a body of its own, without a name in the
+mechanism: the round surface that rolls and slides, whose length is a radius.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from jaxkin.joints.joint import Joint
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+Side = Literal["before", "after"]
+Kind = Literal["point", "axis", "plane"]
+Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
+Key = tuple[str, ...]
+
+
+class Feature(NamedTuple):
+    """One end of a joint, as the part sees it."""
+
+    joint: int
+    """Its column in the mechanism."""
+    side: Side
+    frame: int
+    kind: Kind
+    axis: int
+    """Which axis of the frame is the axis, or the normal of the plane."""
+    marked: bool
+    """Whether the place along the axis matters: it does for a hinge, not for a pin that slides."""
+
+
+class Length(NamedTuple):
+    """A named quantity between two features of one body."""
+
+    body: tuple[Feature, ...]
+    """All features of the body that the two belong to; none for the pitch of a screw."""
+    first: int
+    second: int
+    """Indices in `body`; the column of the joint for a pitch."""
+    quantity: Quantity
+
+
+# Movement -> what it is to the part on either side: (kind, axis of the frame, marked).
+_FEATURES: dict[str, tuple[Kind, int, bool]] = {
+    "T_z": ("axis", 2, False),
+    "T_phi": ("axis", 2, True),
+    "T_screw": ("axis", 2, True),
+    "T_z_phi": ("axis", 2, False),
+    "T_xy_phi": ("plane", 2, False),
+    "T_theta_phi": ("point", 2, False),
+    "T_theta_phi_psi": ("point", 2, False),
+}
+
+# Contact state -> names of the lengths between the frames of its chain (Table 1), in turn; half-angles of cones are not
+# offered, since the frames alone do not hold them.
+_BETWEEN: dict[str, tuple[str | None, ...]] = {
+    "contact b": ("radius",),
+    "contact d": ("radius",),
+    "contact f": ("distance",),
+    "contact g": ("radius 1", "radius 2"),
+    "contact i": ("radius 1", None),
+    "contact j": ("distance",),
+    "contact n": (None, "radius"),
+    "contact p": ("distance",),
+}
+
+
+def part_features(mechanism: Mechanism) -> dict[str, tuple[Feature, ...]]:
+    """For each row of the incidence matrix (all fixed parts are one) its features, in the order of the joints."""
+    row_of = mechanism.structure.row_of
+    found: dict[str, list[Feature]] = {row: [] for row in mechanism.structure.parts}
+    for column, joint in enumerate(mechanism.all_joints):
+        rows = [row_of[part] for part in joint.parts]
+        if rows[0] == rows[1] or joint.movements == ("I",):
+            continue
+        found[rows[0]].append(_feature(column, joint, "before", 0))
+        found[rows[1]].append(_feature(column, joint, "after", len(joint.movements) - 1))
+    return {row: tuple(features) for row, features in found.items()}
+
+
+def length_table(mechanism: Mechanism) -> dict[Key, Length]:
+    """All lengths of a mechanism by name; see `Mechanism.lengths`. It depends on the structure only."""
+    table: dict[Key, Length] = {}
+    names = [joint.name for joint in mechanism.all_joints]
+    for row, features in part_features(mechanism).items():
+        for i, j in combinations(range(len(features)), 2):
+            one, two = features[i], features[j]
+            table[row, names[one.joint], names[two.joint]] = Length(features, i, j, "distance")
+            if "point" not in (one.kind, two.kind):
+                table[row, names[one.joint], names[two.joint], "angle"] = Length(features, i, j, "angle")
+            for a, b in ((i, j), (j, i)):
+                if _has_offset(features[a], features[b]):
+                    key = (row, names[features[a].joint], names[features[b].joint], "offset")
+                    table[key] = Length(features, a, b, "offset")
+    for column, joint in enumerate(mechanism.all_joints):
+        for i, name in enumerate(_BETWEEN.get(joint.kind, ())):
+            filled = joint.kind == "contact j" and joint.movements[0] == "T_z"  # the ball's centre is on the axis
+            if name is None or i + 1 >= len(joint.movements) or filled:
+                continue
+            body = (_feature(column, joint, "after", i), _feature(column, joint, "before", i + 1))
+            quantity: Quantity = "distance" if name == "distance" else "radius"
+            table[joint.name, name] = Length(body, 0, 1, quantity)
+        if "T_screw" in joint.movements:
+            table[joint.name, "pitch"] = Length((), column, column, "pitch")
+    return table
+
+
+def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
+    if joint.kind == "universal":  # Ry(phi) Rx(theta): part 1 holds the y axis of the cross, part 2 its x axis
+        return Feature(column, side, frame, "axis", 1 if side == "before" else 0, True)
+    kind, axis, marked = _FEATURES[joint.movements[frame]]
+    return Feature(column, side, frame, kind, axis, marked)
+
+
+def _has_offset(along: Feature, of: Feature) -> bool:
+    return along.kind == "axis" and along.marked and (of.kind == "point" or (of.kind == "axis" and of.marked))

@@ -1,0 +1,96 @@
+"""Frames and points of joints placed anew, on both of their parts or on one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import jax.numpy as jnp
+import numpy as np
+
+from jaxkin._names import by_name, nearest
+from jaxkin._traced import traced
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.loop_class import with_joints
+from jaxkin.mobility.alignment import aligned, asked_noise
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+Place = str | tuple[str, str]
+
+
+def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | int | None) -> Mechanism:
+    """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
+    noise = asked_noise(align)
+    for place, pose in by_name(frames, "frames", "{'A': pose}").items():
+        mechanism = _placed(mechanism, place, _pose(place, pose), lambda _, new: new)
+    return aligned(mechanism, noise)
+
+
+def with_points(mechanism: Mechanism, points: Mapping[Any, Any]) -> Mechanism:
+    """The mechanism with some joints moved to given points: see `Mechanism.with_points`."""
+
+    def moved(pose, point):
+        xp = jnp if traced(pose, point) else np
+        column = xp.concatenate([xp.asarray(point), xp.ones(1)])
+        return xp.concatenate([xp.asarray(pose)[:, :3], column[:, None]], axis=1)
+
+    for place, point in by_name(points, "points", "{'A': (x, y, z)}").items():
+        if not traced(point):
+            given = point
+            point = np.asarray(point, float)
+            if point.shape != (3,) or not np.all(np.isfinite(point)):
+                raise ValueError(f"the point of {place!r} must be three finite numbers (x, y, z), got {given!r}")
+        mechanism = _placed(mechanism, place, point, moved)
+    return mechanism
+
+
+def _placed(mechanism: Mechanism, place: Place, given, change) -> Mechanism:
+    column, side = locate(mechanism, place)
+    joint = mechanism.all_joints[column]
+    if side is None and len(joint.movements) > 1:
+        choices = " or ".join(repr((part, joint.name)) for part in joint.parts)
+        raise ValueError(
+            f"joint {joint.name!r} ({joint.kind}) has {len(joint.movements)} frames: say on which part, as {choices}"
+        )
+    for each in ("before", "after") if side is None else (side,):
+        poses = list(getattr(joint, each))
+        end = 0 if each == "before" else -1
+        poses[end] = change(poses[end], given)
+        stacked = (jnp if traced(poses) else np).stack(poses)
+        joint = replace(joint, before=stacked) if each == "before" else replace(joint, after=stacked)
+    joints: list[Joint] = list(mechanism.all_joints)
+    joints[column] = joint
+    return with_joints(mechanism, joints)
+
+
+def locate(mechanism: Mechanism, place: Place) -> tuple[int, str | None]:
+    """The column of a joint, and which copy of its frame: None for both. Raises ValueError for unknown names."""
+    part, name = (None, place) if isinstance(place, str) else place
+    names = list(mechanism.joints)
+    if name not in names:
+        raise ValueError(f"there is no joint {name!r}{nearest(name, names)}")
+    column = names.index(name)
+    parts = mechanism.all_joints[column].parts
+    if part is None:
+        return column, None
+    if part not in parts:
+        raise ValueError(f"joint {name!r} is between {parts[0]!r} and {parts[1]!r}, not on {part!r}")
+    return column, "before" if part == parts[0] else "after"
+
+
+def _pose(place: Place, pose):
+    if traced(pose):
+        return pose
+    array = np.asarray(pose, float)
+    if array.shape != (4, 4) or not np.all(np.isfinite(array)):
+        raise ValueError(f"the frame of {place!r} must be a 4x4 pose of finite numbers, got shape {array.shape}")
+    turn = array[:3, :3]
+    if np.abs(turn.T @ turn - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0 or np.any(array[3] != [0, 0, 0, 1]):
+        raise ValueError(
+            f"the frame of {place!r} is no rigid pose: its first three columns must be a right-handed rotation "
+            "(orthonormal within 1e-9), its last row 0, 0, 0, 1"
+        )
+    return array

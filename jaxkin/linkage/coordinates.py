@@ -1,0 +1,148 @@
+"""Which coordinates are driven: names such as "A" or "j5.z" resolved, arrays checked."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jax import dtypes, lax
+from jaxtyping import Array, Bool, Float
+
+from jaxkin._names import by_name, nearest
+from jaxkin._traced import traced
+from jaxkin.mechanism.mechanism import Mechanism
+
+Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
+"""Displacements, one a pose: on the host where they are numbers."""
+
+
+class Driven(NamedTuple):
+    """A driven coordinate."""
+
+    joint: int
+    coordinate: int
+    values: Given
+
+
+def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driven]:
+    """The driven coordinates by their full names "joint.coordinate", in the order given.
+
+    Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
+    and a ball of which only some angles are driven. NaN and infinity are the status of their poses.
+    """
+    driven = coordinates(mechanism, named(drive))
+    given = given_values(driven, drive)
+    return {name: Driven(*place, values) for (name, place), values in zip(driven.items(), given, strict=True)}
+
+
+def named(drive: Mapping[str, object]) -> tuple[str, ...]:
+    """What a drive names; ValueError where it is no mapping."""
+    return tuple(by_name(drive, "driven displacements", "{'A': angles}"))
+
+
+def coordinates(mechanism: Mechanism, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
+    """(joint, coordinate) that the names of a drive mean, by their full names; ValueError as in `resolve`."""
+    if not keys:
+        raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
+    driven: dict[str, tuple[int, int]] = {}
+    for key in keys:
+        joint, index = coordinate(mechanism, key)
+        name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[index]}"
+        if name in driven:
+            raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
+        driven[name] = joint, index
+    _whole_balls(mechanism, driven.values())
+    return driven
+
+
+def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[Given, ...]:
+    """What a drive gives to coordinates of these full names, in its order; ValueError as in `resolve`."""
+    given = tuple(_values(key, values) for key, values in drive.items())
+    lengths = [values.shape[0] for values in given]
+    if len(set(lengths)) > 1:
+        listed = ", ".join(f"{name!r}: {length}" for name, length in zip(names, lengths, strict=True))
+        raise ValueError(f"driven arrays must have equal length, one value a pose, got {listed}")
+    return given
+
+
+def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
+    """The displacements with each pose that holds NaN or infinity replaced by the finite one before it, and where that
+    was not so (None: nowhere); at the beginning by the first finite pose, zero where there is none.
+
+    So the poses between which the motion is followed are those that there would be without the ones replaced.
+    """
+    xp = jnp if traced(given) else np
+    finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
+    if not len(finite) or (xp is np and finite.all()):
+        return given, None
+    numbers = xp.where(finite, xp.arange(len(finite)), -1)
+    last = xp.maximum.accumulate(numbers)
+    source = xp.where(last < 0, xp.argmax(finite), last)
+    found = []
+    for values in given:
+        before = lax.stop_gradient(values)[source] if xp is jnp else values[source]
+        found.append(xp.where(finite, values, xp.where(xp.isfinite(before), before, 0.0)))
+    return tuple(found), finite
+
+
+def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
+    """The joint and the coordinate that a name "joint" or "joint.coordinate" means; ValueError where it means none."""
+    names = [joint.name for joint in mechanism.all_joints]
+    if not isinstance(key, str):
+        raise ValueError(f"a drive names 'joint' or 'joint.coordinate', as in {{{names[0]!r}: angles}}, got {key!r}")
+    if key in names:
+        joint = mechanism.all_joints[names.index(key)]
+        if joint.freedoms != 1:
+            choices = [
+                " with ".join(repr(f"{key}.{joint.coordinates[index]}") for index in group)
+                for group in joint.driven_together
+            ]
+            said = f"has {joint.freedoms} coordinates: write {' or '.join(choices)}"
+            what = said if choices else "has no coordinate to drive"
+            raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
+        return names.index(key), 0
+    name, _, part = key.rpartition(".")
+    if name in names:
+        joint = mechanism.all_joints[names.index(name)]
+        if part not in joint.coordinates:
+            known = ", ".join(joint.coordinates) or "none"
+            raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {part!r}; it has: {known}")
+        return names.index(name), joint.coordinates.index(part)
+    if len(pair := _pair(mechanism, name or key)) > 1:
+        raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
+    raise ValueError(f"there is no joint {key!r} to drive{nearest(name if '.' in key and name else key, names)}")
+
+
+def _pair(mechanism: Mechanism, name: str) -> list[str]:
+    """Names of parallel joints "p-q:a", "p-q:e" for the name "p-q" of their pair of parts."""
+    return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
+
+
+def _values(key: str, values: Any) -> Given:
+    dtype = dtypes.canonicalize_dtype(float)
+    if traced(values):
+        values = jnp.asarray(values, dtype)
+    else:
+        try:
+            if np.iscomplexobj(values):
+                raise TypeError
+            values = np.asarray(values, dtype)
+        except (TypeError, ValueError):
+            raise ValueError(f"drive {key!r}: the displacements must be real numbers, got {values!r}") from None
+    if values.ndim != 1:
+        raise ValueError(
+            f"drive {key!r}: the displacements must be an array of one axis, one value a pose, got shape "
+            f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
+        )
+    return values
+
+
+def _whole_balls(mechanism: Mechanism, driven: Collection[tuple[int, int]]) -> None:
+    """A ball's angles are one rotation: all three are driven or none."""
+    for index, joint in enumerate(mechanism.all_joints):
+        for group in joint.driven_together:
+            if 0 < sum((index, c) in driven for c in group) < len(group):
+                names = [f"{joint.name}.{joint.coordinates[c]}" for c in group]
+                raise ValueError(f"joint {joint.name!r} is a ball: drive all of {', '.join(map(repr, names))}, or none")

@@ -1,0 +1,79 @@
+"""Which structure elements are planar, and which loops turn about one direction (host code, numbers only).
+
+Joints that turn about one direction or slide at right angles to it form the planar subgroup, in which a loop needs
+three equations instead of six. Those that slide anywhere form the subgroup of Schoenflies, in which it needs four.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.joint import Joint
+
+PARALLEL = 1e-12
+"""Sine of the angle between directions that count as parallel: rounding, since the noise of files is taken out."""
+
+
+def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
+    """The coordinates of the joints, counted through, that act in the plane; None where there is no such plane.
+
+    Translations along the normal are allowed and left out: they commute with all others. Where lengths were changed
+    along the normal these may be needed, and the element counts as spatial.
+    """
+    if traced(joints) or (axes := _axes(joints)) is None:
+        return None
+    turning, sliding = axes
+    if not _one_direction(turning):
+        return None
+    normal = turning[0][1]
+    inside = [column for column, *_ in turning]
+    for column, *axes in sliding:
+        along = np.abs(np.array(axes) @ normal)
+        if np.all(along <= PARALLEL):
+            inside.append(column)
+        elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
+            return None
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
+    shifts = [(np.asarray(joint.before) - np.asarray(joint.after))[:, :3, 3] @ normal for joint in joints]
+    if np.max(np.abs(np.concatenate(shifts))) > PARALLEL * np.ptp(origins, axis=0).max(initial=0.0):
+        return None
+    return tuple(sorted(inside))
+
+
+def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
+    """Whether all joints that turn at all do so about one direction; where that is traced, no."""
+    axes = None if traced(joints) else _axes(joints)
+    return axes is not None and _one_direction(axes[0])
+
+
+Axes = list[tuple[int, np.ndarray, np.ndarray]]
+"""Of coordinates, counted through, their axes on both parts."""
+
+
+def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
+    """What turns and what slides; None where there are balls or screws."""
+    turning: Axes = []
+    sliding: Axes = []
+    column = 0
+    for joint in joints:
+        sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
+        for frame, name in enumerate(joint.movements):
+            movement = MOVEMENTS[name]
+            if movement.ball or any(element.kind == "screw" for element in movement.elements):
+                return None
+            for element in movement.elements:
+                first, second = (side[frame][:3, element.axis] for side in sides)
+                entry = (column + element.coordinate, first, second)
+                (sliding if element.kind == "translate" else turning).append(entry)
+            column += len(movement.coordinates)
+    return turning, sliding
+
+
+def _one_direction(turning: Axes) -> bool:
+    return bool(turning) and all(
+        np.linalg.norm(np.cross(turning[0][1], axis)) <= PARALLEL for _, *axes in turning for axis in axes
+    )

@@ -1,0 +1,102 @@
+"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a mechanism and a drive.
+
+A sweep of some hundred poses takes a few milliseconds: to find this anew each time would be a large part of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import jax
+import numpy as np
+from jax import dtypes
+
+from jaxkin._traced import traced
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinates
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.infeasible_drive import dead_end
+from jaxkin.solve.range.solve_range import Joints
+from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
+from jaxkin.solve.system.loop_system import Form, LoopSystem
+
+
+class Given(NamedTuple):
+    """The loops of joints that close at the assembled pose only."""
+
+    system: LoopSystem
+    columns: Columns
+    joints: Joints
+
+
+class Element(NamedTuple):
+    """A structure element that is to be solved."""
+
+    system: LoopSystem
+    columns: Columns
+    inputs: tuple[int, ...]
+    """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
+    joints: Joints
+    given: Given | None
+    """What the poses are brought to the least residual of, where the loops solved are those of `mechanism.ideal`."""
+
+
+class Prepared(NamedTuple):
+    """A drive of a mechanism, as yet without displacements."""
+
+    driven: dict[str, tuple[int, int]]
+    """(joint, coordinate) by full names, in the order given."""
+    freedoms: tuple[int, ...]
+    """Of every joint."""
+    elements: tuple[Element, ...]
+    refused: str | None
+    """Why the loops cannot follow it."""
+
+
+def prepare(mechanism: Mechanism, keys: tuple[str, ...]) -> Prepared:
+    """The coordinates of these names, and the structure elements they move; ValueError as in `resolve`.
+
+    Kept with the mechanism, unless its numbers, or what JAX makes of them here, are traced.
+    """
+    if traced(mechanism):
+        return _prepared(mechanism, keys)
+    key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
+    if key in mechanism.prepared:
+        return mechanism.prepared[key]
+    prepared = _prepared(mechanism, keys)
+    on_device = jax.device_put([element.joints for element in prepared.elements])
+    if traced(on_device):
+        return prepared
+    elements = tuple(
+        element._replace(joints=joints) for element, joints in zip(prepared.elements, on_device, strict=True)
+    )
+    mechanism.prepared[key] = prepared._replace(elements=elements)
+    return mechanism.prepared[key]
+
+
+def _prepared(mechanism: Mechanism, keys: Sequence[str]) -> Prepared:
+    driven = coordinates(mechanism, keys)
+    places = list(driven.values())
+    elements = []
+    for block, form in zip(mechanism.structure.blocks, mechanism.forms, strict=True):
+        inside = sorted(
+            (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
+        )
+        if not inside and not _edited([mechanism.solved_joints[joint] for joint in block.joints]):
+            continue
+        inputs = tuple(i for _, _, i in inside)
+        system, columns = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
+        given = None
+        if mechanism.ideal:
+            whole = block_system(mechanism, block, tuple(places[i] for i in inputs), Form())
+            given = Given(*whole, block_joints(mechanism.all_joints, block))
+        elements.append(Element(system, columns, inputs, block_joints(mechanism.solved_joints, block), given))
+    freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)
+    judged = not traced(mechanism) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(mechanism))
+    return Prepared(driven, freedoms, tuple(elements), dead_end(mechanism, places) if judged else None)
+
+
+def _edited(joints: list[Joint]) -> bool:
+    """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
+    return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)

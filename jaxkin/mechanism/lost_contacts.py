@@ -1,0 +1,192 @@
+"""Lost contacts: faces that a joint was read from, and that are no longer on each other at some poses of a motion.
+
+A joint keeps infinite surfaces in contact, as the paper's contacts do (assumption 4: they last). Faces end. Where the
+faces of a contact are apart along the freedoms of their joint, the contact is lost there, and the joint is what it was
+only if the contacts that are left amount to the same lower pair. Told from the extents of the faces, which are cheap
+and larger than the faces: what is told is surely lost, and not all that is lost is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin.contacts.contact import Contact
+from jaxkin.contacts.separation import Displacements, Gaps
+from jaxkin.contacts.states import find_state
+from jaxkin.contacts.tolerance import default_length
+from jaxkin.geometry.part import Face
+from jaxkin.joints.combine import combine
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.regularise import Noise, regularise
+from jaxkin.joints.screws import displacements, inverses
+from jaxkin.topology.bodies import bodies
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class LostContact:
+    """A contact whose faces are apart at some poses."""
+
+    joint: str
+    """The joint that was read from the contact."""
+    contact: Contact
+    gaps: Float[np.ndarray, " poses"]
+    """How far the faces are apart at least, in the unit of the mechanism; zero where they may be on each other, and at
+    poses that are not closed."""
+    loose: Bool[np.ndarray, " poses"]
+    """Poses at which this and other contacts of the joint are lost, and those that are left do not make the joint."""
+    left: str
+    """The kind of joint that they amount to where the faces are farthest apart; empty where they are no lower pair."""
+
+    @property
+    def lost(self) -> Bool[np.ndarray, " poses"]:
+        """Poses at which the faces are apart."""
+        return self.gaps > 0
+
+    @property
+    def gap(self) -> float:
+        """The largest of the gaps."""
+        return float(self.gaps.max())
+
+
+def lost_contacts(motion: Motion) -> tuple[LostContact, ...]:
+    """The contacts that are lost at closed poses of a motion, in the order of the joints.
+
+    None for mechanisms without solids, for joints by hand, and for contacts in states (i), (k), (l), (m), (o), (p) and
+    a ball seated in a cone, whose faces are not followed.
+    """
+    mechanism = motion.mechanism
+    if not mechanism.solids or not mechanism.contacts:
+        return ()
+    (closed,) = np.nonzero(np.asarray(motion.on_branch))
+    setting = _Setting(mechanism)
+    found: list[LostContact] = []
+    for joint, values in zip(mechanism.all_joints, motion.displacements, strict=True):
+        contacts = mechanism.contacts.get(joint.name, ())
+        if contacts and joint.freedoms and len(closed):
+            found += _of_joint(joint, contacts, displacements(joint, np.asarray(values, float)[closed]), setting)
+    return tuple(_over_all_poses(each, closed, len(motion)) for each in found)
+
+
+class _Setting:
+    """What all joints of a mechanism share."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        ties = [joint.parts for joint in mechanism.all_joints if not joint.freedoms]
+        self.body = bodies(mechanism.parts, mechanism.fixed, ties)
+        """For each part the first part of its rigid body."""
+        self.solids = mechanism.solids
+        self.faces: dict[tuple[str, str], Face] = {}
+        """By part and name."""
+        for part in mechanism.solids:
+            self.faces |= {(part.name, face.name): face for face in part.faces}
+        # gaps below what counts as touching in the assembled pose are none, nor are those below rounding of the corners
+        self.length = default_length(mechanism.solids) + 2 * max(part.grain for part in mechanism.solids)
+        self._flush: dict[tuple[str, str], list[Face]] = {}
+
+    def flush(self, part: str, name: str) -> list[Face]:
+        """The other faces of the body of a part that continue the surface of one of its faces."""
+        if (part, name) not in self._flush:
+            face = self.faces[part, name]
+            self._flush[part, name] = [
+                other
+                for (owner, _), other in self.faces.items()
+                if self.body[owner] == self.body[part] and other is not face and _on_one(face, other, self.length)
+            ]
+        return self._flush[part, name]
+
+
+def _on_one(face: Face, other: Face, length: float) -> bool:
+    """Whether another face lies on the surface of a face, facing the same way."""
+    if other.surface.kind != face.surface.kind:
+        return False
+    corners, middles = other.triangles.reshape(-1, 3), other.triangles.mean(axis=1)
+    facing = np.sum(face.surface.normals(middles) * other.surface.normals(middles), axis=-1)
+    return bool(np.abs(face.surface.distance(corners)).max() <= length and facing.min() > 0)
+
+
+def _of_joint(joint: Joint, contacts: Sequence[Contact], moved: Displacements, setting: _Setting) -> list[LostContact]:
+    """The contacts of a joint that are lost, over the poses of the displacements of its part 2."""
+    gaps = [_gaps(joint, contact, moved, setting) for contact in contacts]
+    gaps = [np.where(each > setting.length, each, 0.0) for each in gaps]
+    lost = [k for k, each in enumerate(gaps) if each.any()]
+    if not lost:
+        return []
+    from jaxkin.assembly.to_mechanism import noise_of
+
+    noise = noise_of(setting.solids, contacts)
+    which = np.zeros(moved.shape[2], int)  # numbers of the sets of contacts that are lost together
+    for k in lost:
+        which = np.unique(2 * which + (gaps[k] > 0), return_inverse=True)[1]
+    _, firsts, which = np.unique(which, return_index=True, return_inverse=True)
+    left = [_left([c for c, each in zip(contacts, gaps, strict=True) if not each[pose]], noise) for pose in firsts]
+    loose = np.array(
+        [kind != joint.kind and any(gaps[k][pose] for k in lost) for kind, pose in zip(left, firsts, strict=True)]
+    )
+    result = []
+    for k in lost:
+        apart = gaps[k] > 0
+        mine = apart & loose[which]
+        result.append(LostContact(joint.name, contacts[k], gaps[k], mine, left[which[np.argmax(gaps[k])]]))
+    return result
+
+
+def _left(contacts: Sequence[Contact], noise: Noise) -> str:
+    """The kind of the joint that the contacts that are left amount to; empty if there is none."""
+    pair = combine(regularise(contacts, noise).contacts, noise) if contacts else None
+    return pair.kind if pair else ""
+
+
+def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: _Setting) -> Gaps:
+    """How far the faces of a contact are apart, and all that continue them; negative infinity where nobody looks."""
+    gaps = np.full(moved.shape[2], -np.inf)
+    of_faces = find_state(contact.state, contact.region).gaps
+    sides = [setting.body[part] for part in contact.parts]
+    ends = [setting.body[part] for part in joint.parts]
+    if of_faces is None or sides not in (ends, ends[::-1]) or ends[0] == ends[1]:
+        return gaps
+    side1, side2 = zip(contact.parts, contact.faces, strict=True)
+    face1, face2 = setting.faces[side1], setting.faces[side2]
+    moved = moved if sides == ends else inverses(moved)
+    gaps = of_faces(face1, face2, moved)
+    if not np.any(gaps > setting.length):
+        return gaps
+    faces1, faces2 = [face1, *setting.flush(*side1)], [face2, *setting.flush(*side2)]
+    for one, other in product(faces1, faces2):
+        (poses,) = np.nonzero(gaps > setting.length)
+        if not len(poses):
+            break
+        gaps[poses] = np.minimum(gaps[poses], of_faces(one, other, moved[:, :, poses]))
+    return gaps
+
+
+def _over_all_poses(found: LostContact, closed: np.ndarray, poses: int) -> LostContact:
+    """The same, of the closed poses, with the others."""
+    gaps, loose = np.zeros(poses), np.zeros(poses, bool)
+    gaps[closed], loose[closed] = found.gaps, found.loose
+    return LostContact(found.joint, found.contact, gaps, loose, found.left)
+
+
+def joined(pieces: Sequence[tuple[Sequence[LostContact], int]]) -> tuple[LostContact, ...]:
+    """The lost contacts of a motion from those of its consecutive pieces, each with its number of poses."""
+    poses = sum(count for _, count in pieces)
+    found: dict[tuple[str, tuple[str, str], tuple[str, str]], LostContact] = {}
+    start = 0
+    for lost, count in pieces:
+        for each in lost:
+            key = (each.joint, each.contact.parts, each.contact.faces)
+            if key not in found:
+                found[key] = LostContact(each.joint, each.contact, np.zeros(poses), np.zeros(poses, bool), each.left)
+            found[key].gaps[start : start + count] = each.gaps
+            found[key].loose[start : start + count] = each.loose
+        start += count
+    return tuple(found.values())

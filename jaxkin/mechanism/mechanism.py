@@ -1,0 +1,266 @@
+"""The mechanism: joints and structure. The one representation that everything else works on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import jax
+
+from jaxkin._named import Named
+from jaxkin._names import nearest
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.part import Part
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.loop_class import forms
+from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.system.loop_system import Form
+from jaxkin.topology.structure import Structure, structure
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.drive_plan import Prepared
+    from jaxkin.mechanism.motion import Motion
+    from jaxkin.mechanism.plan import Plan
+    from jaxkin.mechanism.reassembly import Reassembly
+    from jaxkin.mechanism.stream import Stream
+    from jaxkin.mobility.loop_freedoms import LoopFreedoms
+    from jaxkin.mobility.mobility import Mobility
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """Parts held together by joints, in their assembled pose.
+
+    A pytree: its leaves are the frames and pitches of the joints, float arrays all; names and structure are static. A
+    new geometry of the same structure compiles nothing anew. Solids, notes and contacts are for pictures and tables
+    only: they are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
+    """
+
+    all_joints: tuple[Joint, ...]
+    structure: Structure
+    unit: str = ""
+    """Unit of all lengths, such as "mm"; empty where it was not said."""
+    solids: tuple[Part, ...] = field(default=())
+    notes: tuple[str, ...] = field(default=())
+    """What was found, combined or refused on the way from solids to joints, in words."""
+    contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
+    """The contacts that a joint stands for, by its name; none for joints by hand."""
+    contacts_at_rest: tuple[Contact, ...] = field(default=())
+    """Contacts of parts that only spin and are left at rest, which no joint stands for."""
+    ideal: tuple[Joint, ...] = field(default=())
+    """The nearest joints whose loops close throughout their motion, where those of `all_joints`, which disagree by more
+    than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to
+    the least residual of the joints that were given. See `jaxkin.mobility.alignment`."""
+    known_forms: tuple[Form, ...] | None = field(default=None)
+    """What `forms` was before JAX took the mechanism apart: to JAX that is what it is, whatever its numbers are now."""
+
+    @staticmethod
+    def build(
+        *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | int | None = None
+    ) -> Mechanism:
+        """A mechanism from joints written by hand, in world coordinates of its assembled pose.
+
+        Numbers that were rounded let the loops of many mechanisms close at the assembled pose only: their frames are
+        moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
+        `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
+
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
+        such number.
+        """
+        from jaxkin.mobility.alignment import aligned, asked_noise
+
+        noise = asked_noise(align)
+        if (wrong := _no_joint(joints)) is not None:
+            raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
+        parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
+        described = [(joint.name, *joint.parts) for joint in joints]
+        return aligned(Mechanism(tuple(joints), structure(parts, described, fixed), unit), noise)
+
+    @cached_property
+    def forms(self) -> tuple[Form, ...]:
+        """What is special about the loops of each structure element.
+
+        While JAX traces the frames this is what it was before: a mechanism tilted out of its planes is not closed then.
+        """
+        return forms(self) or self.known_forms or (Form(),) * len(self.structure.blocks)
+
+    @property
+    def solved_joints(self) -> tuple[Joint, ...]:
+        """The joints whose loops are solved: those given, or `ideal` where these cannot move."""
+        return self.ideal or self.all_joints
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of all parts, the fixed ones too."""
+        return self.structure.part_names
+
+    @property
+    def fixed(self) -> tuple[str, ...]:
+        """Names of the parts that do not move."""
+        return self.structure.fixed
+
+    @cached_property
+    def joints(self) -> Mapping[str, Joint]:
+        """Joints by name."""
+        return Named("joint", ((joint.name, joint) for joint in self.all_joints))
+
+    def joints_between(self, part1: str, part2: str) -> tuple[str, ...]:
+        """Names of the joints between two parts, in whichever order. ValueError for an unknown part."""
+        for part in (part1, part2):
+            if part not in self.parts:
+                raise ValueError(f"there is no part {part!r}{nearest(part, self.parts)}")
+        return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
+
+    def sweep(
+        self, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+    ) -> Motion:
+        """The motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
+        from jaxkin.mechanism.sweep import sweep
+
+        return sweep(self, drive, tolerance=tolerance, method=method)
+
+    def stream(
+        self,
+        drive: Mapping[str, object],
+        chunk: int = 100_000,
+        *,
+        tolerance: float | None = None,
+        method: str = CONTINUATION,
+    ) -> Stream:
+        """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
+
+        Together they are what `sweep` gives: each goes on where the one before it ends, on its branch, and full turns
+        are counted through. All are solved by one compiled program. `len` of it is the number of chunks, so that
+        `rich.progress.track(mechanism.stream(...))` draws a bar; it may be gone through several times, and solves anew
+        each time.
+
+        Raises ValueError as `sweep` does, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
+        """
+        from jaxkin.mechanism.stream import Stream
+
+        return Stream(self, drive, chunk, tolerance, method)
+
+    @cached_property
+    def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:
+        """All distances and angles between the joints of each part, and the radii of contact surfaces, by name.
+
+        `(part, joint, joint)` is the distance: of two balls, of a ball and an axis, of two axes along their common
+        normal; from a plane it is counted along its normal. `(part, joint, joint, "angle")` is the angle between two
+        axes (a plane has its normal), in radians. `(part, joint, other, "offset")` is how far along the axis of the
+        first joint, from its origin, the other one stands: the foot of a ball, or of the common normal of the two axes.
+        `(joint, "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the
+        sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
+        parts are one part; a joint without movement has no lengths.
+
+        Each is measured on its own part, where this stands in the given pose: it is the same whether that pose is
+        closed or open. Only where a slide or a screw stands along its own axis follows from the pose in which its two
+        frames coincide: an offset along a screw, the distance of a plane across a slide.
+        """
+        from jaxkin.dimensions.lengths import lengths
+
+        return lengths(self)
+
+    def with_lengths(self, changes: Mapping[Any, Any]) -> Mechanism:
+        """The mechanism with some of its `lengths` changed and all others as they are.
+
+        Of the two joints that a key names the first stays where it is on its part and the second moves, with all that
+        coincide with it; the part's third joint and further ones stay too, and their distances and angles to the moved
+        one are kept (where a part has three axes or more that are not parallel, their offsets follow). Axes that
+        coincide move apart along the x axis of the first one's frame. The loops are closed again, on the branch of the
+        assembled pose, when the mechanism is swept; solids, which do not follow, are left behind.
+
+        Works inside `jax.jit`, `vmap` and `grad`. Raises ValueError for a length that does not exist, is negative, or
+        cannot hold together with those to be kept; where the numbers are traced the latter gives NONFINITE poses.
+        """
+        from jaxkin.dimensions.lengths import with_lengths
+
+        return with_lengths(self, changes)
+
+    def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
+        """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
+
+        A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only: then
+        lengths of this part change and those of the other one do not. Numbers are aligned as by `build`. Works inside
+        `jit`, `vmap` and `grad`, where they are left as they are. Raises ValueError for names that do not exist, for
+        what is no rigid pose and for a wrong `align`.
+        """
+        from jaxkin.dimensions.frames import with_frames
+
+        return with_frames(self, frames, align)
+
+    def with_points(self, points: Mapping[Any, Any]) -> Mechanism:
+        """The mechanism with the origins of some joint frames moved to given points; keys as in `with_frames`."""
+        from jaxkin.dimensions.frames import with_points
+
+        return with_points(self, points)
+
+    def plan(self, drive: Iterable[str]) -> Plan:
+        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`.
+
+        Raises ValueError where the given pose is open.
+        """
+        from jaxkin.mechanism.plan import plan
+
+        return plan(self, drive)
+
+    def mobility(self) -> Mobility:
+        """Freedoms, idle freedoms and redundant constraints at the assembled pose; ValueError where that is open."""
+        from jaxkin.mobility.mobility import mobility
+
+        return mobility(self)
+
+    def close(self, *, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
+        """Close the loops without a drive, where the given pose is open, and place the joints anew there.
+
+        Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
+        part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
+        re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
+        where these stand now) and its solids moved. Where the loops cannot be closed, `closed` is False and `print`
+        says which disagree. Coordinates named in `hold`, as in a drive, stay as they are given: motors, for one.
+        Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed.
+
+        Raises ValueError inside `jit`, `vmap` and `grad`, for names that are not there, and for a wrong `align`.
+        """
+        from jaxkin.mechanism.reassembly import close
+
+        return close(self, hold, align)
+
+    @cached_property
+    def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:
+        """What the loops of each structure element allow at first order, in the order of `structure.blocks`."""
+        from jaxkin.mobility.loop_freedoms import loop_freedoms
+
+        return loop_freedoms(self)
+
+    @cached_property
+    def prepared(self) -> dict[Any, Prepared]:
+        """What sweeps have found out about their drives: see `jaxkin.mechanism.drive_plan.prepare`."""
+        return {}
+
+    def __str__(self) -> str:
+        from jaxkin.mechanism.describe import describe_mechanism
+
+        return describe_mechanism(self)
+
+
+def _no_joint(joints: Any) -> str | None:
+    """What stands where joints should, in words; None where all is well."""
+    if isinstance(joints, Joint):
+        return f"the joint {joints.name!r} alone"
+    if not isinstance(joints, Iterable):
+        return repr(joints)
+    return next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
+
+
+# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only. What is static must not change with
+# the numbers: a gradient, or the zeros that an optimiser begins with, is a tree of the same structure.
+jax.tree_util.register_pytree_node(
+    Mechanism,
+    lambda mechanism: (
+        (mechanism.all_joints, mechanism.ideal),
+        (mechanism.structure, mechanism.unit, mechanism.known_forms or mechanism.forms),
+    ),
+    lambda static, leaves: Mechanism(leaves[0], *static[:2], ideal=leaves[1], known_forms=static[2]),
+)

@@ -1,0 +1,196 @@
+"""The motion of a mechanism over a range: what a sweep gives back."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin._named import Named
+from jaxkin._names import listed, nearest
+from jaxkin.geometry.movements import MOVEMENTS, displaced
+from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.mechanism import writers
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.infeasible_drive import left_free
+from jaxkin.solve.status import Status
+from jaxkin.topology.structure import Structure
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.lost_contacts import LostContact
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """The poses of a mechanism for a range of inputs. A pytree; every array has the poses as its first axis.
+
+    Poses that did not close are there too: their displacements are those of least residual, `status` says what became
+    of them, and their derivatives are zero.
+    """
+
+    mechanism: Mechanism
+    inputs: dict[str, Float[Array, " poses"]]
+    """Driven displacements by "joint.coordinate", in radians and in the unit of the mechanism."""
+    displacements: tuple[Float[Array, "poses _"], ...]
+    """Displacements of all joints, in the order of `mechanism.joints`."""
+    status: Int[Array, " poses"]
+    """Codes of `Status`."""
+    residual: Float[Array, " poses"]
+    """Square root of Eq. 12, lengths over the characteristic length of the loops."""
+
+    def __len__(self) -> int:
+        return self.status.shape[0]
+
+    @property
+    def closed(self) -> Bool[Array, " poses"]:
+        """Which poses are closed on the branch of the assembled pose."""
+        return self.status == Status.CLOSED.value
+
+    @property
+    def on_branch(self) -> Bool[Array, " poses"]:
+        """Which poses are on the branch of the assembled pose: closed, or as nearly closed as the joints agree."""
+        return self.closed | (self.status == Status.MISFIT.value)
+
+    @cached_property
+    def sigma_min(self) -> Float[Array, " poses"]:
+        """How near to singular each pose is: the smallest singular value of the closure Jacobian not always zero.
+
+        For radians and characteristic lengths, of the worst structure element; infinite where no loop is driven. A pose
+        is right to about its residual over this value, and derivatives grow as one over it: at a dead point or a change
+        point, where it is zero, a closed loop is accurate to the square root of rounding only.
+        """
+        from jaxkin.mechanism.singularity import sigma_min
+
+        return sigma_min(self)
+
+    @cached_property
+    def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
+        """Displacements of each joint, in the order of its `coordinates`; angles count full turns."""
+        return Named("joint", zip(self.mechanism.joints, self.displacements, strict=True))
+
+    @cached_property
+    def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
+        """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
+        return Named("part", zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
+
+    @cached_property
+    def lost_contacts(self) -> tuple[LostContact, ...]:
+        """The contacts of the solids whose faces are apart at some poses: found when it is asked for.
+
+        A joint is read from faces that touch in the assembled pose, and stays what it is beyond their ends; the poses
+        there are CLOSED. `loose` of a lost contact are the poses at which the contacts that are left do not make its
+        joint. `print(motion)` tells them, and the pictures mark them. From the extents of the faces alone: what is told
+        is surely lost. Empty for mechanisms without solids and for joints by hand.
+        """
+        from jaxkin.mechanism.lost_contacts import lost_contacts
+
+        return lost_contacts(self)
+
+    def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
+        """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
+        if part not in self.transforms:
+            raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
+        transforms = self.transforms[part]
+        return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
+
+    def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
+        """Write tables, animation and pictures into a directory; returns the paths. See `motion.writers.save`."""
+        return writers.save(self, directory, only)
+
+    def __str__(self) -> str:
+        counts = np.bincount(np.asarray(self.status), minlength=len(Status))
+        return tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts)
+
+
+def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
+    """Three numbers, in the unit of the mechanism; ValueError where they are none."""
+    try:
+        found = jnp.asarray(point, float)
+    except (TypeError, ValueError):
+        raise ValueError(f"a point must be three numbers (x, y, z), got {point!r}") from None
+    if found.shape != (3,):
+        raise ValueError(f"a point must be three numbers (x, y, z), got shape {found.shape}")
+    return found
+
+
+def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
+    """The largest closure residual of the poses of each status."""
+    status, residual = np.asarray(motion.status), np.nan_to_num(np.asarray(motion.residual, float))
+    return np.array([residual[status == each].max(initial=0.0) for each in Status])
+
+
+def tally(
+    mechanism: Mechanism,
+    inputs: Mapping[str, np.ndarray | Array],
+    counts: Int[np.ndarray, " status"],
+    largest: Float[np.ndarray, " status"],
+    lost: Sequence[LostContact],
+) -> str:
+    """What became of poses, in words: how many of each status, the largest residual of closed ones, faces left."""
+    from jaxkin.mechanism.lost_contact_report import lost_contact_report
+
+    lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
+    lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
+    for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
+        if counts[status]:
+            lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
+    if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
+        lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
+    lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
+    return "\n".join(lines)
+
+
+jax.tree_util.register_dataclass(
+    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=[]
+)
+
+
+def placed(
+    mechanism: Mechanism, displacements: tuple[Float[Array | np.ndarray, "poses _"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Transforms of all parts, in the order of `mechanism.parts`, for displacements of all joints."""
+    return _transforms(mechanism.structure, mechanism.all_joints, displacements)
+
+
+@partial(jax.jit, static_argnums=0)
+def _transforms(
+    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
+    poses, dtype = displacements[0].shape[0], displacements[0].dtype
+    found: dict[str, Rigid] = {}  # without the fixed parts
+    for part, parent, joint, sign in structure.tree:
+        moved = joint_motion(joints[joint], displacements[joint])
+        moved = moved if sign > 0 else inverse(moved)
+        # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
+        found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
+    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
+    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
+
+
+def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
+    """Displacement J of part 2 relative to part 1, in world coordinates: the product of `before T after^-1` (Table 2).
+
+    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
+    """
+    found, first = None, 0
+    for frame, movement in enumerate(joint.movements):
+        count = len(MOVEMENTS[movement].coordinates)
+        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.before, joint.after))
+        begin = before if found is None else product(found, before)
+        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
+        found = product(moved, inverse(after))
+        first += count
+    still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
+    return jnp.broadcast_to(still, (3, 4, q.shape[0]))

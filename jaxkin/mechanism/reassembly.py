@@ -1,0 +1,217 @@
+"""Close the loops of a mechanism whose given pose is open, without a drive, and place its joints anew there.
+
+Joints are written down where they are in the pose of a drawing or a robot file. Where that pose is open, by a gap in
+the file or lengths that were changed, its loops are closed by damped Newton steps (host code, float64, no compilation).
+Which of several assembly modes is meant the steps do not know: other starts, about as far away as the loops had to go,
+tell whether there is another one near.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import astuple, dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._names import listed
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Pose, inverse, turned_by
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.screws import chain, freedoms
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.mechanism.moved_solids import with_moved_solids
+from jaxkin.mobility.alignment import aligned, asked_noise, extent
+from jaxkin.mobility.assembly_modes import STARTS, closed_from_elsewhere, other_modes
+from jaxkin.mobility.host_closure import ClosedLoops, Row
+from jaxkin.mobility.open_loops import Opening, tell_opening
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.topology.structure import Block
+
+_TOLD = 1e-6
+"""Moves are told of parts that move by more than this part of what the most moved one does: not by rounding."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """How far a part was moved."""
+
+    length: float
+    """The largest displacement of the origin of one of its joints, in the unit of the mechanism."""
+    angle: float
+    """Radians."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reassembly:
+    """A mechanism with its loops closed. `print` it."""
+
+    mechanism: Mechanism
+    """Its assembled pose is the one found; as it was given where that stays open."""
+    closed: bool
+    """Whether all loops close."""
+    residual_before: float
+    """Square root of Eq. 12 of the given pose, lengths over the characteristic length."""
+    residual: float
+    """The same of the pose found."""
+    moves: Mapping[str, Move]
+    """How far each part was moved."""
+    others: tuple[float, ...]
+    """Distances, in radians and characteristic lengths, to the poses of other assembly modes that other starts led to
+    with the same displacements of a set of coordinates that determine the pose."""
+    starts: int
+    """How many other starts were tried."""
+    left: Opening | None
+    """What stays open; None where nothing does."""
+
+    def __str__(self) -> str:
+        if self.left is not None:
+            return (
+                f"the loops cannot be closed from the given pose: the residual fell from {self.residual_before:.2g} to "
+                f"{self.residual:.2g}; {self.left}. Check the numbers of these joints, or begin nearer to a closed pose"
+            )
+        least = Move(*(_TOLD * max(sizes) for sizes in zip(*map(astuple, self.moves.values()), strict=True)))
+        if not least.length and not least.angle:
+            return f"closed as given: residual {self.residual_before:.1g}; no part was moved"
+        unit = f" {self.mechanism.unit}".rstrip()
+        moves = sorted(self.moves.items(), key=lambda item: -item[1].length)
+        said = listed(
+            [
+                f"{part} by {move.length:.3g}{unit} and {move.angle:.3g} rad"
+                for part, move in moves
+                if move.length > least.length or move.angle > least.angle
+            ]
+        )
+        lines = [f"closed: residual {self.residual_before:.2g} before, {self.residual:.1g} now; moved: {said}"]
+        if self.others:
+            lines.append(
+                f"{len(self.others)} of {self.starts} other starts led to another assembly mode, the nearest "
+                f"{min(self.others):.2g} away: look at the pose, and give one nearer to what is meant if it is not this"
+            )
+        elif self.starts:
+            lines.append(f"{self.starts} other starts led to no other assembly mode")
+        return "\n".join(lines)
+
+
+def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
+    """The mechanism with its loops closed: see `Mechanism.close`."""
+    noise = asked_noise(align)
+    if traced(mechanism):
+        raise ValueError(
+            "close() is for numbers: inside jit, vmap and grad sweep the mechanism, which closes its loops"
+        )
+    if isinstance(hold, str):
+        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
+    held = {coordinate(mechanism, key) for key in hold}
+    given = replace(mechanism, ideal=())
+    blocks = [_closed(given, block, held, noise) for block in given.structure.blocks]
+    before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
+    rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
+    if still_open := [block for block in blocks if not block.is_closed]:
+        worst = max(still_open, key=lambda block: block.after)
+        left = tell_opening(given, worst.loops, worst.q)
+        return Reassembly(mechanism, False, before, after, rest, (), 0, left)
+    if all(np.array_equal(joint.before, joint.after) for joint in given.all_joints):
+        return Reassembly(mechanism, True, before, after, rest, (), 0, None)
+    moved = [block for block in blocks if block.q.any()]
+    others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
+    coordinates = [np.zeros(joint.freedoms) for joint in given.all_joints]
+    for block in moved:
+        for index, columns in block.loops.slices.items():
+            coordinates[index] = (block.q * block.loops.units)[columns]
+    places = _places(given, coordinates)
+    joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.all_joints, coordinates, strict=True)]
+    notes = (*given.notes, *_rounding(given, moved))
+    found = aligned(replace(given, all_joints=tuple(joints), notes=notes, known_forms=None), noise)
+    found = with_moved_solids(given, found, places)
+    moves = {part: _move(given, part, place) for part, place in places.items()}
+    starts = STARTS * len(moved)
+    return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None)
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """What became of the loops of a structure element."""
+
+    loops: ClosedLoops
+    q: Row
+    """The scaled coordinates found; zero where the loops are closed as they are given."""
+    held: list[int]
+    """Columns that stay as they are given."""
+    before: float
+    after: float
+    """Square roots of Eq. 12."""
+    is_closed: bool
+    """Within the rounding of the numbers."""
+
+
+def _closed(mechanism: Mechanism, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
+    """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
+    loops = ClosedLoops(mechanism, block)
+    q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
+    before = loops.travel(q).gap
+    if loops.coincide or before <= loops.noise.closed:
+        return _Block(loops, q, held, before, before, True)
+    q, found = loops.closed(q, held)
+    size = extent([mechanism.all_joints[index] for index in block.joints])
+    enough = max(noise * size / loops.length, loops.noise.closed)
+    if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
+        q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
+    return _Block(loops, q, held, before, found.gap, found.gap <= enough)
+
+
+def _rounding(mechanism: Mechanism, moved: Sequence[_Block]) -> list[str]:
+    """What was closed for the rounding of the numbers, in words."""
+    left = [block.after * block.loops.length for block in moved if block.after > block.loops.noise.closed]
+    said = f"{max(left, default=0.0):.1g} {mechanism.unit}".rstrip()
+    return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
+
+
+def _places(mechanism: Mechanism, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Pose]:
+    """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
+    places = {part: np.eye(4) for part in mechanism.fixed}
+    for part, parent, index, sign in mechanism.structure.tree:
+        step = _displacement(mechanism.all_joints[index], coordinates[index])
+        places[part] = places[parent] @ (step if sign > 0 else inverse(step))
+    return {part: places[part] for part in mechanism.parts}
+
+
+def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
+    before, after = (np.asarray(side, float) for side in (joint.before, joint.after))
+    return chain(joint.movements, before, q, float(joint.pitch), after)[0]
+
+
+def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
+    """The joint in its new place, the frames on its two parts the same.
+
+    Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
+    what it was, whatever the last one has turned or shifted.
+    """
+    frames, start = [], 0
+    for number, name in enumerate(joint.movements):
+        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.before, joint.after))
+        own = q[start : start + freedoms([name])]
+        start += len(own)
+        most = own.copy()
+        if MOVEMENTS[name].elements:
+            most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
+        frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
+        place = place @ chain([name], before, own, float(joint.pitch), after)[0]
+    stacked = np.array(frames, np.asarray(joint.before).dtype)
+    return replace(joint, before=stacked, after=stacked)
+
+
+def _move(mechanism: Mechanism, part: str, place: Pose) -> Move:
+    sides = [
+        np.asarray(side, float)[frame, :3, 3]
+        for joint in mechanism.all_joints
+        for own, side, frame in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True)
+        if own == part
+    ]
+    origins = np.array(sides).reshape(-1, 3)
+    shifts = origins @ place[:3, :3].T + place[:3, 3] - origins
+    return Move(float(np.linalg.norm(shifts, axis=1).max(initial=0.0)), turned_by(place))

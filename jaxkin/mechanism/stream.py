@@ -1,0 +1,173 @@
+"""Ranges of any length, chunk by chunk: motions that continue each other, in bounded memory.
+
+All chunks are solved by one compiled program. Each begins with the last pose of the one before, by which they are tied
+together. A single input leads there in one way only. Several inputs are led there by a short way first; where that ends
+on another branch, or poses of the chunk do not close, the way that was gone before is gone again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cached_property, partial
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.trig import TURN
+from jaxkin.linkage.coordinates import named, resolve, without_gaps
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion, placed
+from jaxkin.mechanism.sweep import spoilt, sweep
+from jaxkin.solve.status import Status
+
+WAY, SPACING = 128, 0.1
+"""Where there are several inputs: how many poses lead to a chunk at least, and how far they are apart at most, in
+radians or over the size of the mechanism."""
+SAME = 1e-4
+"""Radians, or over the size: where a pose is reached in two ways. At a singular one the two may differ by the root of
+rounding, or a higher one."""
+
+
+class _Pose(NamedTuple):
+    """The pose that two chunks share."""
+
+    displacements: tuple[Float[np.ndarray, " _"], ...]
+    closed: bool
+
+
+class Stream:
+    """The motions of consecutive chunks of a drive, in turn: see `Mechanism.stream`."""
+
+    def __init__(
+        self, mechanism: Mechanism, drive: Mapping[str, object], chunk: int, tolerance: float | None, method: str
+    ) -> None:
+        if traced(mechanism, {name: drive[name] for name in named(drive)}):
+            raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
+        if not isinstance(chunk, int | np.integer) or chunk < 1:
+            raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
+        self.mechanism = mechanism
+        self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism, drive).items()}
+        """Driven displacements by "joint.coordinate", of all poses, as they were given."""
+        followed, self._finite = without_gaps(tuple(self.inputs.values()))
+        self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))
+        """The same as the motion is followed: without NaN and infinity."""
+        self.poses = len(next(iter(self.inputs.values())))
+        self.chunk = min(chunk, max(self.poses, 1))
+        self._sweep = partial(sweep, mechanism, tolerance=tolerance, method=method)
+        origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in mechanism.all_joints])
+        self._centre, self._size = origins.mean(axis=0), float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0
+
+    def __len__(self) -> int:
+        """Number of chunks."""
+        return max(1, -(-self.poses // self.chunk))
+
+    def __iter__(self) -> Iterator[Motion]:
+        if len(self) == 1:
+            yield self._sweep(self.inputs)
+            return
+        kept, last = True, None
+        for first in range(0, self.poses, self.chunk):
+            for lead in self._leads(first):
+                leading = lead.shape[1]
+                which = np.minimum(np.arange(first, first + self.chunk), self.poses - 1)
+                rows = (np.concatenate([to, of[which]]) for to, of in zip(lead, self._followed.values(), strict=True))
+                motion = self._sweep(dict(zip(self.inputs, rows, strict=True)))
+                met = _row(motion, leading - 1)
+                same = last is None or not last.closed or self._same(last, met)
+                if same and not np.any(np.asarray(motion.status) != Status.CLOSED.value):
+                    break
+            kept = kept and same
+            count = min(self.chunk, self.poses - first)
+            arrays = motion.inputs, motion.displacements, motion.status, motion.residual
+            motion = Motion(self.mechanism, *_cut(arrays, self._turns(last, met), jnp.asarray(kept), leading, count))
+            last = _row(motion, count - 1)
+            yield self._as_given(motion, first)
+
+    def _as_given(self, motion: Motion, first: int) -> Motion:
+        """The motion of a chunk, NONFINITE where its inputs are not finite."""
+        chunk = slice(first, first + len(motion))
+        if self._finite is None or (finite := self._finite[chunk]).all():
+            return motion
+        displacements, residual = spoilt((motion.displacements, motion.residual), finite)
+        status = jnp.where(finite, motion.status, Status.NONFINITE.value)
+        inputs = {name: jnp.asarray(values[chunk]) for name, values in self.inputs.items()}
+        return Motion(self.mechanism, inputs, displacements, status, residual)
+
+    def _leads(self, first: int) -> Iterator[Float[np.ndarray, "driven leading"]]:
+        """Inputs that lead to the pose before the chunk that begins there, that included: what to try in turn."""
+        before = max(first - 1, 0)
+        end = np.stack([values[before] for values in self._followed.values()])[:, None]
+        if len(self.inputs) == 1:
+            yield end
+            return
+        step = end - np.stack([values[max(before - 1, 0)] for values in self._followed.values()])[:, None]
+        far, near = np.max(np.abs(end) / self._scales), np.max(np.abs(step) / self._scales)
+        turning = end - 0.5 * (far / near * step if near > 0 else end)
+        t = np.linspace(0.0, 1.0, WAY)
+        yield 2 * t * (1 - t) * turning + t * t * end  # a parabola, which comes in along the way: a corner is hard
+        if first:
+            gone = self._distance[:first]
+            leading = WAY
+            while leading < min(self.chunk, gone[-1] / SPACING):
+                leading *= 4
+            which = np.minimum(np.searchsorted(gone, np.linspace(0.0, gone[-1], leading)), before)
+            which[-1] = before
+            yield np.stack([values[which] for values in self._followed.values()])
+
+    @cached_property
+    def _scales(self) -> Float[np.ndarray, "driven 1"]:
+        """What inputs are divided by to be compared: lengths by the size."""
+        lengths = [is_length(name.rpartition(".")[2]) for name in self.inputs]
+        return np.where(lengths, self._size, 1.0)[:, None]
+
+    @cached_property
+    def _distance(self) -> Float[np.ndarray, " poses"]:
+        """Of each pose from the first, along all poses between them."""
+        step = np.zeros(self.poses)
+        for values, scale in zip(self._followed.values(), self._scales, strict=True):
+            np.maximum(step[1:], np.abs(np.diff(values)) / scale, out=step[1:])
+        return np.cumsum(step)
+
+    def _same(self, one: _Pose, other: _Pose) -> bool:
+        """Whether all parts are at the same places, both times closed on the branch of the assembled pose."""
+        both = tuple(np.stack(pair) for pair in zip(one.displacements, other.displacements, strict=True))
+        for transforms in map(np.asarray, placed(self.mechanism, both)):
+            rotation, shift = transforms[1, :3, :3] - transforms[0, :3, :3], transforms[1, :3, 3] - transforms[0, :3, 3]
+            moved = rotation @ self._centre + shift
+            if not max(np.abs(rotation).max(), np.abs(moved).max() / self._size) <= SAME:
+                return False
+        return other.closed
+
+    def _turns(self, last: _Pose | None, met: _Pose) -> tuple[Float[np.ndarray, " _"], ...]:
+        """The full turns by which angles of a chunk continue those of the chunk before."""
+        if last is None:
+            return tuple(np.zeros_like(here) for here in met.displacements)
+        turns = []
+        for joint, there, here in zip(self.mechanism.all_joints, last.displacements, met.displacements, strict=True):
+            angles = np.array([not is_length(name) for name in joint.coordinates], bool)
+            turns.append(np.where(angles, TURN * np.round(np.nan_to_num(there - here) / TURN), 0.0).astype(here.dtype))
+        return tuple(turns)
+
+
+def _row(motion: Motion, number: int) -> _Pose:
+    displacements, status = jax.device_get(_at((motion.displacements, motion.status), number))
+    return _Pose(displacements, bool(status == Status.CLOSED.value))
+
+
+@jax.jit
+def _at(arrays, number):
+    return jax.tree.map(lambda array: array[number], arrays)
+
+
+@partial(jax.jit, static_argnums=(3, 4))
+def _cut(arrays, turns: tuple[Float[Array, " _"], ...], kept: Bool[Array, ""], first: int, count: int):
+    """So many poses from one on, so many turns further; JUMPED where the branch was not kept."""
+    inputs, displacements, status, residual = jax.tree.map(lambda array: array[first : first + count], arrays)
+    displacements = tuple(each + more for each, more in zip(displacements, turns, strict=True))
+    status = jnp.where((status == Status.CLOSED.value) & ~kept, Status.JUMPED.value, status)
+    return inputs, displacements, status, residual

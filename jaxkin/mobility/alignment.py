@@ -1,0 +1,206 @@
+"""Align the frames of a mechanism, so that its loops close throughout a motion where rounded numbers keep them from it.
+
+Numbers from robot files, drawings and people have some six digits. What they leave of a planar four-bar is a spatial
+linkage that closes in its assembled pose only. Only such loops are touched: nothing is moved where the loops move as
+far as their freedoms promise. What is parallel, perpendicular, coaxial or concurrent within the noise is made exactly
+so; where that does not suffice, the nearest frames are taken with which the loops move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import jax
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin._traced import traced
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.regularise import Noise, align
+from jaxkin.mobility.consistency import STILL, beside, rounding
+from jaxkin.mobility.host_closure import ClosedLoops
+from jaxkin.mobility.nearest_mobile import nearest_mobile
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.topology.structure import Block
+
+SIX_DIGITS = 5e-6
+"""Radians, or lengths over the extent of the joints: the largest error of a number that is rounded to six digits."""
+PLAY = (1e-4, 1e-3)
+"""The same, of joints that disagree by more than rounding: what is more is design, or a mistake to be told as such."""
+_SINGLE = 6e-7
+"""Ten roundings of single precision, over the coordinate: what files leave of places far from the origin."""
+_ROUNDING = 1e-13
+"""Radians, or lengths over the extent of the joints: a change that is no more than the rounding of the arithmetic."""
+_NAMED = 0.5
+"""Joints are named that moved by more than this part of what the most moved one did."""
+
+
+@dataclass(frozen=True)
+class Correction:
+    """How far frames were moved."""
+
+    angle: float
+    """Largest change of a direction, radians."""
+    length: float
+    """Largest change of a place, in the unit of the mechanism."""
+    joints: tuple[str, ...]
+    """Those that were moved the most."""
+
+    def said(self, unit: str) -> str:
+        """How far, in words, lengths in the given unit."""
+        sizes = []
+        if self.angle:
+            sizes.append(f"directions were aligned by at most {self.angle:.1g} rad")
+        if self.length:
+            sizes.append(f"axes {'' if sizes else 'were aligned '}by at most {self.length:.1g} {unit}".rstrip())
+        return " and ".join(sizes)
+
+
+def asked_noise(align: object) -> float:
+    """The noise that the option `align` asks for; ValueError where it is no such number."""
+    if align is None:
+        return SIX_DIGITS
+    if isinstance(align, bool) or not isinstance(align, int | float | np.number) or not 0 <= align <= PLAY[-1]:
+        raise ValueError(
+            f"align must be a number from 0 (move nothing) to {PLAY[-1]:g}, the largest misalignment, in radians or "
+            f"over the size of the mechanism, that is taken for rounding; got {align!r}"
+        )
+    return float(align)
+
+
+def aligned(mechanism: Mechanism, noise: float) -> Mechanism:
+    """The mechanism with the frames of loops aligned that close at the assembled pose only, and a note of how much.
+
+    Where more than `noise` would be needed, the joints stay as they are, and the nearest ones that move become
+    `mechanism.ideal`: what the poses of least residual are found from. Where JAX traces the joints, and for those in
+    single precision, nothing is done.
+    """
+    leaves = jax.tree.leaves(mechanism.all_joints)
+    if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
+        return mechanism
+    mechanism = replace(mechanism, ideal=())
+    exact, ideal, play = list(mechanism.all_joints), list(mechanism.all_joints), noise
+    for block in mechanism.structure.blocks:
+        level, joints = _consistent(mechanism, block, noise)
+        for number, joint in zip(block.joints, joints, strict=True):
+            ideal[number] = joint
+            if level <= noise:
+                exact[number] = joint
+        play = max(play, level)
+    told = list(mechanism.notes)
+    if moved := _correction(mechanism.all_joints, exact):
+        told.append(f"for the rounding of the numbers, {moved.said(mechanism.unit)}")
+    if not (disagreement := _correction(exact, ideal)):
+        return replace(mechanism, all_joints=tuple(exact), notes=tuple(told))
+    told.append(
+        "the loops close at the assembled pose only; they would close throughout if "
+        f"{disagreement.said(mechanism.unit)}, most of all of {listed([repr(name) for name in disagreement.joints])}: "
+        "other poses are those of least residual (MISFIT); correct the numbers, or have them aligned with "
+        f"align={play:g}"
+    )
+    return replace(mechanism, all_joints=tuple(exact), ideal=tuple(ideal), notes=tuple(told))
+
+
+def _consistent(mechanism: Mechanism, block: Block, noise: float) -> tuple[float, list[Joint]]:
+    """The joints with which the loops close throughout, and the noise that they were aligned for; 0 for none at all.
+
+    Loops that move at all have the freedoms of their own numbers: more play is looked for in those only that do not.
+    """
+    given = [mechanism.all_joints[number] for number in block.joints]
+    loops = ClosedLoops(mechanism, block)
+    for level in (noise, *(play for play in PLAY if play > noise)):
+        found = beside(loops, level)
+        if found is None:
+            continue
+        if np.linalg.norm(found.residual) <= rounding(loops):
+            if found.moved >= STILL:
+                return 0.0, given
+            continue
+        if joints := _made_exact(mechanism, block, level):
+            return level, joints
+    return 0.0, given
+
+
+def _made_exact(mechanism: Mechanism, block: Block, level: float) -> list[Joint] | None:
+    """The joints of a block moved by at most `level` so that its loops close throughout; None where that fails."""
+    given = [mechanism.all_joints[number] for number in block.joints]
+    related = _related(given, _noise(given, level))
+    for joints in (related, _mobile(mechanism, block, related, level), _mobile(mechanism, block, given, level)):
+        if joints and _closes_throughout(mechanism, block, joints, level):
+            return joints
+    return None
+
+
+def _noise(joints: Sequence[Joint], level: float) -> Noise:
+    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.before, joint.after))
+    return Noise(level, level * extent(joints) + _SINGLE * farthest)
+
+
+def extent(joints: Sequence[Joint]) -> float:
+    """The diagonal of the box around the origins of all frames."""
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
+    return float(np.linalg.norm(np.ptp(origins, axis=0)))
+
+
+def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
+    """The joints with directions and places related as they are but for the noise."""
+    sides = [side for joint in joints for side in (joint.before, joint.after)]
+    names = [name for joint in joints for _ in range(2) for name in joint.movements]
+    frames = align(names, np.concatenate(sides), noise)[0]
+    rest = iter(np.split(frames, np.cumsum([len(side) for side in sides])[:-1]))
+    return [replace(joint, before=next(rest), after=next(rest)) for joint in joints]
+
+
+def _mobile(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: float) -> list[Joint] | None:
+    """The joints with the nearest frames with which the loops move; None where they are farther than `level`."""
+    if not all(np.array_equal(joint.before, joint.after) for joint in joints):
+        return None
+    loops = ClosedLoops(_with(mechanism, block, joints), block)
+    if not nearest_mobile(loops, level):
+        return None
+    found = []
+    for number, joint in zip(block.joints, joints, strict=True):
+        frames = loops.chains[number][1].copy()
+        frames[:, :3, 3] = loops.centre + loops.length * frames[:, :3, 3]
+        found.append(replace(joint, before=frames, after=frames))
+    return found
+
+
+def _closes_throughout(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: float) -> bool:
+    loops = ClosedLoops(_with(mechanism, block, joints), block)
+    for seed in range(3):
+        found = beside(loops, level, seed)
+        if found is None or np.linalg.norm(found.residual) > rounding(loops) or found.moved < STILL:
+            return False
+    return True
+
+
+def _with(mechanism: Mechanism, block: Block, joints: Sequence[Joint]) -> Mechanism:
+    every = list(mechanism.all_joints)
+    for number, joint in zip(block.joints, joints, strict=True):
+        every[number] = joint
+    return replace(mechanism, all_joints=tuple(every))
+
+
+def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | None:
+    """The largest changes of frames; None where there are none."""
+    if not given:
+        return None
+    angles, lengths = np.zeros(len(given)), np.zeros(len(given))
+    for number, (one, other) in enumerate(zip(given, found, strict=True)):
+        for side in ("before", "after") if one is not other else ():
+            change = np.asarray(getattr(other, side)) - np.asarray(getattr(one, side))
+            angles[number] = max(angles[number], np.linalg.norm(change[:, :3, 2], axis=1).max(initial=0.0))
+            lengths[number] = max(lengths[number], np.linalg.norm(change[:, :3, 3], axis=1).max(initial=0.0))
+    size = extent(given)
+    lengths[lengths < _ROUNDING * size] = 0.0
+    angles[angles < _ROUNDING] = 0.0
+    if not angles.any() and not lengths.any():
+        return None
+    shares = [each / each.max() if each.any() else each for each in (angles, lengths)]
+    named = [joint.name for joint, share in zip(given, np.maximum(*shares), strict=True) if share > _NAMED]
+    return Correction(float(angles.max()), float(lengths.max()), tuple(named))

@@ -1,0 +1,260 @@
+"""Idle motions: passive parts that move about themselves while all other parts of the mechanism rest (host code).
+
+A part idles between two others or more, as a rod does between balls, a pin in two holes, a washer between two plates;
+between places on one and the same part its motion is of use. Nor does a part idle that would take another one along.
+Parts in a row idle together if what moves between them is carried into itself: the halves of a leg that slide along its
+line, but not a thigh and a shin with a knee between them, which swing. A ball may be written as three hinges with two
+small links, as in files of robots: the links go along. By its joints alone a shaft between two universal joints, with
+bearings in two different parts, is such a rod too.
+
+All follows from the twists that joints allow: no basis of the motions, no name and no order of joints takes part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.body_graph import BodyGraph, Constraints, Twists
+from jaxkin.mobility.loop_freedoms import LoopFreedoms
+
+
+@dataclass(frozen=True)
+class IdleMotion:
+    """One idle freedom: what moves, how, and between which parts."""
+
+    parts: tuple[str, ...]
+    """The parts that move; all others rest."""
+    kind: str
+    """"turns" about an axis, perhaps advancing along it, or "slides"."""
+    between: tuple[str, ...]
+    """The parts that hold them, at rest."""
+    coordinates: tuple[str, ...]
+    """Coordinates "joint.coordinate" in which the motion shows. Other motions may show in them too."""
+
+    def __str__(self) -> str:
+        verb = self.kind if len(self.parts) == 1 else self.kind.removesuffix("s") + " together"
+        return f"{' + '.join(self.parts)} {verb} between {' and '.join(self.between)}"
+
+
+@dataclass(frozen=True, eq=False)
+class _End:
+    """A way from a body that may idle to one that rests, straight or over the small links of a ball."""
+
+    bodies: tuple[str, ...]
+    """From the body over the links to the one that rests."""
+    allowed: Twists
+    """Of each body relative to the next, side by side."""
+    sizes: tuple[int, ...]
+    """Columns of each."""
+    forbidden: Constraints
+    """On the twist of the first relative to the last."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Row:
+    """Bodies that may idle together, and the ways to those that rest."""
+
+    bodies: tuple[str, ...]
+    inner: Constraints
+    """On the twist of the row: by what hangs on it, and by what moves within it."""
+    ends: tuple[_End, ...]
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """All bodies that go along."""
+        return (*self.bodies, *(link for end in self.ends for link in end.bodies[1:-1]))
+
+    @property
+    def resting(self) -> tuple[str, ...]:
+        """The bodies between which the row moves."""
+        return tuple(dict.fromkeys(end.bodies[-1] for end in self.ends))
+
+
+class IdleMotions:
+    """The idle motions of one structure element. Parts that are left out hold nothing and are not looked at."""
+
+    def __init__(self, mechanism: Mechanism, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
+        self._mechanism, self._found, self._left_out = mechanism, found, set(left_out)
+        self._graph = BodyGraph(mechanism, found, left_out)
+
+    @property
+    def carrier(self) -> frozenset[str]:
+        """The rows of parts by which the element hangs on the fixed parts, or those of the fixed parts themselves."""
+        return frozenset(self._graph.parts_of[self._graph.carrier])
+
+    @property
+    def rates(self) -> Float[np.ndarray, "idle columns"]:
+        """An orthonormal basis of the rates of the idle motions."""
+        return self._independent[1]
+
+    @property
+    def motions(self) -> tuple[IdleMotion, ...]:
+        """What moves in them, one a freedom: of motions that are sums of others only the others."""
+        return self._independent[0]
+
+    @cached_property
+    def _independent(self) -> tuple[tuple[IdleMotion, ...], Float[np.ndarray, "idle columns"]]:
+        basis, motions = np.zeros((0, len(self._found.columns))), []
+        for row, twists in self._by_size():
+            if not self._is_between_bodies(row, basis):
+                continue
+            for kind, some in self._turns_and_slides(twists):
+                rates = np.array([self._rates(row, twist) for twist in some])
+                described = self._described(row, kind, rates)
+                for one in rates:
+                    new = one - (one @ basis.T) @ basis
+                    if (size := np.linalg.norm(new)) > self._found.noise.rate:
+                        basis = np.concatenate([basis, new[None] / size])
+                        motions.append(described)
+        return tuple(motions), basis
+
+    def _by_size(self) -> list[tuple[_Row, Twists]]:
+        """Rows that can move while all others rest, and how: few bodies first, then those that can do more.
+
+        Of two that hold each other, as a washer and a block that slides on it, that which can do more is idle.
+        """
+        found = [
+            (row, self._graph.free_of(np.concatenate([row.inner, *(end.forbidden for end in row.ends)])))
+            for row in self._rows()
+        ]
+        order = self._mechanism.structure.parts.index
+        return sorted(
+            ((row, twists) for row, twists in found if twists.size),
+            key=lambda pair: (len(pair[0].moving), -pair[1].shape[1], sorted(map(order, pair[0].bodies))),
+        )
+
+    def _is_between_bodies(self, row: _Row, idle: Float[np.ndarray, "idle columns"]) -> bool:
+        """Whether the bodies that hold a row are two at least, though links that do nothing but idle were gone.
+
+        A link that never moves against the next one, or only idly, is one body with it here: between that and another
+        place on the same body the row's motion is of use.
+        """
+        graph, held_by = self._graph, set()
+        for end in row.ends:
+            before, last = end.bodies[-2:]
+            while graph.is_link(last):
+                following = graph.beyond(last, before)
+                all_motions, idle_ones = (graph.relative(last, following, m) for m in (self._found.motions, idle))
+                if all_motions.shape[1] > idle_ones.shape[1]:
+                    break
+                before, last = last, following
+            held_by.add(last)
+        return len(held_by - self._left_out) > 1
+
+    def _rows(self) -> Iterator[_Row]:
+        """Single bodies, and rows of bodies with two neighbours each; with balls of several hinges, and without."""
+        graph, seen = self._graph, set()
+        for body in graph.movable:
+            yield from self._held([body], graph.held_outside(body))
+            for start in graph.neighbours[body] if graph.is_in_row(body) else []:
+                row, inner, came = [body], graph.held_outside(body), start
+                while True:
+                    following = graph.beyond(row[-1], came)
+                    if not graph.is_in_row(following) or following in row or following == start:
+                        break
+                    came = row[-1]
+                    inner = np.concatenate(
+                        [
+                            inner,
+                            graph.held_outside(following),
+                            _bracket(graph.relative(came, following, self._found.motions)),
+                        ]
+                    )
+                    row.append(following)
+                    ends = [self._straight(body, start), self._over_links(body, start)]
+                    if not any(graph.free_of(np.concatenate([inner, end.forbidden])).size for end in ends):
+                        break
+                    if frozenset(row) not in seen:
+                        seen.add(frozenset(row))
+                        yield from self._held(row, inner)
+
+    def _held(self, bodies: Sequence[str], inner: Constraints) -> Iterator[_Row]:
+        """A row held by others, once over straight ends only and once over as many links as there are."""
+        pairs = [(body, other) for body, other in self._graph.joints if body in bodies and other not in bodies]
+        row = _Row(tuple(bodies), inner, tuple(self._straight(*pair) for pair in pairs))
+        if len(set(row.resting) - self._left_out) > 1:
+            yield row
+        row = _Row(row.bodies, inner, tuple(self._over_links(*pair) for pair in pairs))
+        apart = len(set(row.moving)) == len(row.moving) and not set(row.moving) & set(row.resting)
+        if len(row.moving) == len(bodies) or not apart or len(set(row.resting) - self._left_out) < 2:
+            return
+        # all about one point: not a rod, but a spherical linkage
+        if _centre(np.concatenate([end.allowed for end in row.ends], axis=1), self._found.noise.rate) is None:
+            yield row
+
+    def _straight(self, body: str, other: str) -> _End:
+        allowed = self._graph.allowed(body, other)
+        return _End((body, other), allowed, (allowed.shape[1],), self._graph.forbidden(body, other))
+
+    def _over_links(self, body: str, other: str) -> _End:
+        """From a body over links as long as all turn about one and the same point."""
+        end = self._straight(body, other)
+        while self._graph.is_link(end.bodies[-1]):
+            last, before = end.bodies[-1], end.bodies[-2]
+            following = self._graph.beyond(last, before)
+            step = self._graph.allowed(last, following)
+            allowed = np.concatenate([end.allowed, step], axis=1)
+            if following in end.bodies or _centre(allowed, self._found.noise.rate) is None:
+                break
+            forbidden = _complement(allowed, self._found.noise.rate)
+            end = _End((*end.bodies, following), allowed, (*end.sizes, step.shape[1]), forbidden)
+        return end
+
+    def _rates(self, row: _Row, twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, " columns"]:
+        """Rates of unit size, of a row that moves with a twist while those that hold it rest."""
+        rates = np.zeros(len(self._found.columns))
+        for end in row.ends:
+            shares = np.linalg.lstsq(end.allowed, twist, rcond=1e-9)[0]
+            pieces = np.split(np.arange(len(shares)), np.cumsum(end.sizes)[:-1])
+            for one, other, piece in zip(end.bodies, end.bodies[1:], pieces, strict=False):
+                rates += self._graph.rates(one, other, end.allowed[:, piece] @ shares[piece])
+        return rates / np.linalg.norm(rates)
+
+    def _turns_and_slides(self, twists: Twists) -> Iterator[tuple[str, Float[np.ndarray, "twists 6"]]]:
+        """A basis of some twists in which as many as can be have no angular velocity, by kind."""
+        _, sizes, mixes = np.linalg.svd(twists[:3], full_matrices=True)
+        turning = int((sizes > self._found.noise.rate).sum())
+        for kind, some in (("turns", mixes[:turning]), ("slides", mixes[turning:])):
+            if len(some):
+                yield kind, some @ twists.T
+
+    def _described(self, row: _Row, kind: str, rates: Float[np.ndarray, "motions columns"]) -> IdleMotion:
+        joints, rows_of, order = self._mechanism.all_joints, self._graph.parts_of, self._mechanism.structure.parts.index
+        shows = [self._found.columns[k] for k in np.flatnonzero((np.abs(rates) > self._found.noise.rate).any(axis=0))]
+        return IdleMotion(
+            tuple(sorted((part for body in row.moving for part in rows_of[body]), key=order)),
+            kind,
+            tuple(sorted(set(row.resting) - self._left_out, key=order)),
+            tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in shows),
+        )
+
+
+def _centre(twists: Twists, noise: float) -> Float[np.ndarray, "3"] | None:
+    """The point about which all of some twists turn, and no other: None where there is none."""
+    cross = np.concatenate([np.cross(np.eye(3), w).T for w in twists[:3].T])
+    if np.linalg.matrix_rank(cross, tol=noise) < 3:
+        return None
+    velocities = twists[3:].T.ravel()
+    point = np.linalg.lstsq(cross, velocities, rcond=None)[0]
+    return point if np.abs(cross @ point - velocities).max() < noise else None
+
+
+def _bracket(twists: Twists) -> Constraints:
+    """Constraints on a twist that carries the motions of some others into themselves: their Lie brackets vanish."""
+    rows = np.zeros((twists.shape[1], 6, 6))
+    for block, w, v in zip(rows, twists[:3].T, twists[3:].T, strict=True):
+        block[:3, :3] = block[3:, 3:] = np.cross(np.eye(3), w)
+        block[3:, :3] = np.cross(np.eye(3), v)
+    return rows.reshape(-1, 6)
+
+
+def _complement(twists: Twists, noise: float) -> Constraints:
+    """An orthonormal basis of what some twists do not span."""
+    basis, sizes, _ = np.linalg.svd(twists)
+    return basis[:, int((sizes > noise).sum()) :].T

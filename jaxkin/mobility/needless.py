@@ -1,0 +1,181 @@
+"""Parts that only spin and that several others hold: which of them can be left out, judged together.
+
+Each of six bolts through two flanges is unneeded where the other five are there; without all six the flanges slide.
+What matters is what a set of parts holds as one: it is needless if the others move no more freely without all of it.
+Which set is taken depends on where the parts are, not on their order or names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from jaxkin.geometry.part import Part
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.screws import chain, complement, freedoms
+from jaxkin.mobility.spinning import SAME, Spin, spins
+from jaxkin.mobility.twists import Twists, middle, twists
+from jaxkin.topology.components import connected
+from jaxkin.topology.structure import Block
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+_PLACES = 6
+"""Digits of the places by which parts are put in order: noise of the file is not to decide it."""
+
+Parts = list[str]
+
+
+class Found(NamedTuple):
+    """The parts that only spin."""
+
+    spins: dict[str, Spin]
+    """Those without which nothing moves more freely, each with its carrier: on one neighbour alone, or needless."""
+    needed: tuple[tuple[str, ...], ...]
+    """Groups of touching parts that are needless each by itself, but not besides those in `spins`."""
+
+
+def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
+    """The parts that only spin, in the order of the mechanism; those held by several others only if not `kept`."""
+    alone, held = spins(mechanism)
+    held = {part: spin for part, spin in held.items() if part not in kept}
+    found, needed = dict(alone), []
+    for block in mechanism.structure.blocks if held else ():
+        judged = _Judged.of(mechanism, block, held)
+        if judged is None:
+            continue
+        taken = judged.with_carriers()
+        found |= taken
+        for group in judged.groups:
+            left = tuple(part for part in group if part not in taken)
+            if left and judged.is_needless(group) and not judged.is_needless([*taken, *left]):
+                needed.append(left)
+    return Found({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
+
+
+def spinning(mechanism: Mechanism) -> dict[str, Spin]:
+    """The parts that only spin, and how."""
+    return found_spinning(mechanism).spins
+
+
+class _Judged(NamedTuple):
+    """The parts within one structure element that may be needless."""
+
+    groups: list[Parts]
+    """In groups that touch among themselves, such as a stack of washers: each group is first tried as one."""
+    spins: Mapping[str, Spin]
+    joints: Sequence[Joint]
+    system: Twists
+    row_of: Mapping[str, str]
+    preference: Callable[[str], tuple]
+    """The order in which neighbours are taken as carriers: fixed ones first, then larger ones."""
+
+    @staticmethod
+    def of(mechanism: Mechanism, block: Block, held: Mapping[str, Spin]) -> _Judged | None:
+        """Those of some parts all of whose joints are within the element; None where there are none."""
+        solids = {part.name: part for part in mechanism.solids}
+        joints = [mechanism.all_joints[k] for k in block.joints]
+        here = {joint.name for joint in joints}
+        elsewhere = {part for each in mechanism.all_joints if each.name not in here for part in each.parts}
+        ends = dict.fromkeys(part for joint in joints for part in joint.parts)
+        inside = {part: held[part] for part in ends if part in held and part not in elsewhere}
+        still = next((part for part in ends if part not in inside), None)
+        if not inside or still is None:
+            return None
+        scale = 10.0**-_PLACES * max(float(np.ptp(solids[part].box)) for part in inside)
+        pairs = [joint.parts for joint in joints if set(joint.parts) <= set(inside)]
+        order = {part: _place(solids[part], scale) for part in inside}
+        groups = [sorted(group, key=order.__getitem__) for group in connected(inside, pairs)]
+        groups.sort(key=lambda group: order[group[0]])
+        row_of = mechanism.structure.row_of
+
+        def preference(part: str) -> tuple:
+            extents = sorted(-np.ptp(solids[part].box, axis=0)) if part in solids else [0.0]
+            return part not in mechanism.fixed, part in inside, *extents, *order.get(part, ())
+
+        return _Judged(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
+
+    def is_needless(self, parts: Sequence[str]) -> bool:
+        """Whether the others move no more freely without these parts, and these can do nothing but spin, each by
+        itself, while the others rest."""
+        if not parts:
+            return False
+        rows = self.system.rows([k for k, joint in enumerate(self.joints) if set(parts) & set(joint.parts)])
+        own = sum(self.spins[part].freedoms for part in parts)
+        if self.system.alone(parts, rows) != own:
+            return False
+        # without its joints each is free six times, of which it has some already
+        return len(self.system.freed(rows)) == 6 * len(parts) - own
+
+    def together(self, groups: Sequence[Parts], before: Sequence[str] = ()) -> Parts:
+        """The parts of these groups that are needless together, besides those taken before.
+
+        All are tried at once, then half of them and the other half besides these, down to the parts of a group.
+        """
+        parts = [part for group in groups for part in group]
+        if not parts or self.is_needless([*before, *parts]):
+            return parts
+        if len(groups) == 1:
+            if len(parts) == 1:
+                return []
+            groups = [[part] for part in parts]
+        middle = len(groups) // 2
+        first = self.together(groups[:middle], before)
+        return [*first, *self.together(groups[middle:], [*before, *first])]
+
+    def with_carriers(self) -> dict[str, Spin]:
+        """The spins of parts that are needless together, with their carriers; but for parts that stay on none."""
+        groups = self.groups
+        while parts := self.together(groups):
+            carriers = self.carriers(parts)
+            if len(carriers) == len(parts):
+                return {part: replace(self.spins[part], carrier=carriers[part]) for part in parts}
+            groups = [carried for group in groups if (carried := [part for part in group if part in carriers])]
+        return {}
+
+    def carriers(self, parts: Sequence[str]) -> dict[str, str]:
+        """The neighbour that each part stays on: one that has work to do, or one whose own carrier is known."""
+        choices = {part: self._stays_on(part, parts) for part in parts}
+        found: dict[str, str] = {}
+        while True:
+            known = {
+                part: [each for each in near if each not in choices or each in found]
+                for part, near in choices.items()
+                if part not in found
+            }
+            new = {part: min(near, key=self.preference) for part, near in known.items() if near}
+            if not new:
+                return found
+            found |= new
+
+    def _stays_on(self, part: str, idle: Sequence[str]) -> Parts:
+        """The neighbours relative to which the part does nothing but spin, whatever moves.
+
+        Its neighbours, without those that are idle too, stay together but for turns about the axis: on which of them a
+        sleeve stays between a rod and a cylinder that slide along each other shows, and would be a guess.
+        """
+        spin = self.spins[part]
+        centre, size = middle(self.joints)
+        frames = spin.frame.copy()
+        frames[:3, 3] = (frames[:3, 3] - centre) / size
+
+        def only(movement: str, one: str, other: str) -> bool:
+            forbidden = complement(chain([movement], frames[None], np.zeros(freedoms([movement])))[1])
+            relative = self.system.relative(self.row_of[one], self.row_of[other])
+            return bool(np.abs(forbidden @ relative).max(initial=0.0) < SAME)
+
+        near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
+        used = [neighbour for neighbour in near if neighbour not in idle]
+        if not all(only("T_phi", used[0], other) for other in used[1:]):
+            return []
+        return [neighbour for neighbour in near if only(spin.movement, neighbour, part)]
+
+
+def _place(part: Part, scale: float) -> tuple[float, ...]:
+    """Where a part is and how large: what tells parts apart however they are called and ordered."""
+    numbers = [*part.box.mean(axis=0), *np.ptp(part.box, axis=0)]
+    return tuple(float(number) for number in np.round(np.array(numbers) / scale))

@@ -1,0 +1,96 @@
+"""Tell which loops of a mechanism are open in the given pose, by how much, and where (host code)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin._traced import traced
+from jaxkin.geometry.pose import apply, turned_by
+from jaxkin.joints.screws import chain, complement, freedoms
+from jaxkin.mobility.host_closure import ClosedLoops, Row
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class Opening:
+    """The loop that is open the most."""
+
+    residual: float
+    """Square root of Eq. 12 of all loops of its structure element, lengths over the characteristic length."""
+    parts: tuple[str, ...]
+    """The parts of the loop, in order of travel."""
+    joints: tuple[str, ...]
+    """Its joints."""
+    length: float
+    """How far its two ends are apart at `joint`, in the unit of the mechanism."""
+    angle: float
+    """The angle between them, radians."""
+    joint: str
+    """The joint of the loop whose frames on its two parts are the farthest apart in the given pose."""
+    unit: str
+
+    def __str__(self) -> str:
+        gap = f"{self.length:.2g} {self.unit}".rstrip()
+        return (
+            f"the loop over {listed(self.joints)} is open by {gap} and {self.angle:.2g} rad, most of all at joint "
+            f"{self.joint!r}"
+        )
+
+
+def opening(mechanism: Mechanism) -> Opening | None:
+    """The loop that is open the most in the given pose; None where all close to rounding, or where JAX traces."""
+    if traced(mechanism):
+        return None
+    worst: Opening | None = None
+    for block in mechanism.structure.blocks:
+        loops = ClosedLoops(mechanism, block)
+        at_rest = np.zeros(len(loops.columns))
+        if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.noise.closed:
+            continue
+        if worst is None or gap > worst.residual:
+            worst = tell_opening(mechanism, loops, at_rest)
+    return worst
+
+
+def check_closed(mechanism: Mechanism, what: str, call: str) -> None:
+    """Refuse to tell something of a pose that is open: ValueError with its size, and how to close it."""
+    if (found := opening(mechanism)) is not None:
+        raise ValueError(
+            f"{what} cannot be told of a pose that is not closed: {found}; close it first, mechanism.close() says how "
+            f"far parts have to move for that, and write mechanism.close().mechanism.{call}"
+        )
+
+
+def tell_opening(mechanism: Mechanism, loops: ClosedLoops, q: Row) -> Opening:
+    """The loop of a structure element that is open the most at these scaled coordinates, and its worst joint."""
+    found = loops.travel(q)
+    number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
+    loop, left = loops.block.loops[number], found.left_open[number]
+    joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
+    place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
+    joints = [mechanism.all_joints[index] for index, _ in loop]
+    return Opening(
+        residual=found.gap,
+        parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
+        joints=tuple(joint.name for joint in joints),
+        length=float(np.linalg.norm(apply(left, place) - place)) * loops.length,
+        angle=turned_by(left),
+        joint=mechanism.all_joints[joint].name,
+        unit=mechanism.unit,
+    )
+
+
+def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
+    """How far the frames of a joint on its two parts are apart as they are given: by what it forbids, and in all."""
+    names, before, after, pitch = loops.chains[joint]
+    apart, screws = chain(names, before, np.zeros(freedoms(names)), pitch, after)
+    skew = apart[:3, :3] - apart[:3, :3].T
+    twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *apart[:3, 3]])
+    forbidden = float(np.linalg.norm(complement(screws) @ twist)) if screws.size else float(np.linalg.norm(twist))
+    return forbidden if forbidden > loops.noise.closed else 0.0, float(np.linalg.norm(apart - np.eye(4)))

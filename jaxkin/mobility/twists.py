@@ -1,0 +1,119 @@
+"""The velocities that joints allow at the assembled pose, on the host: which parts can move, and what holds them.
+
+Each moving part has a twist `V`; a joint whose chain allows the screws `S` asks for `C (V_2 - V_1) = 0` with `C S = 0`.
+Lengths are taken from the middle of the joints over their extent, so that neither unit nor origin matters. The rank
+at one pose tells a singular pose from a free one no better than any other: it is for reports, not for the solver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from jaxkin.geometry.pose import Vector
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.screws import chain, complement
+from jaxkin.linkage.first_order import DOUBLE
+
+_LOST = 1e-10
+"""A constraint direction is lost with some rows if all but this share of it (squared) lies in them."""
+
+Rows = Int[np.ndarray, " rows"]
+
+
+@dataclass(frozen=True, eq=False)
+class Twists:
+    """The constraints on the twists of some bodies."""
+
+    bodies: tuple[str, ...]
+    """Those that may move: six columns each, angular velocity first."""
+    matrix: Float[np.ndarray, "constraints columns"]
+    owner: Int[np.ndarray, " constraints"]
+    """For each row the index of its joint."""
+
+    @cached_property
+    def _decomposed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        u, s, vt = np.linalg.svd(self.matrix, full_matrices=False)
+        rank = int((s > DOUBLE.rank * s.max(initial=0.0)).sum())
+        return u[:, :rank], s[:rank], vt[:rank]
+
+    @property
+    def freedoms(self) -> int:
+        """Independent twists that all joints allow together."""
+        return self.matrix.shape[1] - len(self._decomposed[1])
+
+    def rows(self, joints: Sequence[int]) -> Rows:
+        """The rows of some joints."""
+        return np.flatnonzero(np.isin(self.owner, joints))
+
+    def alone(self, bodies: Sequence[str], rows: Rows) -> int:
+        """Independent twists that some of the rows allow these bodies while all others rest."""
+        own = np.concatenate([6 * self.bodies.index(body) + np.arange(6) for body in bodies])
+        strengths = np.linalg.svd(self.matrix[np.ix_(rows, own)], compute_uv=False)
+        return len(own) - int((strengths > DOUBLE.rank * strengths.max(initial=0.0)).sum())
+
+    def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
+        """The motions that the system gains without some of its rows: of the bodies, beside those that it has anyway.
+
+        With `A = U S V^T` a motion `x = V S^-1 z` breaks these rows alone if `z` lies in their share of `U`.
+        """
+        u, s, vt = self._decomposed
+        _, strengths, directions = np.linalg.svd(u[rows], full_matrices=False)
+        lost = directions[strengths**2 > 1 - _LOST]
+        return ((lost / s) @ vt).reshape(len(lost), len(self.bodies), 6)
+
+    def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
+        """By how much some rows forbid the motion that they forbid the least, of those gained without them: lengths
+        over the extent of the joints, or radians, for a motion of the size one."""
+        motions = gained.reshape(len(gained), -1)
+        unit = np.linalg.svd(motions, full_matrices=False)[2]
+        return float(np.linalg.svd(self.matrix[rows] @ unit.T, compute_uv=False).min(initial=1.0))
+
+    def relative(self, one: str, other: str) -> Float[np.ndarray, "6 columns"]:
+        """The twists of a body relative to another in all motions of the system, projected from unit twists."""
+        _, _, vt = self._decomposed
+        difference = np.zeros((6, self.matrix.shape[1]))
+        for body, sign in ((one, -1), (other, 1)):
+            if body in self.bodies:
+                column = 6 * self.bodies.index(body)
+                difference[:, column : column + 6] = sign * np.eye(6)
+        return difference - (difference @ vt.T) @ vt
+
+
+def twists(joints: Sequence[Joint], body_of: Mapping[str, str], still: str) -> Twists:
+    """The constraints of some joints between bodies, of which one is at rest; `body_of` gives the body of a part."""
+    ends = [tuple(body_of[part] for part in joint.parts) for joint in joints]
+    bodies = tuple(dict.fromkeys(body for pair in ends for body in pair if body != still))
+    column = {body: 6 * k for k, body in enumerate(bodies)}
+    centre, size = middle(joints)
+    blocks, owner = [np.zeros((0, 6 * len(bodies)))], [np.zeros(0, int)]
+    for index, (joint, (one, other)) in enumerate(zip(joints, ends, strict=True)):
+        if one == other:
+            continue
+        forbidden = constraints(joint, centre, size)
+        block = np.zeros((len(forbidden), 6 * len(bodies)))
+        for body, sign in ((one, -1), (other, 1)):
+            if body != still:
+                block[:, column[body] : column[body] + 6] = sign * forbidden
+        blocks.append(block)
+        owner.append(np.full(len(block), index))
+    return Twists(bodies, np.concatenate(blocks), np.concatenate(owner))
+
+
+def middle(joints: Sequence[Joint]) -> tuple[Vector, float]:
+    """The middle of the origins of some joints and their extent, or 1 where they have none beyond rounding."""
+    origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints] or [np.zeros((1, 3))])
+    extent = float(np.linalg.norm(np.ptp(origins, axis=0)))
+    return origins.mean(axis=0), extent if extent > 1e-12 * float(np.abs(origins).max()) else 1.0
+
+
+def constraints(joint: Joint, centre: Vector, size: float) -> Float[np.ndarray, "constraints 6"]:
+    """Orthonormal rows that forbid twists of part 2 relative to part 1; lengths from `centre` over `size`."""
+    frames = np.array(joint.before, float)
+    frames[:, :3, 3] = (frames[:, :3, 3] - centre) / size
+    screws = chain(joint.movements, frames, np.zeros(joint.freedoms), float(joint.pitch) / size)[1]
+    return complement(screws)

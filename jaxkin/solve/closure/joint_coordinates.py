@@ -1,0 +1,152 @@
+"""The paper's coordinates of a solved state, and the way back (Table 2).
+
+Balls are solved as quaternions. So are the two pairs of movements that lock where a ball has rolled a quarter turn: of
+a ball on a plane, (d), the turn about the normal and the two angles become one ball; of a ball on a ball, (p), the line
+of the centres turns about axes at right angles to it, and what it has turned about itself is of no account. The angles
+read off here give the same displacement to rounding, also where the two frames do not lie quite as Table 1 says.
+"""
+
+from __future__ import annotations
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.solve.closure.closure import Geometry
+from jaxkin.solve.closure.rod_spin import rested, without_spin
+from jaxkin.solve.closure.spatial import Spatial, cut_turns
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
+
+Frames = tuple[Float[Array, "_ 4 4"], ...]
+"""One entry a joint, on the side of part 1 or of part 2, as in `Joint`."""
+
+
+def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+    """The turns of all balls by number: those at which loops are cut turn as these want it, rods do not spin."""
+    turns = _all_turns(system, geometry, state)
+    return without_spin(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
+
+
+def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
+    """The state with no spin left in any rod: a smooth function of the input, as that of the solver is not."""
+    if not isinstance(geometry, Spatial) or not system.spinning:
+        return state
+    return rested(system, geometry.lines, _all_turns(system, geometry, state), state)
+
+
+def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+    rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
+    turns = {ball: rotations[:, :, number] for number, ball in enumerate(system.turned_balls)}
+    return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
+
+
+def read_off(
+    system: LoopSystem, before: Frames, after: Frames, x: Coordinates, turns: dict[int, Rotations]
+) -> Coordinates:
+    """Displacements of all joints from those that are not of balls, and turns of balls; lengths as in the frames."""
+    turns = dict(turns)
+    pairs = []
+    for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
+        if columns[0] in system.driven:
+            continue
+        if len(columns) == 2:
+            behind, _ = system.places[joint, frame + 1]
+            found, turns[behind] = _line(_between(before[joint], after[joint], frame), turns[ball], turns[behind])
+        elif columns == tuple(range(columns[0], columns[0] + 3)):
+            pairs.append((ball, columns))
+            continue
+        else:
+            first = columns[2] - 2
+            found, moved = _on_plane(_between(before[joint], after[joint], frame - 1), turns[ball])
+            x = x.at[first : first + 2].add(moved)
+        x = x.at[np.array(columns)].set(found, unique_indices=True)
+    if pairs:
+        found = angles(jnp.stack([turns[ball] for ball, _ in pairs], axis=2))
+        x = x.at[np.array([columns for _, columns in pairs]).T].set(found, unique_indices=True)
+    return x
+
+
+def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
+    """Displacements without leaps in the angles of balls from pose to pose."""
+    which = np.flatnonzero(turning(system))
+    return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x
+
+
+def as_state(system: LoopSystem, before: Frames, after: Frames, x: Coordinates) -> State:
+    """The state with these displacements of all joints."""
+    turns = []
+    for (joint, frame), (ball, columns) in system.places.items():
+        if ball not in system.turned_balls:
+            continue
+        chosen = x[np.array(columns)]
+        if len(columns) == 2:
+            turns.append(from_angles(jnp.stack([*chosen, jnp.zeros_like(chosen[0])])))
+        elif columns == tuple(range(columns[0], columns[0] + 3)):
+            turns.append(from_angles(chosen))
+        else:
+            theta, phi, about_normal = chosen
+            between = _between(before[joint], after[joint], frame - 1)
+            half, none = 0.5 * about_normal, jnp.zeros_like(theta)
+            turn = jnp.stack([jnp.cos(half), *(jnp.sin(half) * between[2, :3, None])])
+            turns.append(multiply(turn, from_angles(jnp.stack([theta, phi, none]))))
+            first = columns[2] - 2
+            x = x.at[first : first + 2].add(_turned(about_normal, between) - between[:2, 3, None])
+    return State(x, jnp.stack(turns) if turns else jnp.zeros((0, 4, x.shape[1]), x.dtype))
+
+
+def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tuple[Array, Rotations]:
+    """theta, phi that carry the second centre of (p) to where it is, and the turn of the ball that goes with them."""
+    a, b, c = centre = between[:3, 3]
+    x, y, z = jnp.einsum("ijp,j->ip", line, centre)
+    square = x * x + z * z
+    at_pole = square <= 1e-30 * (centre @ centre)
+    across = jnp.where(at_pole, 0.0, square - a * a)
+    lifted = jnp.where(across > 0, jnp.sqrt(jnp.where(across > 0, across, 1.0)), 0.0) * jnp.where(c < 0, -1.0, 1.0)
+    theta = jnp.arctan2(b * lifted - c * y, b * y + c * lifted)
+    phi = _direction(lifted * x - a * z, a * x + lifted * z, at_pole)
+    none = jnp.zeros_like(theta)
+    rest = jnp.einsum("jip,jkp->ikp", matrix(from_angles(jnp.stack([theta, phi, none]))), line)
+    inner = between[:3, :3]
+    turned = jnp.einsum("ji,jkp,kl,lmp->imp", inner, rest, inner, ball)
+    return jnp.stack([theta, phi]), turned
+
+
+def _on_plane(between: Float[Array, "4 4"], ball: Rotations) -> tuple[Array, Float[Array, "2 poses"]]:
+    """theta, phi and the turn about the normal of (d), and what that turn makes of the displacements x, y."""
+    inner = between[:3, :3]
+    turn = jnp.einsum("ij,jkp->ikp", inner, ball)
+    wx, wy, wz = turn[:, 0]
+    square = wx * wx + wy * wy
+    locked = square < 1e-30  # entries of rotation matrices are right to 1e-16
+    side = jnp.where(inner[2, 2] < 0, -1.0, 1.0)
+    across = jnp.where(locked, 0.0, square - inner[2, 1] ** 2)
+    level = jnp.where(across > 0, jnp.sqrt(jnp.where(across > 0, across, 1.0)), 0.0)
+    phi = jnp.arctan2(side * inner[2, 0], jnp.abs(inner[2, 2])) - jnp.arctan2(side * wz, level)
+    none = jnp.zeros_like(phi)
+    leaned = jnp.einsum("ij,jkp->ikp", inner, matrix(from_angles(jnp.stack([none, phi, none]))))
+    vx, vy, _ = leaned[:, 0]
+    about_normal = _direction(vx * wy - vy * wx, vx * wx + vy * wy, locked)
+    upright = matrix(from_angles(jnp.stack([none, none, about_normal])))
+    rolled = jnp.einsum("jip,kjp,klp->ilp", leaned, upright, turn)
+    theta = jnp.arctan2(rolled[2, 1], rolled[1, 1])
+    return jnp.stack([theta, phi, about_normal]), between[:2, 3, None] - _turned(about_normal, between)
+
+
+def _direction(sin: Array, cos: Array, undefined: Array) -> Array:
+    """The angle; zero, without a derivative, where it is undefined."""
+    angle = jnp.arctan2(jnp.where(undefined, 0.0, sin), jnp.where(undefined, 1.0, cos))
+    return jnp.where(undefined, 0.0, angle)
+
+
+def _turned(angle: Float[Array, " poses"], between: Float[Array, "4 4"]) -> Float[Array, "2 poses"]:
+    """Where the turn about z carries the second frame of a pair to, along x and y."""
+    cos, sin, (x, y) = jnp.cos(angle), jnp.sin(angle), between[:2, 3]
+    return jnp.stack([cos * x - sin * y, sin * x + cos * y])
+
+
+def _between(before: Float[Array, "frames 4 4"], after: Float[Array, "frames 4 4"], frame: int) -> Float[Array, "4 4"]:
+    """The pose of the next frame of a chain in this one."""
+    here, there = jnp.asarray(after[frame], float), jnp.asarray(before[frame + 1], float)
+    turned = here[:3, :3].T
+    return there.at[:3, :3].set(turned @ there[:3, :3]).at[:3, 3].set(turned @ (there[:3, 3] - here[:3, 3]))

@@ -1,0 +1,192 @@
+"""Closure of planar loops: every joint turns about the normal of one plane, or slides in it.
+
+Three equations a loop instead of six: the turns add up to none, and the links, each at its absolute angle, to nothing.
+The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of them (for links that
+slide, in their products with the coordinate as well), so that a loop is two products of matrices. Coordinates along
+the normal (those of cylindrical joints) commute with all of this: they rest, and are no columns of the system.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache, reduce
+from itertools import accumulate
+from operator import add
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.trig import cos_sin
+from jaxkin.solve.closure.spatial import Spatial
+from jaxkin.solve.system.chain_tables import steps
+from jaxkin.solve.system.loop_system import LoopSystem
+
+MANY, FEW = 512, 32
+"""From so many poses on sums written out of up to so many terms, which vector units run through, are faster than a
+product of matrices; for fewer poses they are not worth the time that they take to compile."""
+
+
+class Planar(NamedTuple):
+    """Constants of the loops in the plane, lengths divided by the characteristic length.
+
+    The terms are the cosines of the links, their sines, both times what the link slides if any does, and one.
+    """
+
+    sense: Float[Array, "loops links"]
+    """Of the coordinate by which each link turns against the one before it: -1 or 1; 0 where it slides."""
+    moved: Float[Array, "loops 2 terms"]
+    """What the terms give to where the loop ends: links from each joint to the next, as in the assembled pose."""
+    jacobian: Float[Array, "loops rows terms"]
+    """What they give to the derivatives of the turn, and of both translations, by the coordinates."""
+    begun: Float[Array, "2 loops"]
+    """Cosine and sine of the turn that the loop leaves open at the assembled pose: none unless lengths were changed."""
+    off: Float[Array, ""]
+    """Square of what leads out of the plane: no motion in the plane closes that."""
+
+
+def planar_closure(
+    system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
+) -> tuple[Array, Array, Array, Array]:
+    """Residual (turn and two translations a loop), Jacobian, and squares of Eq. 12: see `closure.Closure`."""
+    poses = x.shape[-1]
+    padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
+    both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
+    terms = [*both, jnp.ones_like(both[0, :, :1])]
+    if _slides(system):
+        terms[2:2] = list(padded[_kept(system).slider.T] * both)
+    moved = _moved(geometry, terms)
+    cos, sin = both[:, :, -1]
+    begun_cos, begun_sin = geometry.begun[..., None]
+    rest_cos = cos * begun_cos - sin * begun_sin
+    rest_sin = sin * begun_cos + cos * begun_sin
+    # a turn changes four of the nine entries of a rotation matrix; not 2 - 2 cos, which cancels
+    rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
+    jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
+    return (
+        jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.equations, poses),
+        jacobian.reshape(system.equations, system.columns, poses),
+        rotated,
+        reduce(add, (moved**2).reshape(2 * len(moved), poses)),
+    )
+
+
+def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
+    """Where the loops end in the plane, over the characteristic length: `Planar.moved` times its terms (Eq. 10)."""
+    if terms[0].shape[-1] < MANY or sum(some.shape[0] * some.shape[1] for some in terms) > FEW:
+        return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
+    single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
+    return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))
+
+
+def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
+    """The constants in the plane of the first joint that turns, from those in space."""
+    table, kept = steps(system), _kept(system)
+    loops = np.arange(len(system.loops))
+
+    def onward(pose: Array, between: Array) -> tuple[Array, Array]:
+        pose = pose @ between
+        return pose, pose
+
+    eye = jnp.broadcast_to(jnp.eye(4, dtype=space.end.dtype), space.end.shape)
+    last, poses = lax.scan(onward, eye, space.between)
+    last = last @ space.end
+    basis = poses[kept.reference][:3, :3].T
+    normal, plane = basis[2], basis[:2]
+
+    used = kept.step < len(table.sign)
+    step = np.minimum(kept.step, len(table.sign) - 1)
+    used_, sign = jnp.asarray(used), jnp.asarray(np.where(used, table.sign[step, loops], 0), last.dtype)
+    chosen = poses[step, loops]
+    axis, centre = chosen[..., :3, 2], jnp.einsum("di,kli->dkl", plane, chosen[..., :3, 3])
+    turning = table.turn[step, loops] * used
+    facing = jnp.where(turning, jnp.sign(axis @ normal), 0.0)
+    one_hot = jnp.asarray(
+        np.arange(system.columns) == np.where(used, table.column[step, loops], -1)[..., None], last.dtype
+    )
+    sense = (sign * facing).T
+    turns = jnp.cumsum(sense[..., None] * one_hot.swapaxes(0, 1), axis=1)
+
+    arrival = jnp.einsum("di,li->dl", plane, last[:, :3, 3])
+    centre = jnp.where(used_, centre, arrival[:, None])  # steps that fill up the shorter loops stand at the end
+    links = (jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre).swapaxes(1, 2)
+    direction = jnp.einsum("di,kli->dlk", plane, axis) * (sign * jnp.asarray((1 - turning) * used)).T
+
+    tilt = jnp.where(turning, jnp.sum(jnp.cross(axis, normal) ** 2, axis=-1), (axis @ normal) ** 2)
+    leaning = last[:, :3, :3] @ normal - normal
+    off = jnp.sum(jnp.where(used_, tilt, 0.0)) + jnp.sum(leaning**2) + jnp.sum((last[:, :3, 3] @ normal) ** 2)
+    begun = jnp.einsum("i,lij,dj->dl", plane[0], last[:, :3, :3], plane * jnp.array([1.0, -1.0])[:, None])
+    moved, jacobian = _by_terms(system, turns, links, direction, one_hot.swapaxes(0, 1), centre[:, 0])
+    return Planar(sense, moved, jacobian, begun, off)
+
+
+def _by_terms(
+    system: LoopSystem,
+    turns: Float[Array, "loops links columns"],
+    links: Float[Array, "2 loops links"],
+    slides: Float[Array, "2 loops links"],
+    coordinate: Float[Array, "loops links columns"],
+    first: Float[Array, "2 loops"],
+) -> tuple[Float[Array, "loops 2 terms"], Float[Array, "loops rows terms"]]:
+    """`Planar.moved` and `.jacobian` from the links, the directions in which they slide, and where each loop begins."""
+
+    def turned(vectors: Array) -> list[Array]:
+        """What cosine and sine of the angle of each link give to the coordinates of vectors that turn with it."""
+        along, across = vectors
+        return [jnp.stack([along, across]), jnp.stack([-across, along])]
+
+    parts = [links, slides] if _slides(system) else [links]
+    moving = jnp.concatenate([by for vectors in parts for by in turned(vectors)], axis=-1)
+    # a turn carries all links behind it, at right angles to where they lie
+    behind = jnp.concatenate([turns] * (2 * len(parts)), axis=1)
+    derivative = jnp.einsum("dlt,ltc->ldct", jnp.stack([-moving[1], moving[0]]), behind)
+    if _slides(system):
+        along = jnp.einsum(
+            "dlt,ltc->ldct", jnp.concatenate(turned(slides), axis=-1), jnp.concatenate([coordinate] * 2, 1)
+        )
+        derivative = derivative.at[..., : along.shape[-1]].add(along)
+    by_one = jnp.pad(turns[:, None, -1, :, None], [(0, 0), (0, 2), (0, 0), (0, 0)])
+    turn = jnp.zeros_like(derivative[:, :1])
+    jacobian = jnp.concatenate([jnp.concatenate([turn, derivative], axis=1), by_one], axis=-1)
+    moved = jnp.concatenate([moving, first[..., None]], axis=-1)
+    return moved.swapaxes(0, 1), jacobian.reshape(len(system.loops), 3 * system.columns, -1)
+
+
+def _sums(turned: Float[Array, "loops links poses"]) -> Float[Array, "loops links poses"]:
+    """Absolute angles of the links from those against the one before: one after another, as few as they are."""
+    return jnp.stack(list(accumulate(jnp.moveaxis(turned, 1, 0))), axis=1)
+
+
+def _slides(system: LoopSystem) -> bool:
+    return any(system.is_length)
+
+
+class _Kept(NamedTuple):
+    """Which elementary steps of the loops move in the plane."""
+
+    step: np.ndarray
+    """(links, loops): numbers of the steps; the number of steps, which is none, where a loop is shorter."""
+    turner: np.ndarray
+    """(links, loops): column of the coordinate by which a link turns; the number of columns, which is none."""
+    slider: np.ndarray
+    """(links, loops): column of the coordinate by which a link slides; the number of columns, which is none."""
+    reference: tuple[int, int]
+    """Step and loop of a turn, whose axis is the normal."""
+
+
+@lru_cache(maxsize=256)
+def _kept(system: LoopSystem) -> _Kept:
+    table = steps(system)
+    inside = table.column < system.columns
+    chosen = [np.flatnonzero(column) for column in inside.T]
+    length = max(map(len, chosen))
+    filled = [np.append(numbers, [len(inside)] * (length - len(numbers))) for numbers in chosen]
+    step, loop = np.argwhere(inside & (table.turn > 0))[0]
+    number = np.array(filled, int).T
+    used = number < len(inside)
+    at = np.minimum(number, len(inside) - 1), np.arange(number.shape[1])
+    turner, slider = (
+        np.where(used & (kind[at] > 0), table.column[at], system.columns) for kind in (table.turn, table.slide)
+    )
+    return _Kept(number, turner, slider, (int(step), int(loop)))

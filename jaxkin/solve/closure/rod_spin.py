@@ -1,0 +1,107 @@
+"""Idle spins: a rod between two balls may turn about the line of their centres, and nothing else moves.
+
+The loops say nothing about such a spin, and least-norm steps leave some of it behind. What counts is that the balls
+turn as little as they can, counted from the assembled pose: with the turn `(w, v)` of either ball and the line `n`,
+which is fixed in the rod, the sum of their `|v|^2` is least. Spun by `phi` it is a constant less
+`(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and `b = sum w^2 - (v.n)^2`. So the same input gives the same pose
+by whatever way; after a thousand turns no spin is left behind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import reduce
+from operator import add
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.trig import cos_sin
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import Rotations, State, matrix, multiply
+
+Lines = Float[Array, "spins 2 3"]
+"""For each spin the line through its two balls, in the frames that they have on the rod, signed as it turns them."""
+
+
+def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
+    """The lines from the frames of the joints; those on their first parts come first, joint by joint."""
+    of_ball, first = [], 0
+    for chain in system.chains:
+        of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
+        first += len(chain)
+    table = np.array(system.spins, np.int32).reshape(-1, 4)
+    side = table[:, 2:]
+    ends = frames[np.array(of_ball, np.int32)[table[:, :2]] + np.where(side > 0, first, 0)]
+    line = ends[:, 1, :3, 3] - ends[:, 0, :3, 3]
+    line = line / jnp.sqrt(jnp.sum(line * line, axis=1, keepdims=True))
+    return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(side[..., None], frames.dtype)
+
+
+def _spins(
+    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+) -> tuple[list[tuple[int, int]], Float[Array, "4 ends poses"]]:
+    """Of both balls of each rod: number and side, and the turns about the line that leave no spin behind."""
+    ends = [(ball, side) for one, other, *sides in system.spins for ball, side in zip((one, other), sides, strict=True)]
+    turn = jnp.stack([turns[ball] for ball, _ in ends], axis=2)
+    n = lines.reshape(-1, 3).T[..., None]
+    along = reduce(add, (n[i] * each for i, each in enumerate(vee(turn))))
+    aside = [turn[i, i] - n[i] * reduce(add, (turn[i, j] * n[j] for j in range(3))) for i in range(3)]
+    a, b = (each[::2] + each[1::2] for each in (along, 0.5 * reduce(add, aside)))
+    undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
+    phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
+    cos, sin = (jnp.repeat(each, 2, axis=0) for each in cos_sin(0.5 * phi))
+    return ends, jnp.concatenate([cos[None], sin * n])
+
+
+def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
+    """The turns of all balls, by number, with every rod spun to where its balls turn least."""
+    turns = dict(turns)
+    if not system.spins:
+        return turns
+    ends, spins = _spins(system, lines, turns)
+    rotations = matrix(spins)
+    for number, (ball, side) in enumerate(ends):
+        one, other = (turns[ball], rotations[:, :, number])[::side]
+        turns[ball] = reduce(add, (one[:, j, None] * other[None, j] for j in range(3)))
+    return turns
+
+
+def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
+    """The state with every rod spun so, of which there is one at least. `turns` are those of all its balls."""
+    quaternions = dict(zip(system.turned_balls, state.turns, strict=True))
+    ends, spins = _spins(system, lines, turns)
+    for number, (ball, side) in enumerate(ends):
+        if ball in quaternions:
+            quaternions[ball] = multiply(*(quaternions[ball], spins[:, number])[::side])
+    return State(state.x, jnp.stack([*quaternions.values()]))
+
+
+def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
+    """Half of what is not symmetric, as a vector: the sine of the angle along the axis, `2 w v` of a quaternion."""
+    (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation
+    return 0.5 * jnp.stack([zy - yz, xz - zx, yx - xy])
+
+
+def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"]) -> Float[Array, "3 3 *poses"]:
+    """A rotation matrix, [column, row], that turns one direction into another, with whatever spin about it."""
+    one, other = one / lengths(one), other / lengths(other)
+    cos, cross = jnp.sum(one * other, axis=0), jnp.cross(one, other, axis=0)
+    near = jnp.concatenate([1 + cos[None], cross])
+    # there is no least turn to the opposite: what is nearer to that makes half a turn beforehand, across itself
+    x, y, z = one
+    below = 1 + jnp.abs(z)
+    across = jnp.stack([1 - x * x / below, -x * y / below, jnp.where(z < 0, x, -x)])
+    far = jnp.concatenate(
+        [jnp.sum(cross * across, axis=0)[None], (1 - cos) * across - jnp.cross(cross, across, axis=0)]
+    )
+    turn = jnp.where(cos < 0, far, near)
+    return matrix(turn / jnp.sqrt(jnp.sum(turn * turn, axis=0))).swapaxes(0, 1)
+
+
+def lengths(vectors: Float[Array, "3 *entries"]) -> Float[Array, " *entries"]:
+    """Lengths of vectors; for one of no length a positive number, whose derivative is zero."""
+    square = jnp.sum(vectors * vectors, axis=0)
+    return jnp.sqrt(jnp.where(square > 0, square, 1e-30))

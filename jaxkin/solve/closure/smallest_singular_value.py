@@ -1,0 +1,35 @@
+"""How near to singular poses are: the smallest singular value of the closure Jacobian that is not zero everywhere.
+
+Where the loops close to a residual `r`, the pose is right to about `r` over this value, and derivatives grow as one
+over it. At a dead point or a change point it is zero: rounding in the closure then leaves its square root in the pose.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.closure.joint_coordinates import as_state
+from jaxkin.solve.correctors.levenberg_marquardt import free_jacobian
+from jaxkin.solve.range.solve_range import Joints, scaled
+from jaxkin.solve.system.loop_system import LoopSystem
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def least_singular_value(
+    system: LoopSystem, rank: int, joints: Joints, displacements: Float[Array, "columns poses"]
+) -> Float[Array, " poses"]:
+    """The singular value of that rank (from 1) of the Jacobian with respect to the free coordinates.
+
+    Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
+    """
+    system = system.whole
+    geometry, lengths = scaled(system, joints)
+    state = as_state(system, joints.before, joints.after, displacements)
+    state = state._replace(x=state.x / lengths)
+    jacobian = free_jacobian(system, closure(system, geometry, state))
+    return jnp.linalg.svd(jnp.moveaxis(jacobian, -1, 0), compute_uv=False)[:, rank - 1]

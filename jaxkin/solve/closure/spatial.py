@@ -1,0 +1,194 @@
+"""Closure of loops in space (Eq. 10 and 11): residual and Jacobian of all poses at once.
+
+A loop is travelled step by step. `R, t` is the displacement accumulated so far; every step leaves one column of the
+Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
+independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
+sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
+cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. One that
+is cut at both balls of a rod is two chains from ball to ball, of equal length `|t|`. Of a loop that turns about one
+direction only, all `vee` have that: their length along it is one equation in place of three.
+
+The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
+compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.trig import cos_sin
+from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
+from jaxkin.solve.system.chain_tables import AXES, steps
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import State, rotation_matrix
+
+Rotation = Float[Array, "3 3 *poses"]
+"""[column, row]: the first index picks one of the three axes."""
+Vector = Float[Array, "3 *poses"]
+
+
+class Spatial(NamedTuple):
+    """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
+
+    between: Float[Array, "steps chains 4 4"]
+    """The constant pose before each step."""
+    end: Float[Array, "chains 4 4"]
+    """The constant pose behind the last step."""
+    pitch: Float[Array, " joints"]
+    lines: Lines
+    """Of idle spins: see `spins`."""
+
+
+def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
+    """Residual, Jacobian, and squares of Eq. 12 from rotation and translation: see `closure.Closure`.
+
+    Columns follow `LoopSystem`, those of balls turn about world axes.
+    """
+    rotation, translation, twists = _travel(system, geometry, state)
+    table, poses = steps(system), state.x.shape[-1]
+    rotations = np.array(system.rotations)
+    free, directed, whole = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
+    ends = np.setdiff1d(np.arange(len(system.loops)), table.rods[0])
+    # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
+    turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
+    residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
+    rows = [twists[table.source[:, free], :3, free]]
+    if directed.size:
+        # the twist of a joint that turns holds the direction
+        turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
+        direction = twists[turning[directed], :3, directed]
+        residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, directed].swapaxes(0, 1))), axis=1))
+        rows.append(jnp.sum(direction * twists[table.source[:, directed], :3, directed], axis=2, keepdims=True))
+    moved = translation[:, ends]
+    squares = jnp.sum(moved**2, axis=(0, 1))
+    residual += [*_of_loops(moved)]
+    rows.append(twists[table.source[:, ends], 3:, ends])
+    if table.rods.size:
+        misfit, slopes = _of_rods(table.rods, table.source, translation, twists)
+        squares += jnp.sum(misfit**2, axis=0)
+        residual.append(misfit)
+        rows.append(slopes)
+    residual = jnp.concatenate(residual)
+    jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
+    return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
+
+
+def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
+    return jnp.moveaxis(vectors, 1, 0)
+
+
+def _of_rods(
+    rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
+) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
+    """By how much both chains between the balls of a rod differ in length, and what the columns give to that."""
+    apart = translation[:, rods]
+    length = lengths(apart)
+    along = jnp.moveaxis(apart / length, 0, 2)
+    one, other = jnp.sum(along[:, None] * twists[source[:, rods], 3:, rods].swapaxes(0, 1), axis=3)
+    return length[0] - length[1], (one - other)[:, :, None]
+
+
+def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
+    """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it; a rod spins somehow."""
+    if not any(system.cuts):
+        return {}
+    table = steps(system)
+    rotation, translation, _ = _travel(system, geometry, state)
+    closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of what the chain turns, [row, column]
+    if table.rods.size:
+        # the second ball turns the second chain against the first one, which leaves the first ball to close the loop
+        first, second = table.rods
+        wanted = -jnp.sum(rotation[:, :, first] * translation[None, :, first], axis=1)
+        turn = turn_between(translation[:, second], wanted)
+        around = _product(_product(rotation[:, :, first], turn), rotation[:, :, second])
+        closing |= dict(zip(first, jnp.moveaxis(around, 2, 0), strict=True))
+        closing |= dict(zip(second, jnp.moveaxis(turn.swapaxes(0, 1), 2, 0), strict=True))
+    return {
+        int(ball): closing[chain] if sign > 0 else closing[chain].swapaxes(0, 1)
+        for chain, (ball, sign) in enumerate(zip(table.cut_ball, table.cut_sign, strict=True))
+        if sign
+    }
+
+
+def _travel(
+    system: LoopSystem, geometry: Spatial, state: State
+) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
+    """Displacement of the ends of the chains, and the twists that the steps give to them, as in `Steps.source`."""
+    table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    chains = len(table.begin)
+    turn, slide, screw, sign, side = (
+        jnp.asarray(entry, dtype)[..., None]
+        for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
+    )
+    advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
+    q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
+    (cos, sin), travel = cos_sin(turn * q), advance * q
+    balls = _ball_turns(state, table) if system.turned_balls else None
+
+    def step(carry: tuple[Rotation, Vector], given):
+        pose, cos, sin, travel, first_side, ball = given
+        rotation, point = _compose(*carry, pose)
+        turned = jnp.stack([cos * rotation[0] + sin * rotation[1], cos * rotation[1] - sin * rotation[0], rotation[2]])
+        if ball is not None:
+            turned = _product(turned, ball)
+        # a ball's turn is perturbed on its left, on the side of part 1; a line of centres on its right
+        axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
+        return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
+
+    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((chains, poses), dtype)
+    start = first, jnp.zeros((3, chains, poses), dtype)
+    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
+    rotation, translation = _compose(*last, geometry.end)
+
+    lever = translation - points
+    turned = (sign * turn)[:, None] * along
+    moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
+    twists = jnp.concatenate([turned, moved], axis=1)
+    if system.turned_balls:
+        spins = sign[:, None, None] * axes
+        spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
+        twists = jnp.concatenate([twists[:, None], spins], axis=1).reshape(-1, *twists.shape[1:])
+    return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
+
+
+def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 chains poses"]:
+    """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
+    poses = state.x.shape[-1]
+    still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
+    turns = jnp.concatenate([state.turns, still])[table.ball]
+    back = np.where(table.sign[..., None] < 0, np.array([1.0, -1.0, -1.0, -1.0]), 1.0)[..., None]
+    w_x_y_z = jnp.moveaxis(turns * jnp.asarray(back, turns.dtype), 2, 0)
+    return jnp.moveaxis(jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)]), 2, 0)
+
+
+def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:
+    """Rotation and translation followed by a constant pose, chain by chain."""
+    columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
+    return jnp.stack(columns[:3]), translation + columns[3]
+
+
+def _product(a: Rotation, b: Rotation) -> Rotation:
+    return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
+
+
+def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
+    """The constants of the loops from the frames of the joints: those before, those after, and none."""
+    table = steps(system)
+    turned = np.zeros((3, 4, 4))
+    turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
+    along = jnp.asarray(turned[table.axis], frames.dtype)
+    enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
+    between = jnp.concatenate([_inverse(frames[table.begin])[None] @ enter[:1], leave[:-1] @ enter[1:]])
+    return Spatial(between, leave[-1] @ frames[table.end], pitch, spin_lines(system, frames))
+
+
+def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
+    """Inverses of rigid poses."""
+    turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
+    moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
+    return poses.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)

@@ -1,0 +1,1 @@
+"""The branch of the assembled pose, followed along the inputs."""

@@ -1,0 +1,1 @@
+"""Least-norm solutions of the small linear systems of all poses at once."""

@@ -1,0 +1,93 @@
+"""The compiled program of a sweep holds what its mechanism and drive need, counted by XLA's cost analysis.
+
+The programs are lowered, not compiled: operations are counted as they are written, and the body of a loop once.
+"""
+
+from dataclasses import replace
+from functools import partial
+from unittest.mock import patch
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxkin.joints.pairs import revolute
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.solve.closure.closure import closure, loop_geometry, spatial
+from jaxkin.solve.execution.programs import _solve, solve
+from jaxkin.solve.system.loop_system import Form
+from jaxkin.solve.system.state import assembled
+from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
+
+RANGE = np.linspace(0.0, 1.0, 20)
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Arguments of each solve that a sweep asks for, without solving."""
+    calls: list[tuple] = []
+    monkeypatch.setattr("jaxkin.mechanism.sweep.solve", lambda *given: (calls.append(given), solve(*given))[1])
+
+    def of(mechanism, drive):
+        calls.clear()
+        jax.eval_shape(lambda: mechanism.sweep(drive).status)
+        return list(calls)
+
+    return of
+
+
+def operations(function, *given) -> float:
+    lowered = jax.jit(function, static_argnums=(0, 1) if function is _solve else (0,)).lower(*given)
+    return lowered.cost_analysis()["flops"]
+
+
+def with_idle_loops(count: int) -> Mechanism:
+    """The four-bar, and as many others beside it that nothing drives."""
+    joints = list(planar_fourbar().all_joints)
+    for number in range(count):
+        for joint in planar_fourbar(crank=30.0).all_joints:
+            parts = ["ground" if part == "ground" else f"{part} {number}" for part in joint.parts]
+            joints.append(revolute(f"{joint.name} {number}", *parts, point=joint.before[0][:3, 3], axis=(0, 0, 1)))
+    return Mechanism.build(fixed=["ground"], joints=joints)
+
+
+def test_loops_that_do_not_move_are_absent(solved):
+    alone = solved(planar_fourbar(), {"A": RANGE})
+    among = solved(with_idle_loops(10), {"A": RANGE})
+    assert len(alone) == len(among) == 1
+    assert among[0][0] == alone[0][0]
+    assert operations(_solve, *among[0]) == operations(_solve, *alone[0])
+
+
+def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None) -> float:
+    """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
+    ((system, _, joints, *_),) = solved(mechanism, {joint: RANGE})
+    system = system if form is None else replace(system, form=form)
+    geometry, _ = loop_geometry(system, *joints)
+    # the travel along a loop written out: XLA counts the body of a loop once
+    with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):
+        return operations(closure, system, geometry, assembled(system, 100, jnp.zeros(0).dtype))
+
+
+@pytest.mark.long
+def test_equations_that_a_planar_loop_lacks_are_absent(solved):
+    """The same four-bar in its plane and in space."""
+    assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", Form())
+
+
+@pytest.mark.long
+def test_turns_of_balls_are_absent_where_there_is_none(solved):
+    """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
+    hinges, cut, whole = (
+        closures(mechanism, solved, "A", form)
+        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), Form()))
+    )
+    assert hinges < 0.75 * whole and cut < 0.75 * whole
+
+
+def test_what_is_not_read_is_not_computed(solved):
+    """A sweep returns displacements, status and residual; states, singular values and transforms are for who asks."""
+    ((system, method, *given),) = solved(planar_fourbar(), {"A": RANGE})
+    found = jax.eval_shape(lambda *given: _solve(system, method, *given), *given)
+    assert sorted(leaf.shape[:-1] for leaf in jax.tree.leaves(found)) == [(), (), (4,)]

@@ -1,0 +1,106 @@
+"""Transforms of the parts for any displacements of the joints, closed or not: the products along the tree."""
+
+import re
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin.mechanism.motion import placed
+
+POINTS = {"A": (0.0, 0.0, 0.0), "B": (31.0, 7.0, -2.0), "C": (52.0, 43.0, 5.0)}  # mm
+AXES = {"A": (1.0, 2.0, 3.0), "B": (-1.0, 0.3, 2.0), "C": (0.2, 1.0, -0.4)}
+CHAIN = ("base", "arm", "elbow", "hand")
+ROUNDING = 2e-13
+"""Some ten roundings of lengths of 100 mm."""
+
+
+@pytest.fixture(scope="module")
+def arm():
+    """A chain of three hinges about skew axes, and a lamp that its elbow holds rigidly."""
+    joints = [
+        jk.revolute(name, *CHAIN[i : i + 2], point=POINTS[name], axis=AXES[name]) for i, name in enumerate(POINTS)
+    ]
+    return jk.Mechanism.build(fixed=["base"], joints=[*joints[:2], jk.fixed("grip", "elbow", "lamp"), *joints[2:]])
+
+
+@pytest.fixture
+def angles():
+    return jnp.asarray(np.random.default_rng(0).uniform(-3, 3, (3, 5)))
+
+
+def transforms(mechanism, angles):
+    """By part; the rows of angles are those of the hinges, in order."""
+    columns = {
+        **{name: row[:, None] for name, row in zip(POINTS, angles, strict=True)},
+        "grip": angles[0][:, None][:, :0],
+    }
+    found = placed(mechanism, tuple(columns[name] for name in mechanism.joints))
+    return dict(zip(mechanism.parts, found, strict=True))
+
+
+def turned(name, angle):
+    """Rotation about the axis of a hinge (Rodrigues)."""
+    axis, point = np.array(AXES[name]) / np.linalg.norm(AXES[name]), np.array(POINTS[name])
+    cross = np.cross(np.eye(3), axis)
+    turn = np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return np.block([[turn, (point - turn @ point)[:, None]], [np.zeros((1, 3)), np.ones((1, 1))]])
+
+
+def test_a_part_goes_through_all_joints_up_to_it(arm, angles):
+    found = transforms(arm, angles)
+    for pose in range(angles.shape[1]):
+        product = np.eye(4)
+        for name, part, angle in zip(POINTS, CHAIN[1:], np.asarray(angles[:, pose]), strict=True):
+            product = product @ turned(name, angle)
+            np.testing.assert_allclose(found[part][pose], product, rtol=0, atol=ROUNDING)
+
+
+@pytest.mark.long  # the default run compiles without the optimisation that once rounded them differently
+@pytest.mark.parametrize("how", ["plain", "jit", "vmap", "jvp"])
+def test_what_is_held_rigidly_moves_exactly_with_its_holder(arm, angles, how):
+    """Bit by bit, whatever becomes of the program around it: a part is found once, not anew for each that it holds."""
+
+    def both(angles):
+        found = transforms(arm, angles)
+        return found["elbow"], found["lamp"]
+
+    elbow, lamp = {
+        "plain": lambda: both(angles),
+        "jit": lambda: jax.jit(both)(angles),
+        "vmap": lambda: jax.vmap(both)(jnp.stack([angles, angles + 1])),
+        "jvp": lambda: jax.jvp(both, (angles,), (jnp.cos(angles),))[1],
+    }[how]()
+    assert np.ptp(elbow) > 1
+    np.testing.assert_array_equal(elbow, lamp)
+
+
+def test_slopes_of_a_chain_forward_and_backward(arm, angles):
+    def hand(angles):
+        return transforms(arm, angles)["hand"]
+
+    along = jnp.cos(angles)
+    found, forward = jax.jvp(hand, (angles,), (along,))
+    step = 1e-5  # of the central difference: it errs by 100 mm (1e-10 / 6 + 1e-16 / 1e-5), times a few joints
+    difference = (hand(angles + step * along) - hand(angles - step * along)) / (2 * step)
+    np.testing.assert_allclose(forward, difference, rtol=0, atol=2e-8)
+    (backward,) = jax.vjp(hand, angles)[1](found)
+    # 100 mm squared, some hundred terms
+    np.testing.assert_allclose(jnp.vdot(backward, along), jnp.vdot(found, forward), rtol=1e-12)
+
+
+def test_a_name_that_is_not_there_is_answered_with_those_that_are(arm):
+    motion = arm.sweep({"A": np.zeros(2)})
+    for named, unknown, answer in (
+        (motion.coordinates, "elbow", "there is no joint 'elbow'; there is 'A', 'B', 'grip', 'C'"),
+        (arm.joints, "gripp", "there is no joint 'gripp'; did you mean 'grip'?"),
+        (motion.transforms, "lam", "there is no part 'lam'; did you mean 'lamp'?"),
+    ):
+        with pytest.raises(KeyError, match=re.escape(answer)):
+            named[unknown]
+        assert unknown not in named and named.get(unknown) is None
+        leaves, tree = jax.tree.flatten(named)
+        again = jax.tree.unflatten(tree, leaves)
+        assert (type(again), again.what, list(again)) == (type(named), named.what, list(named))
