@@ -14,7 +14,8 @@ import pytest
 
 from jaxkin.joints.pairs import revolute
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.closure.closure import closure, loop_geometry, spatial
+from jaxkin.solve.closure import spatial
+from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.execution.programs import _solve, solve
 from jaxkin.solve.system.loop_system import Form
 from jaxkin.solve.system.state import assembled
