@@ -7,16 +7,18 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import numpy as np
 
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.methods import CONTINUATION, METHODS
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)
 TIGHTEST_32 = 1e-6

@@ -7,16 +7,18 @@ steps with the Jacobian in float64 gain some ten digits each.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import Block
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 DIGITS, STEPS, STILL = 50, 12, 1e-22
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
@@ -14,10 +14,12 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._names import by_name, nearest
 from jaxkin.linkage.coordinates import resolve
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.sweep import spoilt, sweep
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Inputs = dict[str, Float[Array, " poses"]]
 

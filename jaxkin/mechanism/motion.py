@@ -21,14 +21,13 @@ from jaxkin.geometry.movements import MOVEMENTS, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism import writers
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.lost_contacts import LostContact
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,8 +104,13 @@ class Motion:
         return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
 
     def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
-        """Write tables, animation and pictures into a directory; returns the paths. See `motion.writers.save`."""
-        return writers.save(self, directory, only)
+        """Write tables, animation and pictures into a directory; returns the paths.
+
+        `only` chooses some of the files by name; see `jaxkin.io.writers.save`.
+        """
+        from jaxkin.io.writers import save
+
+        return save(self, directory, only)
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))

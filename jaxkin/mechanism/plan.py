@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
 from jaxkin.joints.subgroups import Subgroup
@@ -11,13 +12,15 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.solve_order import Group, solve_order
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.mobility import names
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -20,10 +20,12 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion, placed
 from jaxkin.mechanism.sweep import spoilt, sweep
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 WAY, SPACING = 128, 0.1
 """Where there are several inputs: how many poses lead to a chunk at least, and how far they are apart at most, in

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -18,7 +18,6 @@ from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import Element, prepare
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
@@ -26,6 +25,9 @@ from jaxkin.solve.methods import CONTINUATION, METHODS
 from jaxkin.solve.status import Status, Tolerance, roundings
 from jaxkin.solve.status import tolerance as default_tolerance
 from jaxkin.solve.system.from_linkage import Columns
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
 """Displacements of the columns of a structure element, and what became of the poses."""
