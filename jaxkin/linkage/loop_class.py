@@ -1,10 +1,10 @@
-"""What is special about the loops of a mechanism, found while its frames are numbers: see `Form`."""
+"""The class of the loops of a structure element, found on the host while the joint frames are numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import numpy as np
@@ -13,14 +13,27 @@ from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import plane_columns, turn_about_one_direction
 from jaxkin.linkage.rods import idle_spins
-from jaxkin.solve.system.loop_system import Form
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 
-def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
-    """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
+class LoopClass(NamedTuple):
+    """What is special about the loops of a structure element, so that they need fewer equations, or others."""
+
+    plane: tuple[int, ...] | None = None
+    """Columns of the coordinates that act in the plane, where all joints move in parallel planes; else None."""
+    spins: tuple[tuple[int, int, int, int], ...] = ()
+    """Rods that spin idly about the line through their two balls: the numbers of both balls, and for each ball +1, or
+    -1 where the rod is part 1 of the ball's joint."""
+    schoenflies: tuple[int, ...] = ()
+    """Numbers of the loops that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
+    cut_at_balls: bool = False
+    """Whether loops are cut at balls where that is possible: see `LoopSystem.cuts`."""
+
+
+def forms(mechanism: Mechanism) -> tuple[LoopClass, ...] | None:
+    """The loop class of each structure element; None where the frames are traced, or those of many mechanisms."""
     if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.solved_joints):
         return None
     joints = mechanism.solved_joints
@@ -34,19 +47,19 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
     found = []
     for block in mechanism.structure.blocks:
         inside = [joints[joint] for joint in block.joints]
-        directed = tuple(
+        schoenflies = tuple(
             number
             for number, loop in enumerate(block.loops)
             if turn_about_one_direction([joints[joint] for joint, _ in loop])
         )
-        found.append(Form(plane_columns(inside), idle_spins(inside, bodies), directed, cut=True))
+        found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))
     return tuple(found)
 
 
 def with_joints(mechanism: Mechanism, joints: Sequence[Joint]) -> Mechanism:
     """The mechanism with its joints changed; its solids, which do not follow, are left behind.
 
-    While JAX traces the joints the forms stay what they were.
+    While JAX traces the joints the classes stay what they were.
     """
     known = mechanism.forms if traced(joints) else None
     return replace(mechanism, all_joints=tuple(joints), ideal=(), solids=(), known_forms=known)

@@ -15,11 +15,12 @@ from jax import dtypes
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import dead_end
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 
 
 class Given(NamedTuple):
@@ -89,7 +90,7 @@ def _prepared(mechanism: Mechanism, keys: Sequence[str]) -> Prepared:
         system, columns = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
         given = None
         if mechanism.ideal:
-            whole = block_system(mechanism, block, tuple(places[i] for i in inputs), Form())
+            whole = block_system(mechanism, block, tuple(places[i] for i in inputs), LoopClass())
             given = Given(*whole, block_joints(mechanism.all_joints, block))
         elements.append(Element(system, columns, inputs, block_joints(mechanism.solved_joints, block), given))
     freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)

@@ -14,9 +14,8 @@ from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.loop_class import forms
+from jaxkin.linkage.loop_class import LoopClass, forms
 from jaxkin.solve.methods import CONTINUATION
-from jaxkin.solve.system.loop_system import Form
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -53,7 +52,7 @@ class Mechanism:
     """The nearest joints whose loops close throughout their motion, where those of `all_joints`, which disagree by more
     than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to
     the least residual of the joints that were given. See `jaxkin.mobility.alignment`."""
-    known_forms: tuple[Form, ...] | None = field(default=None)
+    known_forms: tuple[LoopClass, ...] | None = field(default=None)
     """What `forms` was before JAX took the mechanism apart: to JAX that is what it is, whatever its numbers are now."""
 
     @staticmethod
@@ -79,12 +78,12 @@ class Mechanism:
         return aligned(Mechanism(tuple(joints), structure(parts, described, fixed), unit), noise)
 
     @cached_property
-    def forms(self) -> tuple[Form, ...]:
+    def forms(self) -> tuple[LoopClass, ...]:
         """What is special about the loops of each structure element.
 
         While JAX traces the frames this is what it was before: a mechanism tilted out of its planes is not closed then.
         """
-        return forms(self) or self.known_forms or (Form(),) * len(self.structure.blocks)
+        return forms(self) or self.known_forms or (LoopClass(),) * len(self.structure.blocks)
 
     @property
     def solved_joints(self) -> tuple[Joint, ...]:

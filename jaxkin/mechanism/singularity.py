@@ -42,7 +42,7 @@ def _rank(mechanism: Mechanism, number: int, system: LoopSystem, columns: Column
     As many as may be where JAX traces, and where the host finds no closed pose to count them at.
     """
     if traced(mechanism.all_joints) or not mechanism.loop_freedoms[number].closes:
-        return min(system.whole.equations, len(system.free))
+        return min(system.uncut.equations, len(system.free))
     freedoms = mechanism.loop_freedoms[number]
     free = [freedoms.columns.index(columns[column]) for column in system.free]
     return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0]

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.range.solve_range import Joints
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import Block
 
 RESTING = {"T_z": "I", "T_z_phi": "T_phi"}
@@ -19,16 +20,16 @@ Columns = tuple[tuple[int, int], ...]
 
 
 def block_system(
-    mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], form: Form
+    mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], loop_class: LoopClass
 ) -> tuple[LoopSystem, Columns]:
     """The loops of a structure element, and its columns; `driven` are (joint, coordinate), in any order.
 
-    An element of planar `form` is solved in its plane, unless something is driven along the normal: what would move
+    An element of planar `loop_class` is solved in its plane, unless something is driven along the normal: what would move
     along it rests, and has no columns.
     """
     every = [(index, k) for index in block.joints for k in range(mechanism.all_joints[index].freedoms)]
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
-    plane = None if form.plane is None else {every[column] for column in form.plane}
+    plane = None if loop_class.plane is None else {every[column] for column in loop_class.plane}
     if plane is not None and not plane.issuperset(driven):
         plane = None
     columns, movements = [], []
@@ -41,9 +42,9 @@ def block_system(
             columns += inside
             first += len(own)
         movements.append(tuple(chain))
-    form = form._replace(plane=None if plane is None else tuple(range(len(columns))))
+    loop_class = loop_class._replace(plane=None if plane is None else tuple(range(len(columns))))
     given = tuple(sorted(columns.index(place) for place in driven))
-    return LoopSystem(tuple(movements), loops, given, form), tuple(columns)
+    return LoopSystem(tuple(movements), loops, given, loop_class), tuple(columns)
 
 
 def block_joints(joints: Sequence[Joint], block: Block) -> Joints:
