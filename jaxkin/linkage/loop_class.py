@@ -13,6 +13,7 @@ from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import plane_columns, turn_about_one_direction
 from jaxkin.linkage.rods import idle_spins
+from jaxkin.topology.graph import Circuit
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -54,6 +55,24 @@ def forms(mechanism: Mechanism) -> tuple[LoopClass, ...] | None:
         )
         found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))
     return tuple(found)
+
+
+def renumbered(
+    loop_class: LoopClass, loops: Sequence[Circuit], chosen: Sequence[Circuit], joints: Sequence[Joint]
+) -> LoopClass:
+    """The class of some `loops` for others of the same joints; those that are new among `chosen` need numbers."""
+    if tuple(chosen) == tuple(loops):
+        return loop_class
+    schoenflies = tuple(
+        number
+        for number, loop in enumerate(chosen)
+        if (
+            loops.index(loop) in loop_class.schoenflies
+            if loop in loops
+            else turn_about_one_direction([joints[joint] for joint, _ in loop])
+        )
+    )
+    return loop_class._replace(schoenflies=schoenflies)
 
 
 def with_joints(mechanism: Mechanism, joints: Sequence[Joint]) -> Mechanism:

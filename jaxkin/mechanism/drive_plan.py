@@ -10,92 +10,147 @@ from typing import NamedTuple
 
 import jax
 import numpy as np
-from jax import dtypes
+from jax import dtypes, lax
 
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.infeasible_drive import dead_end
+from jaxkin.mobility.loop_freedoms import LoopFreedoms
 from jaxkin.solve.range.solve_range import Joints
-from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
-from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
+from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
+from jaxkin.topology.structure import Block
 
 
-class Given(NamedTuple):
-    """The loops of joints that close at the assembled pose only."""
+class GivenLoops(NamedTuple):
+    """The loops of the joints that were given, which close at the assembled pose only."""
 
     system: LoopSystem
     columns: Columns
     joints: Joints
 
 
-class Element(NamedTuple):
+class DrivenElement(NamedTuple):
     """A structure element that is to be solved."""
 
+    block: Block
+    """Its joints and loops in the structure."""
     system: LoopSystem
+    """What is solved; the groups of its `order` are the steps of the plan."""
     columns: Columns
+    groups: tuple[Group, ...]
+    """The groups of loops of `system.order`; their joints are those of the mechanism, their columns those of the
+    system."""
+    by_counting: bool
+    """Whether the groups were found by counting and not by the ranks of the closure Jacobian: for a single loop, or
+    where the joint frames are traced or do not close."""
     inputs: tuple[int, ...]
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
-    given: Given | None
+    given: GivenLoops | None
     """What the poses are brought to the least residual of, where the loops solved are those of `mechanism.ideal`."""
 
 
-class Prepared(NamedTuple):
-    """A drive of a mechanism, as yet without displacements."""
+class DrivePlan(NamedTuple):
+    """A drive of a mechanism, as yet without displacements: what is solved for it, and in which order."""
 
     driven: dict[str, tuple[int, int]]
     """(joint, coordinate) by full names, in the order given."""
     freedoms: tuple[int, ...]
-    """Of every joint."""
-    elements: tuple[Element, ...]
-    refused: str | None
-    """Why the loops cannot follow it."""
+    """Number of freedoms of every joint."""
+    elements: tuple[DrivenElement, ...]
+    """Structure elements that are solved; they do not depend on each other."""
+    infeasible: str | None
+    """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
 
 
-def prepare(mechanism: Mechanism, keys: tuple[str, ...]) -> Prepared:
-    """The coordinates of these names, and the structure elements they move; ValueError as in `resolve`.
+def plan_drive(mechanism: Mechanism, keys: tuple[str, ...]) -> DrivePlan:
+    """The plan of a drive of the coordinates of these names; ValueError as in `coordinates.resolve`.
 
-    Kept with the mechanism, unless its numbers, or what JAX makes of them here, are traced.
+    The plan is kept with the mechanism, unless the numbers of the mechanism, or what JAX makes of them here, are
+    traced.
     """
     if traced(mechanism):
-        return _prepared(mechanism, keys)
+        return _plan_drive(mechanism, keys)
     key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
     if key in mechanism.prepared:
         return mechanism.prepared[key]
-    prepared = _prepared(mechanism, keys)
-    on_device = jax.device_put([element.joints for element in prepared.elements])
+    plan = _plan_drive(mechanism, keys)
+    on_device = jax.device_put([element.joints for element in plan.elements])
     if traced(on_device):
-        return prepared
-    elements = tuple(
-        element._replace(joints=joints) for element, joints in zip(prepared.elements, on_device, strict=True)
-    )
-    mechanism.prepared[key] = prepared._replace(elements=elements)
+        return plan
+    elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
+    mechanism.prepared[key] = plan._replace(elements=elements)
     return mechanism.prepared[key]
 
 
-def _prepared(mechanism: Mechanism, keys: Sequence[str]) -> Prepared:
+def _plan_drive(mechanism: Mechanism, keys: Sequence[str]) -> DrivePlan:
     driven = coordinates(mechanism, keys)
     places = list(driven.values())
+    on_host = mechanism if not traced(mechanism) else lax.stop_gradient(mechanism)  # by `grad` alone they are there
+    judged = not traced(on_host) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(on_host))
     elements = []
-    for block, form in zip(mechanism.structure.blocks, mechanism.forms, strict=True):
+    for number, block in enumerate(mechanism.structure.blocks):
         inside = sorted(
             (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
         )
         if not inside and not _edited([mechanism.solved_joints[joint] for joint in block.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
-        system, columns = block_system(mechanism, block, tuple(places[i] for i in inputs), form)
-        given = None
-        if mechanism.ideal:
-            whole = block_system(mechanism, block, tuple(places[i] for i in inputs), LoopClass())
-            given = Given(*whole, block_joints(mechanism.all_joints, block))
-        elements.append(Element(system, columns, inputs, block_joints(mechanism.solved_joints, block), given))
+        elements.append(
+            _element(mechanism, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
+        )
     freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)
-    judged = not traced(mechanism) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(mechanism))
-    return Prepared(driven, freedoms, tuple(elements), dead_end(mechanism, places) if judged else None)
+    infeasible = dead_end(mechanism, places) if judged and not traced(mechanism) else None
+    return DrivePlan(driven, freedoms, tuple(elements), infeasible)
+
+
+def _element(
+    mechanism: Mechanism, on_host: Mechanism | None, number: int, driven: Columns, inputs: tuple[int, ...]
+) -> DrivenElement:
+    """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
+    block, loop_class = mechanism.structure.blocks[number], mechanism.forms[number]
+    # of a single loop there is one order only, and the freedoms take a millisecond to find
+    freedoms = on_host.loop_freedoms[number] if on_host is not None and len(block.loops) > 1 else None
+    by_counting = freedoms is None or not freedoms.closes
+    if freedoms is None or by_counting:
+        groups = _counted_groups(mechanism, block, driven, loop_class)
+    else:
+        groups = ranked_groups(mechanism, block, driven, loop_class, freedoms)
+    loops = [group.loops for group in groups]
+    system, columns = block_system(on_host or mechanism, block, driven, loop_class, loops)
+    given = None
+    if mechanism.ideal:
+        every = block_system(mechanism, block, driven, LoopClass())
+        given = GivenLoops(*every, block_joints(mechanism.all_joints, block))
+    joints = block_joints(mechanism.solved_joints, block)
+    return DrivenElement(block, system, columns, groups, by_counting, inputs, joints, given)
+
+
+def ranked_groups(
+    mechanism: Mechanism, block: Block, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
+) -> tuple[Group, ...]:
+    """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
+    columns = solved_coordinates(mechanism, block, driven, loop_class).columns
+    screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
+    given = [columns.index(place) for place in driven]
+    groups = solve_order(freedoms.ends, block.loops, columns, screws, given, freedoms.noise)
+    return keep_freedoms_together(groups, columns, screws, freedoms.noise)
+
+
+def _counted_groups(mechanism: Mechanism, block: Block, driven: Columns, loop_class: LoopClass) -> tuple[Group, ...]:
+    """The groups of loops of a structure element where nothing but the class of the loops is known."""
+    solved = solved_coordinates(mechanism, block, driven, loop_class)
+    unknown = {joint: list[int]() for joint in block.joints}
+    for column, (joint, k) in enumerate(solved.columns):
+        if (joint, k) not in driven:
+            unknown[joint].append(column)
+    equations = [IN_PLANE if solved.planar else None for _ in block.loops]
+    return order_by_counting(block.loops, unknown, equations)
 
 
 def _edited(joints: list[Joint]) -> bool:

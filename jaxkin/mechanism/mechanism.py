@@ -19,7 +19,7 @@ from jaxkin.solve.methods import CONTINUATION
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
-    from jaxkin.mechanism.drive_plan import Prepared
+    from jaxkin.mechanism.drive_plan import DrivePlan
     from jaxkin.mechanism.motion import Motion
     from jaxkin.mechanism.plan import Plan
     from jaxkin.mechanism.reassembly import Reassembly
@@ -234,8 +234,8 @@ class Mechanism:
         return loop_freedoms(self)
 
     @cached_property
-    def prepared(self) -> dict[Any, Prepared]:
-        """What sweeps have found out about their drives: see `jaxkin.mechanism.drive_plan.prepare`."""
+    def prepared(self) -> dict[Any, DrivePlan]:
+        """What sweeps have found out about their drives: see `jaxkin.mechanism.drive_plan.plan_drive`."""
         return {}
 
     def __str__(self) -> str:

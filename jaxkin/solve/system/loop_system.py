@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate
+from itertools import accumulate, product
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.screws import freedoms
@@ -38,6 +38,12 @@ class LoopSystem:
     """Columns whose values are given."""
     loop_class: LoopClass
     """What is special about the loops, so that they need fewer equations."""
+    order: tuple[tuple[int, ...], ...] = ()
+    """Numbers of the loops that are solved together, in turn: each loop once. By default all loops are."""
+
+    def __post_init__(self) -> None:
+        if not self.order:
+            object.__setattr__(self, "order", (tuple(range(len(self.loops))),))
 
     @cached_property
     def chains(self) -> tuple[tuple[tuple[str, int, int, int | None], ...], ...]:
@@ -152,16 +158,32 @@ class LoopSystem:
     @cached_property
     def rotations(self) -> tuple[int, ...]:
         """For each loop in space the number of its equations of rotation."""
-        return tuple(
-            0 if cut else 1 if loop in self.loop_class.schoenflies else 3 for loop, cut in enumerate(self.cuts)
-        )
+        one = self.loop_class.schoenflies
+        return tuple(0 if cut else 1 if loop in one else 3 for loop, cut in enumerate(self.cuts))
 
-    @property
+    @cached_property
+    def translations(self) -> tuple[int, ...]:
+        """For each loop in space the number of its equations of translation, or of the length of a rod."""
+        return tuple(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+
+    @cached_property
+    def rows(self) -> tuple[tuple[int, ...], ...]:
+        """For each loop its rows of the Jacobian: see `Closure.residual`."""
+        if self.planar:
+            return tuple(tuple(range(IN_PLANE * loop, IN_PLANE * (loop + 1))) for loop in range(len(self.loops)))
+        rows: list[tuple[int, ...]] = [()] * len(self.loops)
+        first = 0
+        for counts, size in product((self.rotations, self.translations), (3, 1)):
+            for loop, count in enumerate(counts):
+                if count == size:
+                    rows[loop] += tuple(range(first, first + size))
+                    first += size
+        return tuple(rows)
+
+    @cached_property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
-        if self.planar:
-            return IN_PLANE * len(self.loops)
-        return sum(self.rotations) + sum(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+        return sum(map(len, self.rows))
 
     @cached_property
     def free(self) -> tuple[int, ...]:
