@@ -38,7 +38,7 @@ def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
 
 def length_now(mechanism: Mechanism, key: tuple[str, ...]):
     """The value of a length by any key that `with_lengths` knows; ValueError where there is none."""
-    find_length(mechanism, key)
+    find_length(mechanism.linkage, key)
     row = mechanism.structure.row_of.get(key[0], key[0])
     same = (row, *key[1:])
     return mechanism.lengths[same if same in mechanism.lengths else (row, *key[1:3][::-1], *key[3:])]

@@ -52,9 +52,9 @@ class Problem:
     def motion(self, vector) -> tuple[Motion, dict[str, Any], dict[str, Any]]:
         """The motion of a design, its extra variables, and the misfits of its parts."""
         values = self.variables.values(vector)
-        mechanism, misfits = rearranged(self.mechanism, values.lengths)
-        mechanism = with_points(mechanism, values.points)
-        return sweep(mechanism, values.inputs), values.extras, misfits
+        linkage, misfits = rearranged(self.mechanism.linkage, values.lengths)
+        linkage = with_points(linkage, values.points)
+        return sweep(self.mechanism.with_linkage(linkage), values.inputs), values.extras, misfits
 
     def judge(self, vector) -> Judged:
         """Residuals and violations of a design, differentiable."""

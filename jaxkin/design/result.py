@@ -13,6 +13,7 @@ import numpy as np
 from jaxkin.design.objectives import Objective
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.writers import whole
@@ -182,7 +183,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         for kind in ("drive", "extra")
     }
     return Optimum(
-        mechanism=Mechanism(joints, structure, text["unit"]),
+        mechanism=Mechanism(Linkage.of(joints, structure), text["unit"]),
         **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
         **{name: arrays[name] for name in ("history", "losses", "violations")},
         extras=named["extra"],

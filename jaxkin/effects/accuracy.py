@@ -155,7 +155,7 @@ class _Exact:
 
     def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
         self.chosen, self.blocks = chosen, []
-        driven = [coordinate(mechanism, name) for name in motion.inputs]
+        driven = [coordinate(mechanism.linkage, name) for name in motion.inputs]
         for block in mechanism.structure.blocks:
             columns = [(joint, k) for joint in block.joints for k in range(mechanism.all_joints[joint].freedoms)]
             free = [number for number, column in enumerate(columns) if column not in driven]

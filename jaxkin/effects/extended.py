@@ -37,7 +37,7 @@ class Extended:
         self.mp.dps = DIGITS
         self.block, self.free = block, list(free)
         self.joints = {index: mechanism.all_joints[index] for index in block.joints}
-        self.loops = ClosedLoops(mechanism, block)
+        self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, block)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """The exact pose near q with the same driven coordinates, rounded; and whether the steps came to an end.

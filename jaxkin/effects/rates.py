@@ -119,7 +119,7 @@ def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
                 f"{tuple(value.shape)}"
             )
         given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
-    driven = resolve(motion.mechanism, given) if given else {}
+    driven = resolve(motion.mechanism.linkage, given) if given else {}
     named = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
     for name in named:
         if name not in motion.inputs:

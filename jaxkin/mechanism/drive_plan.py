@@ -1,4 +1,4 @@
-"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a mechanism and a drive.
+"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a linkage and a drive.
 
 A sweep of some hundred poses takes a few milliseconds: to find this anew each time would be a large part of them.
 """
@@ -6,20 +6,21 @@ A sweep of some hundred poses takes a few milliseconds: to find this anew each t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jax
 import numpy as np
 from jax import dtypes, lax
 
+from jaxkin._memory import once_for_each
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.infeasible_drive import dead_end
-from jaxkin.mobility.loop_freedoms import LoopFreedoms
+from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
 from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
@@ -43,7 +44,7 @@ class DrivenElement(NamedTuple):
     """What is solved; the groups of its `order` are the steps of the plan."""
     columns: Columns
     groups: tuple[Group, ...]
-    """The groups of loops of `system.order`; their joints are those of the mechanism, their columns those of the
+    """The groups of loops of `system.order`; their joints are those of the linkage, their columns those of the
     system."""
     by_counting: bool
     """Whether the groups were found by counting and not by the ranks of the closure Jacobian: for a single loop, or
@@ -52,11 +53,11 @@ class DrivenElement(NamedTuple):
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
     given: GivenLoops | None
-    """What the poses are brought to the least residual of, where the loops solved are those of `mechanism.ideal`."""
+    """What the poses are brought to the least residual of, where the loops solved are those of `linkage.ideal`."""
 
 
 class DrivePlan(NamedTuple):
-    """A drive of a mechanism, as yet without displacements: what is solved for it, and in which order."""
+    """A drive of a linkage, as yet without displacements: what is solved for it, and in which order."""
 
     driven: dict[str, tuple[int, int]]
     """(joint, coordinate) by full names, in the order given."""
@@ -64,87 +65,93 @@ class DrivePlan(NamedTuple):
     """Number of freedoms of every joint."""
     elements: tuple[DrivenElement, ...]
     """Structure elements that are solved; they do not depend on each other."""
-    infeasible: str | None
+    infeasible: InfeasibleDrive | None
     """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
 
 
-def plan_drive(mechanism: Mechanism, keys: tuple[str, ...]) -> DrivePlan:
+def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     """The plan of a drive of the coordinates of these names; ValueError as in `coordinates.resolve`.
 
-    The plan is kept with the mechanism, unless the numbers of the mechanism, or what JAX makes of them here, are
-    traced.
+    The plan is kept as long as the linkage lives, unless its numbers, or what JAX makes of them here, are traced.
     """
-    if traced(mechanism):
-        return _plan_drive(mechanism, keys)
+    if traced(linkage):
+        return _plan_drive(linkage, keys)
     key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
-    if key in mechanism.prepared:
-        return mechanism.prepared[key]
-    plan = _plan_drive(mechanism, keys)
+    if key in (kept := _kept(linkage)):
+        return kept[key]
+    plan = _plan_drive(linkage, keys)
     on_device = jax.device_put([element.joints for element in plan.elements])
     if traced(on_device):
         return plan
     elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
-    mechanism.prepared[key] = plan._replace(elements=elements)
-    return mechanism.prepared[key]
+    kept[key] = plan._replace(elements=elements)
+    return kept[key]
 
 
-def _plan_drive(mechanism: Mechanism, keys: Sequence[str]) -> DrivePlan:
-    driven = coordinates(mechanism, keys)
+@once_for_each
+def _kept(linkage: Linkage) -> dict[Any, DrivePlan]:
+    """The plans of drives of a linkage, by the names that the drives give."""
+    del linkage
+    return {}
+
+
+def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
+    driven = coordinates(linkage, keys)
     places = list(driven.values())
-    on_host = mechanism if not traced(mechanism) else lax.stop_gradient(mechanism)  # by `grad` alone they are there
+    on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there
     judged = not traced(on_host) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(on_host))
     elements = []
-    for number, block in enumerate(mechanism.structure.blocks):
+    for number, block in enumerate(linkage.structure.blocks):
         inside = sorted(
             (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
         )
-        if not inside and not _edited([mechanism.solved_joints[joint] for joint in block.joints]):
+        if not inside and not _edited([linkage.solved_joints[joint] for joint in block.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
         elements.append(
-            _element(mechanism, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
+            _element(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
         )
-    freedoms = tuple(joint.freedoms for joint in mechanism.all_joints)
-    infeasible = dead_end(mechanism, places) if judged and not traced(mechanism) else None
+    freedoms = tuple(joint.freedoms for joint in linkage.joints)
+    infeasible = infeasible_drive(linkage, places) if judged and not traced(linkage) else None
     return DrivePlan(driven, freedoms, tuple(elements), infeasible)
 
 
 def _element(
-    mechanism: Mechanism, on_host: Mechanism | None, number: int, driven: Columns, inputs: tuple[int, ...]
+    linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
 ) -> DrivenElement:
     """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
-    block, loop_class = mechanism.structure.blocks[number], mechanism.forms[number]
+    block, loop_class = linkage.structure.blocks[number], linkage.classes[number]
     # of a single loop there is one order only, and the freedoms take a millisecond to find
-    freedoms = on_host.loop_freedoms[number] if on_host is not None and len(block.loops) > 1 else None
+    freedoms = loop_freedoms(on_host)[number] if on_host is not None and len(block.loops) > 1 else None
     by_counting = freedoms is None or not freedoms.closes
     if freedoms is None or by_counting:
-        groups = _counted_groups(mechanism, block, driven, loop_class)
+        groups = _counted_groups(linkage, block, driven, loop_class)
     else:
-        groups = ranked_groups(mechanism, block, driven, loop_class, freedoms)
+        groups = ranked_groups(linkage, block, driven, loop_class, freedoms)
     loops = [group.loops for group in groups]
-    system, columns = block_system(on_host or mechanism, block, driven, loop_class, loops)
+    system, columns = block_system(on_host or linkage, block, driven, loop_class, loops)
     given = None
-    if mechanism.ideal:
-        every = block_system(mechanism, block, driven, LoopClass())
-        given = GivenLoops(*every, block_joints(mechanism.all_joints, block))
-    joints = block_joints(mechanism.solved_joints, block)
+    if linkage.ideal:
+        every = block_system(linkage, block, driven, LoopClass())
+        given = GivenLoops(*every, block_joints(linkage.joints, block))
+    joints = block_joints(linkage.solved_joints, block)
     return DrivenElement(block, system, columns, groups, by_counting, inputs, joints, given)
 
 
 def ranked_groups(
-    mechanism: Mechanism, block: Block, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
+    linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
 ) -> tuple[Group, ...]:
     """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
-    columns = solved_coordinates(mechanism, block, driven, loop_class).columns
+    columns = solved_coordinates(linkage, block, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
     given = [columns.index(place) for place in driven]
     groups = solve_order(freedoms.ends, block.loops, columns, screws, given, freedoms.noise)
     return keep_freedoms_together(groups, columns, screws, freedoms.noise)
 
 
-def _counted_groups(mechanism: Mechanism, block: Block, driven: Columns, loop_class: LoopClass) -> tuple[Group, ...]:
+def _counted_groups(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> tuple[Group, ...]:
     """The groups of loops of a structure element where nothing but the class of the loops is known."""
-    solved = solved_coordinates(mechanism, block, driven, loop_class)
+    solved = solved_coordinates(linkage, block, driven, loop_class)
     unknown = {joint: list[int]() for joint in block.joints}
     for column, (joint, k) in enumerate(solved.columns):
         if (joint, k) not in driven:

@@ -23,7 +23,7 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism import writers
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.infeasible_drive import left_free
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
@@ -145,7 +145,7 @@ def tally(
     for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
         if counts[status]:
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
-    if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
+    if free := undriven_freedoms(mechanism.linkage, [coordinate(mechanism.linkage, name) for name in inputs]):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
     lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
     return "\n".join(lines)

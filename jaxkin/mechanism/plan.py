@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.plan_steps import Step, element_steps
-from jaxkin.mobility.infeasible_drive import left_free
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
@@ -52,38 +54,40 @@ def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
     """
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
-    keys = {coordinate(mechanism, key): key for key in drive}
+    linkage = mechanism.linkage
+    keys = {coordinate(linkage, key): key for key in drive}
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
-    check_closed(mechanism, "the plan of a drive", f"plan({[str(key) for key in keys.values()]})")
-    found = plan_drive(mechanism, tuple(keys.values()))
+    check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in keys.values()]})")
+    found = plan_drive(linkage, tuple(keys.values()))
     steps: list[Step] = []
     for element in found.elements:
-        steps += element_steps(mechanism, element, len(steps))
-    skipped = (*_skipped(mechanism, keys, found), *_at_rest(mechanism, found))
-    return Plan(tuple(found.driven), tuple(steps), skipped, tuple(_notes(mechanism, keys, found, steps)))
+        steps += element_steps(linkage, element, len(steps))
+    dead = [f"dead end: {why_infeasible(mechanism, found.infeasible)}"] if found.infeasible else []
+    skipped = (*_skipped(linkage, keys, found), *_at_rest(linkage, found))
+    return Plan(tuple(found.driven), tuple(steps), skipped, (*dead, *_notes(linkage, keys, found, steps)))
 
 
-def _notes(mechanism: Mechanism, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
-    """Why the loops cannot follow the drive, what it leaves free, and why an order is not that of the ranks."""
-    notes = [f"dead end: {found.infeasible}"] if found.infeasible else []
-    free = () if traced(mechanism) else left_free(mechanism, list(driven))
+def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
+    """What the drive leaves free, and why an order is not that of the ranks."""
+    notes = []
+    free = () if traced(linkage) else undriven_freedoms(linkage, list(driven))
     if free:
         notes.append(f"left free: {listed(free)} could be driven as well; without, all move as little as they can")
     elif not found.infeasible and any(step.free for step in steps):
         notes.append("what is left free is idle: it moves as little as it can")
     for element in found.elements:
         if element.by_counting and len(element.block.loops) > 1:
-            why = "its joint frames are traced" if traced(mechanism) else "its loops do not close"
-            parts = _parts(mechanism, element.block.joints)
+            why = "its joint frames are traced" if traced(linkage) else "its loops do not close"
+            parts = _parts(linkage, element.block.joints)
             notes.append(f"the loops of {listed(parts)} are put in order by counting unknowns, since {why}")
     return notes
 
 
-def _skipped(mechanism: Mechanism, driven: Collection[Place], found: DrivePlan) -> list[str]:
+def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> list[str]:
     """Elements without a driven joint, and coordinates outside of loops."""
-    structure = mechanism.structure
-    given = {mechanism.all_joints[joint].name for joint, _ in driven}
+    structure = linkage.structure
+    given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}
     solved = [element.block for element in found.elements]
     texts = []
@@ -105,14 +109,14 @@ def _skipped(mechanism: Mechanism, driven: Collection[Place], found: DrivePlan) 
     return texts
 
 
-def _at_rest(mechanism: Mechanism, found: DrivePlan) -> list[str]:
+def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
     """Coordinates along the normals of planar elements, and loops in which all coordinates are given."""
     texts = []
     for element in found.elements:
         own = set(element.columns)
         resting = [
             f"{joint.name}.{name}"
-            for index, joint in ((index, mechanism.all_joints[index]) for index in element.block.joints)
+            for index, joint in ((index, linkage.joints[index]) for index in element.block.joints)
             for k, name in enumerate(joint.coordinates)
             if (index, k) not in own
         ]
@@ -121,16 +125,16 @@ def _at_rest(mechanism: Mechanism, found: DrivePlan) -> list[str]:
         checked = sum(len(group.loops) for group in element.groups if not group.unknowns)
         if checked:
             what = "the loop" if checked == 1 else f"{checked} loops"
-            parts = listed(_parts(mechanism, element.block.joints))
+            parts = listed(_parts(linkage, element.block.joints))
             texts.append(f"{what} of {parts} in which all coordinates are given: the status says whether it closes")
     return texts
 
 
-def _parts(mechanism: Mechanism, joints: Iterable[int]) -> list[str]:
+def _parts(linkage: Linkage, joints: Iterable[int]) -> list[str]:
     """The rows of the parts that some joints connect."""
-    rows: Mapping[str, str] = mechanism.structure.row_of
-    held = {rows[part] for joint in joints for part in mechanism.all_joints[joint].parts}
-    return [part for part in mechanism.structure.parts if part in held]
+    rows: Mapping[str, str] = linkage.structure.row_of
+    held = {rows[part] for joint in joints for part in linkage.joints[joint].parts}
+    return [part for part in linkage.structure.parts if part in held]
 
 
 def _loops(element: Element) -> str:

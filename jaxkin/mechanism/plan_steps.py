@@ -10,10 +10,10 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.joint_pattern import letter, loop_name
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.solve_order import Group
 from jaxkin.mechanism.drive_plan import DrivenElement, ranked_groups
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.loop_freedoms import LoopFreedoms
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.system.equation_blocks import EquationBlock, blocks_of_groups
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -67,31 +67,31 @@ class Step:
         )
 
 
-def element_steps(mechanism: Mechanism, element: DrivenElement, first: int) -> list[Step]:
+def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[Step]:
     """The steps of a structure element, numbered from `first` on: one for each group that has unknowns."""
-    freedoms = None if traced(mechanism) else _freedoms(mechanism, element)
-    groups = _ranked(mechanism, element, freedoms)
+    freedoms = None if traced(linkage) else _freedoms(linkage, element)
+    groups = _ranked(linkage, element, freedoms)
     blocks = blocks_of_groups(element.system)
     solved = [k for k, block in enumerate(blocks) if block.columns]
     number = {k: first + place for place, k in enumerate(solved)}
     steps = []
     for k in solved:
         after = tuple(sorted(number[other] for other in _solved_before(groups, k, solved)))
-        steps.append(_step(mechanism, element, k, groups[k], freedoms, after))
+        steps.append(_step(linkage, element, k, groups[k], freedoms, after))
     return steps
 
 
-def _freedoms(mechanism: Mechanism, element: DrivenElement) -> LoopFreedoms:
-    return mechanism.loop_freedoms[mechanism.structure.blocks.index(element.block)]
+def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
+    return loop_freedoms(linkage)[linkage.structure.blocks.index(element.block)]
 
 
-def _ranked(mechanism: Mechanism, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
+def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
     """The groups of an element with their ranks, which are not found beforehand for a single loop."""
     if freedoms is None or not freedoms.closes or len(element.block.loops) > 1:
         return element.groups
     driven = tuple(element.columns[column] for column in element.system.driven)
-    loop_class = mechanism.forms[mechanism.structure.blocks.index(element.block)]
-    return ranked_groups(mechanism, element.block, driven, loop_class, freedoms) or element.groups
+    loop_class = linkage.classes[linkage.structure.blocks.index(element.block)]
+    return ranked_groups(linkage, element.block, driven, loop_class, freedoms) or element.groups
 
 
 def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]) -> set[int]:
@@ -104,7 +104,7 @@ def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]
 
 
 def _step(
-    mechanism: Mechanism,
+    linkage: Linkage,
     element: DrivenElement,
     number: int,
     group: Group,
@@ -112,20 +112,20 @@ def _step(
     after: tuple[int, ...],
 ) -> Step:
     system, block = element.system, blocks_of_groups(element.system)[number]
-    joints, loops = mechanism.all_joints, system.order[number]
+    joints, loops = linkage.joints, system.order[number]
     cuts = [system.cuts[loop] for loop in loops]
     rank = group.rank - sum(RANK_OF_CUT[len(cut)] for cut in cuts)
     cut = {ball for balls in cuts for ball in balls}
     joint_of_ball = {ball: joint for (joint, _), (ball, _) in system.places.items()}
-    rows = mechanism.structure.row_of
+    rows = linkage.structure.row_of
     ends = {rows[part] for joint in group.joints for part in joints[joint].parts}
     return Step(
         joints=tuple(joints[joint].name for joint in group.joints),
-        parts=tuple(part for part in mechanism.structure.parts if part in ends),
+        parts=tuple(part for part in linkage.structure.parts if part in ends),
         loops=len(loops),
         loop_class=_loop_class(element, number, group),
         subgroup=None if freedoms is None else _subgroup(element, group, freedoms),
-        unknowns=_names(mechanism, element, block),
+        unknowns=_names(linkage, element, block),
         equations=len(block.rows),
         redundant=len(block.rows) - rank,
         free=len(block.columns) - rank,
@@ -135,9 +135,9 @@ def _step(
     )
 
 
-def _names(mechanism: Mechanism, element: DrivenElement, block: EquationBlock) -> tuple[str, ...]:
+def _names(linkage: Linkage, element: DrivenElement, block: EquationBlock) -> tuple[str, ...]:
     places = (element.columns[column] for column in block.columns)
-    joints = mechanism.all_joints
+    joints = linkage.joints
     return tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in places)
 
 

@@ -51,7 +51,7 @@ class Stream:
         if not isinstance(chunk, int | np.integer) or chunk < 1:
             raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
         self.mechanism = mechanism
-        self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism, drive).items()}
+        self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism.linkage, drive).items()}
         """Driven displacements by "joint.coordinate", of all poses, as they were given."""
         followed, self._finite = without_gaps(tuple(self.inputs.values()))
         self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))

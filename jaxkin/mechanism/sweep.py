@@ -16,6 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
+from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -51,13 +52,12 @@ def sweep(
     Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`, it is never
     an exception; one whose displacements are NaN or infinite is NONFINITE and NaN itself, and all others are what they
     would be without it. Raises ValueError for a drive that makes no sense (see `jaxkin.linkage.coordinates.resolve`),
-    or that the loops have no freedoms for (see `jaxkin.mobility.infeasible_drive.dead_end`; not where the geometry is
-    traced).
+    or that the loops have no freedoms for (see `jaxkin.mobility.infeasible_drive`; not where the geometry is traced).
     """
-    plan = plan_drive(mechanism, named(drive))
+    plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
     if plan.infeasible:
-        raise ValueError(plan.infeasible)
+        raise ValueError(why_infeasible(mechanism, plan.infeasible))
     asked = _tolerance(tolerance)
     if method not in METHODS:
         raise ValueError(f"there is no method {method!r} among {', '.join(METHODS)}{closest(method, METHODS)}")

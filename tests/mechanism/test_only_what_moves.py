@@ -64,7 +64,7 @@ def test_loops_that_do_not_move_are_absent(solved):
 def closures(mechanism: Mechanism, solved, joint: str, form: LoopClass | None = None) -> float:
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
     ((system, _, joints, *_),) = solved(mechanism, {joint: RANGE})
-    system = system if form is None else replace(system, form=form)
+    system = system if form is None else replace(system, loop_class=form)
     geometry, _ = loop_geometry(system, *joints)
     # the travel along a loop written out: XLA counts the body of a loop once
     with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):

@@ -1,4 +1,4 @@
-"""From a mechanism's structure elements to the loop systems of the solver."""
+"""From the structure elements of a linkage to the loop systems of the solver."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass, renumbered
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
@@ -34,13 +34,13 @@ class SolvedCoordinates(NamedTuple):
     """Coordinates along the normal of the plane, which rest and are no columns."""
 
 
-def solved_coordinates(mechanism: Mechanism, block: Block, driven: Columns, loop_class: LoopClass) -> SolvedCoordinates:
+def solved_coordinates(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> SolvedCoordinates:
     """The coordinates that are solved or given in a structure element, of which `driven` are (joint, coordinate).
 
     A planar element is solved in its plane, unless something is driven along the normal: what would move along the
     normal rests.
     """
-    every = [(index, k) for index in block.joints for k in range(mechanism.all_joints[index].freedoms)]
+    every = [(index, k) for index in block.joints for k in range(linkage.joints[index].freedoms)]
     plane = {every[column] for column in loop_class.plane or ()}
     planar = loop_class.plane is not None and plane.issuperset(driven)
     if not planar:
@@ -48,7 +48,7 @@ def solved_coordinates(mechanism: Mechanism, block: Block, driven: Columns, loop
     movements = []
     for index in block.joints:
         chain, first = [], 0
-        for name in mechanism.all_joints[index].movements:
+        for name in linkage.joints[index].movements:
             count = len(MOVEMENTS[name].coordinates)
             whole = plane.issuperset((index, first + k) for k in range(count))
             chain.append(name if whole else WITHOUT_NORMAL[name])
@@ -59,7 +59,7 @@ def solved_coordinates(mechanism: Mechanism, block: Block, driven: Columns, loop
 
 
 def block_system(
-    mechanism: Mechanism,
+    linkage: Linkage,
     block: Block,
     driven: Columns,
     loop_class: LoopClass,
@@ -70,13 +70,13 @@ def block_system(
     `groups` are the loops that are solved together, in turn, of joints of the mechanism; by default all loops of the
     structure are solved together.
     """
-    columns, movements, planar, _ = solved_coordinates(mechanism, block, driven, loop_class)
+    columns, movements, planar, _ = solved_coordinates(linkage, block, driven, loop_class)
     circuits = tuple(loop for group in groups for loop in group) or block.loops
     loop_class = renumbered(
         loop_class._replace(plane=tuple(range(len(columns))) if planar else None),
         block.loops,
         circuits,
-        mechanism.solved_joints,
+        linkage.solved_joints,
     )
     number = {joint: place for place, joint in enumerate(block.joints)}
     loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
