@@ -17,7 +17,7 @@ from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.drive_plan import Element, prepare
+from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
@@ -56,15 +56,15 @@ def sweep(
     would be without it. Raises ValueError for a drive that makes no sense (see `jaxkin.linkage.coordinates.resolve`),
     or that the loops have no freedoms for (see `jaxkin.mobility.infeasible_drive`; not where the geometry is traced).
     """
-    prepared = prepare(mechanism.linkage, named(drive))
-    values = given_values(prepared.driven, drive)
-    if prepared.infeasible:
-        raise ValueError(why_infeasible(mechanism, prepared.infeasible))
+    plan = plan_drive(mechanism.linkage, named(drive))
+    values = given_values(plan.driven, drive)
+    if plan.infeasible:
+        raise ValueError(why_infeasible(mechanism, plan.infeasible))
     asked = _tolerance(tolerance)
     if method not in METHODS:
         raise ValueError(f"there is no method {method!r} among {', '.join(METHODS)}{closest(method, METHODS)}")
     _warn_of_float32()
-    elements = prepared.elements if values[0].shape[0] else ()
+    elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     solutions = [
         solve(element.system, method, element.joints, _padded([followed[i] for i in element.inputs]), asked)
@@ -72,18 +72,18 @@ def sweep(
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
-    layout = Layout(prepared.freedoms, tuple(prepared.driven.values()), columns)
+    layout = Layout(plan.freedoms, tuple(plan.driven.values()), columns)
     inputs, moved, resting, *found = _collect(layout, values, finite, solutions)
     displacements = tuple(
-        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(prepared.freedoms)
+        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(plan.freedoms)
     )
     # under `grad` JAX hands arrays of the host through as they are
-    return Motion(mechanism, dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True)), displacements, *found)
+    return Motion(mechanism, dict(zip(plan.driven, map(jnp.asarray, inputs), strict=True)), displacements, *found)
 
 
 def _of_least_residual(
-    elements: Sequence[Element], solutions: Sequence[Solution], asked: Tolerance
-) -> tuple[list[Element], list[Solution]]:
+    elements: Sequence[DrivenElement], solutions: Sequence[Solution], asked: Tolerance
+) -> tuple[list[DrivenElement], list[Solution]]:
     """Elements with what was found, that of ideal joints replaced by the poses of least residual of those given."""
     every, found = list(elements), list(solutions)
     for number, (element, (rows, outcome)) in enumerate(zip(elements, solutions, strict=True)):

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
+from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure import spatial
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.execution.programs import _solve, solve
-from jaxkin.solve.system.loop_system import Form
 from jaxkin.solve.system.state import assembled
 from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
 
@@ -61,10 +61,10 @@ def test_loops_that_do_not_move_are_absent(solved):
     assert operations(_solve, *among[0]) == operations(_solve, *alone[0])
 
 
-def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None) -> float:
+def closures(mechanism: Mechanism, solved, joint: str, form: LoopClass | None = None) -> float:
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
     ((system, _, joints, *_),) = solved(mechanism, {joint: RANGE})
-    system = system if form is None else replace(system, form=form)
+    system = system if form is None else replace(system, loop_class=form)
     geometry, _ = loop_geometry(system, *joints)
     # the travel along a loop written out: XLA counts the body of a loop once
     with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):
@@ -74,7 +74,7 @@ def closures(mechanism: Mechanism, solved, joint: str, form: Form | None = None)
 @pytest.mark.long
 def test_equations_that_a_planar_loop_lacks_are_absent(solved):
     """The same four-bar in its plane and in space."""
-    assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", Form())
+    assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", LoopClass())
 
 
 @pytest.mark.long
@@ -82,7 +82,7 @@ def test_turns_of_balls_are_absent_where_there_is_none(solved):
     """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
     hinges, cut, whole = (
         closures(mechanism, solved, "A", form)
-        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), Form()))
+        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), LoopClass()))
     )
     assert hinges < 0.75 * whole and cut < 0.75 * whole
 

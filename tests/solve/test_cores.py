@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.mechanism.drive_plan import prepare
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.execution import cores as pieces
 from reference.mechanisms import planar_fourbar, rssr_linkage
@@ -87,7 +87,7 @@ def test_settings_of_a_thread_hold_in_those_of_its_pieces(monkeypatch):
 
 def test_how_many_pieces(monkeypatch):
     monkeypatch.setattr(pieces, "_cores", lambda: 8)
-    (element,) = prepare(planar_fourbar().linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar().linkage, ("A",)).elements
     assert pieces.pieces(element.system, pieces.LEAST - 1) == 1
     assert pieces.pieces(element.system, 3 * pieces.LEAST) == 3
     assert pieces.pieces(element.system, 100 * pieces.LEAST) == 8

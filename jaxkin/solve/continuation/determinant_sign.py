@@ -14,12 +14,12 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.least_norm import Matrix
-from jaxkin.solve.system.equation_blocks import Block
+from jaxkin.solve.system.equation_blocks import EquationBlock
 
 Square = Float[Array, "n n poses"]
 
 
-def turned(before: Matrix, after: Matrix, blocks: Sequence[Block]) -> Float[Array, "blocks poses"]:
+def turned(before: Matrix, after: Matrix, blocks: Sequence[EquationBlock]) -> Float[Array, "blocks poses"]:
     """The determinant of each block of the Jacobian over the one before: negative where it has changed its sign.
 
     Where a block is not square those of `J0^T J1` and `J0^T J0`, or of `J0 J1^T` and `J0 J0^T`; a little on the

@@ -27,7 +27,7 @@ from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_lane
 from jaxkin.solve.linear.least_norm import solve_blocks
 from jaxkin.solve.status import Status, classify, is_closed, roundings
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, difference, drive, driven_rate, rate, retract
 
@@ -99,7 +99,7 @@ def start(system: LoopSystem, lanes: int, dtype) -> Front:
         nothing,
         nothing,
         jnp.ones(lanes, dtype),
-        jnp.ones((len(blocks(system)), lanes), dtype),
+        jnp.ones((len(equation_blocks(system)), lanes), dtype),
         jnp.zeros(lanes, bool),
         jnp.zeros(lanes, bool),
         jnp.full(lanes, FIRST_STEP, dtype),
@@ -156,7 +156,7 @@ def substep(
     # following: near the prediction, or, without one, within a tiny step
     deviation = difference(found.state, predicted)
     jacobian = found.closure.jacobian
-    turn = turned(front.jacobian, jacobian, blocks(system))
+    turn = turned(front.jacobian, jacobian, equation_blocks(system))
     # a determinant that falls to zero on the way, but has kept its sign, may have passed a gap
     falls = front.has_before & (1 + (1 - 1 / front.turned) * moved / front.width < 0)
     crossed = jnp.any((turn < 0) | falls, axis=0) & (distance > CROSSING)
@@ -255,4 +255,4 @@ def slopes(
     """Change of all coordinates while the inputs change in a direction."""
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), blocks(system))
+    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), equation_blocks(system))

@@ -27,7 +27,7 @@ from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_lane
 from jaxkin.solve.linear.least_norm import inverse
 from jaxkin.solve.status import roundings, tolerance
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
 
@@ -118,7 +118,7 @@ def _solve_nodes(
     state = drive(system, begin.state, values[None])
     state, closed, _ = newton(system, geometry, state, roundings(values.dtype, CLOSED))
     middles = closed.jacobian[..., len(NODES) // 2 :: len(NODES)]
-    back = inverse(middles, floor(values.dtype), blocks(system))
+    back = inverse(middles, floor(values.dtype), equation_blocks(system))
     basis = jnp.asarray(_coefficients(), values.dtype)
 
     def polynomial(x: Array, d: Array) -> Array:
