@@ -20,7 +20,8 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
-from jaxkin.mechanism.motion import Motion, placed
+from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import spoilt, sweep
 from jaxkin.solve.status import Status
 
@@ -138,7 +139,7 @@ class Stream:
     def _same(self, one: _Pose, other: _Pose) -> bool:
         """Whether all parts are at the same places, both times closed on the branch of the assembled pose."""
         both = tuple(np.stack(pair) for pair in zip(one.displacements, other.displacements, strict=True))
-        for transforms in map(np.asarray, placed(self.mechanism, both)):
+        for transforms in map(np.asarray, part_transforms(self.mechanism.linkage, both)):
             rotation, shift = transforms[1, :3, :3] - transforms[0, :3, :3], transforms[1, :3, 3] - transforms[0, :3, 3]
             moved = rotation @ self._centre + shift
             if not max(np.abs(rotation).max(), np.abs(moved).max() / self._size) <= SAME:
