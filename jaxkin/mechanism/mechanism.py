@@ -15,7 +15,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.loop_class import forms
-from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.system.loop_system import Form
 from jaxkin.topology.structure import Structure, structure
 
@@ -114,20 +114,27 @@ class Mechanism:
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
     def sweep(
-        self, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+        self,
+        drive: Mapping[str, object],
+        *,
+        options: SolverOptions | None = None,
+        tolerance: float | None = None,
+        method: str | None = None,
+        throw: bool = False,
     ) -> Motion:
         """The motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
         from jaxkin.mechanism.sweep import sweep
 
-        return sweep(self, drive, tolerance=tolerance, method=method)
+        return sweep(self, drive, options=options, tolerance=tolerance, method=method, throw=throw)
 
     def stream(
         self,
         drive: Mapping[str, object],
         chunk: int = 100_000,
         *,
+        options: SolverOptions | None = None,
         tolerance: float | None = None,
-        method: str = CONTINUATION,
+        method: str | None = None,
     ) -> Stream:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
 
@@ -140,7 +147,7 @@ class Mechanism:
         """
         from jaxkin.mechanism.stream import Stream
 
-        return Stream(self, drive, chunk, tolerance, method)
+        return Stream(self, drive, chunk, options_with(options, tolerance, method))
 
     @cached_property
     def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:
