@@ -11,6 +11,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.examples import EXAMPLES, path
+from jaxkin.linkage.linkage import Linkage
 from reference import planar
 
 TURN = np.linspace(0.0, 2 * np.pi, 3600)
@@ -106,7 +107,7 @@ def test_a_gradient_through_the_whole_path():
         after = jnp.asarray(pin.after)
         after = after.at[0, :3, 3].add(after[0, :3, :2] @ shift)
         joints[index] = jk.Joint(pin.name, pin.parts, pin.kind, pin.movements, pin.before, after, pin.pitch)
-        moved = jk.Mechanism(tuple(joints), mechanism.structure)
+        moved = jk.Mechanism(Linkage.of(joints, mechanism.structure))
         rocker = moved.sweep({"ground-crank": angles}).coordinates["ground-rocker"][:, 0]
         return jnp.max(rocker) - jnp.min(rocker)
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
+from jaxkin.assembly.needless import Found, found_spinning
+from jaxkin.assembly.spinning import Spin
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.joint import Joint, joint
-from jaxkin.mobility.needless import Found, found_spinning
-from jaxkin.mobility.spinning import Spin
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import structure
 
 if TYPE_CHECKING:
@@ -40,13 +41,12 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
             contacts[name] = (*contacts.get(name, ()), *mechanism.contacts[each.name])
         else:
             dropped += mechanism.contacts[each.name]
-    notes = (*mechanism.notes, *_notes(mechanism, resting, found))
+    history = (*mechanism.history, *_notes(mechanism, resting, found))
     if not resting:
-        return replace(mechanism, notes=notes)
+        return replace(mechanism, history=history)
     described = [(each.name, *each.parts) for each in joints]
-    structured = structure(mechanism.parts, described, mechanism.fixed)
-    mechanism = replace(mechanism, all_joints=tuple(joints), structure=structured, notes=notes)
-    return replace(mechanism, contacts=contacts, contacts_at_rest=tuple(dropped))
+    linkage = Linkage.of(joints, structure(mechanism.parts, described, mechanism.fixed))
+    return replace(mechanism, linkage=linkage, history=history, contacts=contacts, contacts_at_rest=tuple(dropped))
 
 
 def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:

@@ -10,13 +10,15 @@ import numpy as np
 
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact, Contacts
-from jaxkin.geometry.fit_uncertainty import doubt
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
+from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.regularise import Noise
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.topology.bodies import bodies
@@ -73,7 +75,7 @@ def mechanism_from_solids(
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
     told = (*_left_out(len(contacts) - len(used), replaced, by_hand, body), *_told(contacts))
-    return replace(mechanism, notes=(*told, *mechanism.notes))
+    return replace(mechanism, history=(*told, *mechanism.history))
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
@@ -108,17 +110,13 @@ def _joined(
     found = joints_from_contacts(contacts, parts, combine, noise, body, begun.joints)
     structured = structure(parts, [(each.name, *each.parts) for each in found.joints], fixed)
     notes = (*found.notes, *_aligned(found, begun.unit))
-    mechanism = Mechanism(found.joints, structured, begun.unit, begun.solids, notes, found.contacts)
+    linkage = Linkage.of(found.joints, structured)
+    mechanism = Mechanism(linkage, begun.unit, begun.solids, notes, contacts=found.contacts)
+    if combine:
+        mechanism = left_at_rest(mechanism)
     most = max(SIX_DIGITS, noise.angle) if align is None else asked_noise(align)
-    return aligned(left_at_rest(mechanism) if combine else mechanism, most)
-
-
-def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
-    """The noise of single precision; more where surfaces were fitted to few corners that are near to each other."""
-    faces = {(part.name, face.name): (face, part.grain) for part in parts if part.grain for face in part.faces}
-    touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))
-    doubts = [doubt(*faces[key]) for key in touching if key in faces]
-    return Noise.of(contacts).with_doubt(*np.max(doubts, axis=0, initial=0.0)) if doubts else Noise.of(contacts)
+    linkage, alignment = aligned(mechanism.linkage, most, begun.unit)
+    return with_spinning(replace(mechanism, linkage=linkage, alignment=alignment))
 
 
 def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:

@@ -37,7 +37,10 @@ def print_contacts(assembly: Assembly, contacts: Contacts) -> None:
 def print_mechanism(mechanism: Mechanism, contacts: Contacts) -> None:
     """Joints, loops, mobility and notes, but for the notes that were told with the contacts."""
     said = {*map(str, contacts.near_misses), *contacts.notes}
-    say(str(replace(mechanism, notes=tuple(note for note in mechanism.notes if note not in said))))
+    history, alignment = (
+        tuple(note for note in notes if note not in said) for notes in (mechanism.history, mechanism.alignment)
+    )
+    say(str(replace(mechanism, history=history, alignment=alignment)))
 
 
 def print_structure(mechanism: Mechanism) -> None:

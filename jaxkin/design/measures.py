@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._names import nearest
 from jaxkin.dimensions.lengths import find_length
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:
@@ -38,7 +42,7 @@ def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
 
 def length_now(mechanism: Mechanism, key: tuple[str, ...]):
     """The value of a length by any key that `with_lengths` knows; ValueError where there is none."""
-    find_length(mechanism, key)
+    find_length(mechanism.linkage, key)
     row = mechanism.structure.row_of.get(key[0], key[0])
     same = (row, *key[1:])
     return mechanism.lengths[same if same in mechanism.lengths else (row, *key[1:3][::-1], *key[3:])]

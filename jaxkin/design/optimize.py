@@ -6,7 +6,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import jax
 import jax.numpy as jnp
@@ -20,8 +20,10 @@ from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 POOL = 8
 """So many designs are drawn for each start, and the best of them begin."""

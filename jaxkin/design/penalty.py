@@ -26,7 +26,7 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
     """
     mechanism = motion.mechanism
     held = [lax.stop_gradient(displacement) for displacement in motion.displacements]
-    for entry in resolve(mechanism, motion.inputs).values():
+    for entry in resolve(mechanism.linkage, motion.inputs).values():
         values = jnp.where(jnp.isfinite(entry.values), entry.values, 0.0)
         held[entry.joint] = held[entry.joint].at[:, entry.coordinate].set(values)
     square = jnp.zeros(len(motion))

@@ -6,18 +6,21 @@ import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from jaxkin._files import whole
 from jaxkin.design.objectives import Objective
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import whole
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 POSES, PIECE = 361, 32
 """Of the range, and at least of what is swept at once."""
@@ -182,7 +185,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         for kind in ("drive", "extra")
     }
     return Optimum(
-        mechanism=Mechanism(joints, structure, text["unit"]),
+        mechanism=Mechanism(Linkage.of(joints, structure), text["unit"]),
         **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
         **{name: arrays[name] for name in ("history", "losses", "violations")},
         extras=named["extra"],

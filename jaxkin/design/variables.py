@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -12,7 +12,9 @@ from jaxtyping import Float
 from jaxkin.design.measures import length_now
 from jaxkin.dimensions.frames import locate
 from jaxkin.dimensions.lengths import find_length
-from jaxkin.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Vector = Float[np.ndarray, " variables"]
 
@@ -110,7 +112,7 @@ def variables(
     """The variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no sense."""
     entries, fixed = [], {}
     for key, bounds in lengths.items():
-        length = find_length(mechanism, key)
+        length = find_length(mechanism.linkage, key)
         now = length_now(mechanism, key)
         least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
         entry = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
@@ -118,7 +120,7 @@ def variables(
             raise ValueError(f"length {key!r}: the lower bound {float(entry.lower)} is negative, and a length is not")
         entries.append(entry)
     for key, bounds in points.items():
-        column, side = locate(mechanism, key)
+        column, side = locate(mechanism.linkage, key)
         joint = mechanism.all_joints[column]
         now = np.asarray((joint.after[-1] if side == "after" else joint.before[0])[:3, 3], float)
         entries.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
@@ -183,9 +185,9 @@ def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) 
             raise ValueError(f"tie of {key!r}: it is a variable of its own; give it in lengths or points, or in ties")
         group = entries[known.index(source)].group
         if group == "lengths":
-            find_length(mechanism, key)
+            find_length(mechanism.linkage, key)
         elif group == "points":
-            locate(mechanism, key)
+            locate(mechanism.linkage, key)
         followers.setdefault(source, []).append((key, change))
     return tuple(
         _Entry(**{**entry.__dict__, "ties": tuple(followers.get(entry.key, ()))}) if entry.key in followers else entry

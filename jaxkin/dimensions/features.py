@@ -8,12 +8,10 @@ mechanism: the round surface that rolls and slides, whose length is a radius.
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 from jaxkin.joints.joint import Joint
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 
 Side = Literal["before", "after"]
 Kind = Literal["point", "axis", "plane"]
@@ -71,11 +69,11 @@ _BETWEEN: dict[str, tuple[str | None, ...]] = {
 }
 
 
-def part_features(mechanism: Mechanism) -> dict[str, tuple[Feature, ...]]:
+def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
     """For each row of the incidence matrix (all fixed parts are one) its features, in the order of the joints."""
-    row_of = mechanism.structure.row_of
-    found: dict[str, list[Feature]] = {row: [] for row in mechanism.structure.parts}
-    for column, joint in enumerate(mechanism.all_joints):
+    row_of = linkage.structure.row_of
+    found: dict[str, list[Feature]] = {row: [] for row in linkage.structure.parts}
+    for column, joint in enumerate(linkage.joints):
         rows = [row_of[part] for part in joint.parts]
         if rows[0] == rows[1] or joint.movements == ("I",):
             continue
@@ -84,11 +82,11 @@ def part_features(mechanism: Mechanism) -> dict[str, tuple[Feature, ...]]:
     return {row: tuple(features) for row, features in found.items()}
 
 
-def length_table(mechanism: Mechanism) -> dict[Key, Length]:
+def length_table(linkage: Linkage) -> dict[Key, Length]:
     """All lengths of a mechanism by name; see `Mechanism.lengths`. It depends on the structure only."""
     table: dict[Key, Length] = {}
-    names = [joint.name for joint in mechanism.all_joints]
-    for row, features in part_features(mechanism).items():
+    names = [joint.name for joint in linkage.joints]
+    for row, features in part_features(linkage).items():
         for i, j in combinations(range(len(features)), 2):
             one, two = features[i], features[j]
             table[row, names[one.joint], names[two.joint]] = Length(features, i, j, "distance")
@@ -98,7 +96,7 @@ def length_table(mechanism: Mechanism) -> dict[Key, Length]:
                 if _has_offset(features[a], features[b]):
                     key = (row, names[features[a].joint], names[features[b].joint], "offset")
                     table[key] = Length(features, a, b, "offset")
-    for column, joint in enumerate(mechanism.all_joints):
+    for column, joint in enumerate(linkage.joints):
         for i, name in enumerate(_BETWEEN.get(joint.kind, ())):
             filled = joint.kind == "contact j" and joint.movements[0] == "T_z"  # the ball's centre is on the axis
             if name is None or i + 1 >= len(joint.movements) or filled:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
@@ -12,25 +12,20 @@ import numpy as np
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.loop_class import with_joints
-from jaxkin.mobility.alignment import aligned, asked_noise
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 
 Place = str | tuple[str, str]
 
 
-def with_frames(mechanism: Mechanism, frames: Mapping[Any, Any], align: float | int | None) -> Mechanism:
-    """The mechanism with some joint frames given anew: see `Mechanism.with_frames`."""
-    noise = asked_noise(align)
+def with_frames(linkage: Linkage, frames: Mapping[Any, Any]) -> Linkage:
+    """Give some joint frames anew: see `Mechanism.with_frames`."""
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():
-        mechanism = _placed(mechanism, place, _pose(place, pose), lambda _, new: new)
-    return aligned(mechanism, noise)
+        linkage = _placed(linkage, place, _pose(place, pose), lambda _, new: new)
+    return linkage
 
 
-def with_points(mechanism: Mechanism, points: Mapping[Any, Any]) -> Mechanism:
-    """The mechanism with some joints moved to given points: see `Mechanism.with_points`."""
+def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
+    """Move some joints to given points: see `Mechanism.with_points`."""
 
     def moved(pose, point):
         xp = jnp if traced(pose, point) else np
@@ -43,13 +38,13 @@ def with_points(mechanism: Mechanism, points: Mapping[Any, Any]) -> Mechanism:
             point = np.asarray(point, float)
             if point.shape != (3,) or not np.all(np.isfinite(point)):
                 raise ValueError(f"the point of {place!r} must be three finite numbers (x, y, z), got {given!r}")
-        mechanism = _placed(mechanism, place, point, moved)
-    return mechanism
+        linkage = _placed(linkage, place, point, moved)
+    return linkage
 
 
-def _placed(mechanism: Mechanism, place: Place, given, change) -> Mechanism:
-    column, side = locate(mechanism, place)
-    joint = mechanism.all_joints[column]
+def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
+    column, side = locate(linkage, place)
+    joint = linkage.joints[column]
     if side is None and len(joint.movements) > 1:
         choices = " or ".join(repr((part, joint.name)) for part in joint.parts)
         raise ValueError(
@@ -61,19 +56,19 @@ def _placed(mechanism: Mechanism, place: Place, given, change) -> Mechanism:
         poses[end] = change(poses[end], given)
         stacked = (jnp if traced(poses) else np).stack(poses)
         joint = replace(joint, before=stacked) if each == "before" else replace(joint, after=stacked)
-    joints: list[Joint] = list(mechanism.all_joints)
+    joints: list[Joint] = list(linkage.joints)
     joints[column] = joint
-    return with_joints(mechanism, joints)
+    return linkage.with_joints(joints)
 
 
-def locate(mechanism: Mechanism, place: Place) -> tuple[int, str | None]:
+def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
     """The column of a joint, and which copy of its frame: None for both. Raises ValueError for unknown names."""
     part, name = (None, place) if isinstance(place, str) else place
-    names = list(mechanism.joints)
+    names = linkage.structure.joints
     if name not in names:
         raise ValueError(f"there is no joint {name!r}{nearest(name, names)}")
     column = names.index(name)
-    parts = mechanism.all_joints[column].parts
+    parts = linkage.joints[column].parts
     if part is None:
         return column, None
     if part not in parts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -16,10 +16,7 @@ from jaxkin.dimensions.feature_geometry import between, moved, value
 from jaxkin.dimensions.features import Feature, Key, Length, length_table
 from jaxkin.dimensions.rearrange import Change, Layout, arrange
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.loop_class import with_joints
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 
 MISFIT = 1e-9
 """Largest error of a length, relative to the size of its part, at which lengths are said to hold together."""
@@ -27,36 +24,36 @@ MISFIT = 1e-9
 _ORDER = ("angle", "distance", "radius", "offset")
 
 
-def lengths(mechanism: Mechanism) -> dict[Key, float | jax.Array]:
+def lengths(linkage: Linkage) -> dict[Key, float | jax.Array]:
     """The values of all lengths by name: see `Mechanism.lengths`."""
-    table = length_table(mechanism)
-    xp = jnp if traced(mechanism) else np
-    return {key: _number(_measured(xp, mechanism, length)) for key, length in table.items()}
+    table = length_table(linkage)
+    xp = jnp if traced(linkage) else np
+    return {key: _number(_measured(xp, linkage, length)) for key, length in table.items()}
 
 
 def _number(quantity):
     return quantity if isinstance(quantity, jax.Array) else float(quantity)
 
 
-def _measured(xp, mechanism: Mechanism, length: Length):
+def _measured(xp, linkage: Linkage, length: Length):
     if length.quantity == "pitch":
-        return mechanism.all_joints[length.first].pitch
+        return linkage.joints[length.first].pitch
     one, two = length.body[length.first], length.body[length.second]
-    pose1, pose2 = (_pose(xp, mechanism, feature) for feature in (one, two))
+    pose1, pose2 = (_pose(xp, linkage, feature) for feature in (one, two))
     return value(between(xp, one, pose1, two, pose2), length.quantity)
 
 
-def _pose(xp, mechanism: Mechanism, feature: Feature):
-    return xp.asarray(getattr(mechanism.all_joints[feature.joint], feature.side)[feature.frame])
+def _pose(xp, linkage: Linkage, feature: Feature):
+    return xp.asarray(getattr(linkage.joints[feature.joint], feature.side)[feature.frame])
 
 
-def find_length(mechanism: Mechanism, key: object) -> Length:
+def find_length(linkage: Linkage, key: object) -> Length:
     """The length of that name, its two joints in the order given. Raises ValueError with the nearest names."""
-    table = length_table(mechanism)
+    table = length_table(linkage)
     if not isinstance(key, tuple) or not all(isinstance(name, str) for name in key):
         example = next(iter(table), ("coupler", "B", "C"))
         raise ValueError(f"a length is named by a part and two of its joints, as {example!r}, got {key!r}")
-    row = mechanism.structure.row_of.get(key[0], key[0])
+    row = linkage.structure.row_of.get(key[0], key[0])
     same = (row, *key[1:])
     if same in table:
         return table[same]
@@ -64,24 +61,24 @@ def find_length(mechanism: Mechanism, key: object) -> Length:
     if len(key) >= 3 and key[3:] != ("offset",) and turned in table:
         length = table[turned]
         return length._replace(first=length.second, second=length.first)
-    raise ValueError(_unknown(mechanism, key, row, table))
+    raise ValueError(_unknown(linkage, key, row, table))
 
 
-def _unknown(mechanism: Mechanism, key: Key, row: str, table: dict[Key, Length]) -> str:
+def _unknown(linkage: Linkage, key: Key, row: str, table: dict[Key, Length]) -> str:
     start = f"there is no length {key!r}"
-    joints = list(mechanism.joints)
-    if row not in mechanism.structure.parts and row not in joints:
-        return f"{start}: no part {key[0]!r}{nearest(key[0], [*mechanism.parts])}"
-    for name in key[1:3] if row in mechanism.structure.parts else ():
+    joints = list(linkage.structure.joints)
+    if row not in linkage.structure.parts and row not in joints:
+        return f"{start}: no part {key[0]!r}{nearest(key[0], [*linkage.parts])}"
+    for name in key[1:3] if row in linkage.structure.parts else ():
         if name not in joints:
             return f"{start}: no joint {name!r}{nearest(name, joints)}"
     known = [repr(known) for known in table if known[0] == row]
     return f"{start}; of {row!r} there are: {', '.join(known) or 'none'}"
 
 
-def with_lengths(mechanism: Mechanism, changes: Mapping[Any, Any]) -> Mechanism:
+def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
     """The mechanism with some lengths changed: see `Mechanism.with_lengths`."""
-    changed, misfits = rearranged(mechanism, changes)
+    changed, misfits = rearranged(linkage, changes)
     for row, misfit in misfits.items():
         if not traced(misfit):
             if not float(misfit) <= MISFIT:
@@ -96,15 +93,15 @@ def with_lengths(mechanism: Mechanism, changes: Mapping[Any, Any]) -> Mechanism:
             spoilt = jnp.where(misfit <= MISFIT, 0.0, jnp.nan)
             joints = [
                 replace(joint, before=joint.before + spoilt)
-                if row in [mechanism.structure.row_of[part] for part in joint.parts]
+                if row in [linkage.structure.row_of[part] for part in joint.parts]
                 else joint
-                for joint in changed.all_joints
+                for joint in changed.joints
             ]
-            changed = replace(changed, all_joints=tuple(joints), ideal=())
+            changed = changed.with_joints(joints)
     return changed
 
 
-def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechanism, dict[str, jax.Array]]:
+def rearranged(linkage: Linkage, changes: Mapping[Any, Any]) -> tuple[Linkage, dict[str, np.floating | jax.Array]]:
     """The mechanism with some lengths changed, and for each part with three joints or more what they miss by.
 
     Where the lengths asked for and those to be kept cannot hold together, the nearest place of the joints is given, and
@@ -114,7 +111,7 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
     pitches: dict[int, Any] = {}
     named: dict[Length, Any] = {}
     for key, wanted in by_name(changes, "lengths", "{('coupler', 'B', 'C'): 3.6}").items():
-        length = find_length(mechanism, key)
+        length = find_length(linkage, key)
         wanted = _checked(key, length, wanted)
         same = length._replace(first=min(length[1:3]), second=max(length[1:3]))
         same = length if length.quantity == "offset" else same
@@ -126,12 +123,12 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
             pitches[length.first] = np.array(wanted, float) if plain else jnp.asarray(wanted, float) + 0.0
         else:
             bodies.setdefault(length.body, []).append((length, wanted))
-    xp = jnp if traced(mechanism, *(wanted for group in bodies.values() for _, wanted in group)) else np
+    xp = jnp if traced(linkage, *(wanted for group in bodies.values() for _, wanted in group)) else np
     frames: dict[tuple[int, str, int], Any] = {}
-    misfits: dict[str, jax.Array] = {}
+    misfits: dict[str, np.floating | jax.Array] = {}
     for body, group in bodies.items():
         group.sort(key=lambda entry: _ORDER.index(entry[0].quantity))
-        poses = [_pose(xp, mechanism, feature) for feature in body]
+        poses = [_pose(xp, linkage, feature) for feature in body]
         original = xp.stack(poses)
         for length, wanted in group:
             one, two = body[length.first], body[length.second]
@@ -143,18 +140,18 @@ def rearranged(mechanism: Mechanism, changes: Mapping[Any, Any]) -> tuple[Mechan
             layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length, _ in group))
             targets = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
             moved_poses, misfit = arrange(xp, layout, original, xp.stack(poses), targets)
-            poses, misfits[_row(mechanism, body)] = list(moved_poses), misfit
+            poses, misfits[_row(linkage, body)] = list(moved_poses), misfit
         frames.update({(f.joint, f.side, f.frame): pose for f, pose in zip(body, poses, strict=True)})
     joints = [
         _with_frames(joint, {key[1:]: pose for key, pose in frames.items() if key[0] == column}, pitches.get(column))
-        for column, joint in enumerate(mechanism.all_joints)
+        for column, joint in enumerate(linkage.joints)
     ]
-    return with_joints(mechanism, joints), misfits
+    return linkage.with_joints(joints), misfits
 
 
-def _row(mechanism: Mechanism, body: tuple[Feature, ...]) -> str:
-    joint = mechanism.all_joints[body[0].joint]
-    return mechanism.structure.row_of[joint.parts[0 if body[0].side == "before" else 1]]
+def _row(linkage: Linkage, body: tuple[Feature, ...]) -> str:
+    joint = linkage.joints[body[0].joint]
+    return linkage.structure.row_of[joint.parts[0 if body[0].side == "before" else 1]]
 
 
 def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint:

@@ -7,16 +7,18 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import numpy as np
 
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.options import CONTINUATION, METHODS, SolverOptions, options_with
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)
 TIGHTEST_32 = 1e-6
@@ -167,7 +169,7 @@ class _ExactPoses:
 
     def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
         self.chosen, self.blocks = chosen, []
-        driven = [coordinate(mechanism, name) for name in motion.inputs]
+        driven = [coordinate(mechanism.linkage, name) for name in motion.inputs]
         for block in mechanism.structure.blocks:
             columns = [(joint, k) for joint in block.joints for k in range(mechanism.all_joints[joint].freedoms)]
             free = [number for number, column in enumerate(columns) if column not in driven]

@@ -7,16 +7,18 @@ steps with the Jacobian in float64 gain some ten digits each.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import Block
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 DIGITS = 50
 """Decimal digits: the error of the reference is then nothing beside that of float64, also at singular poses."""
@@ -44,7 +46,7 @@ class Extended:
         self.mp.dps = DIGITS
         self.block, self.free = block, list(free)
         self.joints = {index: mechanism.all_joints[index] for index in block.joints}
-        self.loops = ClosedLoops(mechanism, block)
+        self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, block)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
@@ -18,6 +18,9 @@ from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    pass
 
 Inputs = dict[str, Float[Array, " poses"]]
 
@@ -135,7 +138,7 @@ def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
                 f"{tuple(value.shape)}"
             )
         given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
-    driven = resolve(motion.mechanism, given) if given else {}
+    driven = resolve(motion.mechanism.linkage, given) if given else {}
     given_rates = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
     for name in given_rates:
         if name not in motion.inputs:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jaxkin.mechanism.writers import whole
+from jaxkin._files import whole
 
 if TYPE_CHECKING:
     from jaxkin.effects.accuracy import WorkPrecision

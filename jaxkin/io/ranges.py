@@ -58,7 +58,7 @@ def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, V
             raise ValueError(
                 f"drive {key!r}: pose {wrong[0]} is {given.values[wrong[0]]}; all displacements must be finite numbers"
             )
-    names = resolve(mechanism, {name: given.values for name, given in ranges.items()})
+    names = resolve(mechanism.linkage, {name: given.values for name, given in ranges.items()})
     return {
         name: given.values * _factor(key, name, given.unit, mechanism.unit)
         for name, (key, given) in zip(names, ranges.items(), strict=True)

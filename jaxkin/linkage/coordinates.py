@@ -12,7 +12,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 
 Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
 """Displacements, one a pose: on the host where they are numbers."""
@@ -26,13 +26,13 @@ class Driven(NamedTuple):
     values: Given
 
 
-def resolve(mechanism: Mechanism, drive: Mapping[str, object]) -> dict[str, Driven]:
+def resolve(linkage: Linkage, drive: Mapping[str, object]) -> dict[str, Driven]:
     """The driven coordinates by their full names "joint.coordinate", in the order given.
 
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
     and a ball of which only some angles are driven. NaN and infinity are the status of their poses.
     """
-    driven = coordinates(mechanism, named(drive))
+    driven = coordinates(linkage, named(drive))
     given = given_values(driven, drive)
     return {name: Driven(*place, values) for (name, place), values in zip(driven.items(), given, strict=True)}
 
@@ -42,18 +42,18 @@ def named(drive: Mapping[str, object]) -> tuple[str, ...]:
     return tuple(by_name(drive, "driven displacements", "{'A': angles}"))
 
 
-def coordinates(mechanism: Mechanism, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
+def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
     """(joint, coordinate) that the names of a drive mean, by their full names; ValueError as in `resolve`."""
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
     driven: dict[str, tuple[int, int]] = {}
     for key in keys:
-        joint, index = coordinate(mechanism, key)
-        name = f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[index]}"
+        joint, index = coordinate(linkage, key)
+        name = f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[index]}"
         if name in driven:
             raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
         driven[name] = joint, index
-    _whole_balls(mechanism, driven.values())
+    _whole_balls(linkage, driven.values())
     return driven
 
 
@@ -87,13 +87,13 @@ def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Arra
     return tuple(found), finite
 
 
-def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
+def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
     """The joint and the coordinate that a name "joint" or "joint.coordinate" means; ValueError where it means none."""
-    names = [joint.name for joint in mechanism.all_joints]
+    names = [joint.name for joint in linkage.joints]
     if not isinstance(key, str):
         raise ValueError(f"a drive names 'joint' or 'joint.coordinate', as in {{{names[0]!r}: angles}}, got {key!r}")
     if key in names:
-        joint = mechanism.all_joints[names.index(key)]
+        joint = linkage.joints[names.index(key)]
         if joint.freedoms != 1:
             choices = [
                 " with ".join(repr(f"{key}.{joint.coordinates[index]}") for index in group)
@@ -105,19 +105,19 @@ def coordinate(mechanism: Mechanism, key: str) -> tuple[int, int]:
         return names.index(key), 0
     name, _, part = key.rpartition(".")
     if name in names:
-        joint = mechanism.all_joints[names.index(name)]
+        joint = linkage.joints[names.index(name)]
         if part not in joint.coordinates:
             known = ", ".join(joint.coordinates) or "none"
             raise ValueError(f"joint {name!r} ({joint.kind}) has no coordinate {part!r}; it has: {known}")
         return names.index(name), joint.coordinates.index(part)
-    if len(pair := _pair(mechanism, name or key)) > 1:
+    if len(pair := _pair(linkage, name or key)) > 1:
         raise ValueError(f"{key!r}: there are several joints between these parts, name one of {', '.join(pair)}")
     raise ValueError(f"there is no joint {key!r} to drive{nearest(name if '.' in key and name else key, names)}")
 
 
-def _pair(mechanism: Mechanism, name: str) -> list[str]:
+def _pair(linkage: Linkage, name: str) -> list[str]:
     """Names of parallel joints "p-q:a", "p-q:e" for the name "p-q" of their pair of parts."""
-    return [repr(joint.name) for joint in mechanism.all_joints if joint.name.rpartition(":")[0] == name]
+    return [repr(joint.name) for joint in linkage.joints if joint.name.rpartition(":")[0] == name]
 
 
 def _values(key: str, values: Any) -> Given:
@@ -139,9 +139,9 @@ def _values(key: str, values: Any) -> Given:
     return values
 
 
-def _whole_balls(mechanism: Mechanism, driven: Collection[tuple[int, int]]) -> None:
+def _whole_balls(linkage: Linkage, driven: Collection[tuple[int, int]]) -> None:
     """A ball's angles are one rotation: all three are driven or none."""
-    for index, joint in enumerate(mechanism.all_joints):
+    for index, joint in enumerate(linkage.joints):
         for group in joint.driven_together:
             if 0 < sum((index, c) in driven for c in group) < len(group):
                 names = [f"{joint.name}.{joint.coordinates[c]}" for c in group]

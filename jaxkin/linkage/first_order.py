@@ -34,6 +34,9 @@ LARGEST_DOUBT = 0.03
 """Singular values above this, over the largest, hold the loops whatever the error of the frames: those of sound designs
 are larger."""
 
+EQUATIONS = 6
+"""Independent closure equations of a loop at most, of the twelve of Eq. 11: three of rotation, three of translation."""
+
 Columns = Sequence[tuple[int, int]]
 """(joint, coordinate) of each column."""
 

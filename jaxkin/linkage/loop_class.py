@@ -1,10 +1,8 @@
-"""What is special about the loops of a mechanism, found while its frames are numbers: see `Form`."""
+"""What is special about the loops of a linkage, found while the frames of its joints are numbers: see `Form`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import jax
 import numpy as np
@@ -14,25 +12,22 @@ from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import plane_columns, turn_about_one_direction
 from jaxkin.linkage.rods import idle_spins
 from jaxkin.solve.system.loop_system import Form
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.topology.structure import Structure
 
 
-def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
-    """The form of each structure element; None where the frames are traced, or those of many mechanisms."""
-    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in mechanism.solved_joints):
+def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[Form, ...] | None:
+    """The class of each loop group; None where the frames are traced, or those of many mechanisms."""
+    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in joints):
         return None
-    joints = mechanism.solved_joints
     if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
-        joints = jax.lax.stop_gradient(joints)
+        joints = jax.lax.stop_gradient(tuple(joints))
     if any(traced(joint) or joint.before.ndim != 3 for joint in joints):
         return None
-    row_of = mechanism.structure.row_of
-    fixed = row_of[mechanism.fixed[0]]
-    bodies = {part: fixed if part in mechanism.fixed else row for part, row in row_of.items()}
+    row_of = structure.row_of
+    fixed = row_of[structure.fixed[0]]
+    bodies = {part: fixed if part in structure.fixed else row for part, row in row_of.items()}
     found = []
-    for block in mechanism.structure.blocks:
+    for block in structure.blocks:
         inside = [joints[joint] for joint in block.joints]
         directed = tuple(
             number
@@ -41,12 +36,3 @@ def forms(mechanism: Mechanism) -> tuple[Form, ...] | None:
         )
         found.append(Form(plane_columns(inside), idle_spins(inside, bodies), directed, cut=True))
     return tuple(found)
-
-
-def with_joints(mechanism: Mechanism, joints: Sequence[Joint]) -> Mechanism:
-    """The mechanism with its joints changed; its solids, which do not follow, are left behind.
-
-    While JAX traces the joints the forms stay what they were.
-    """
-    known = mechanism.forms if traced(joints) else None
-    return replace(mechanism, all_joints=tuple(joints), ideal=(), solids=(), known_forms=known)

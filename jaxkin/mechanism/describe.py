@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.blocking_contacts import freeing
+from typing import TYPE_CHECKING
+
+from jaxkin.mobility.infeasible_drive import InfeasibleDrive
 from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 def describe_mechanism(mechanism: Mechanism) -> str:
@@ -26,7 +30,7 @@ def describe_mechanism(mechanism: Mechanism) -> str:
     ]
     lines += ["", f"Loops: {len(mechanism.structure.loops)}"]
     lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
-    if (gap := opening(mechanism)) is not None:
+    if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
         lines += ["", f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     else:
         lines += ["", *_mobility(mechanism, moving)]
@@ -46,7 +50,19 @@ def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
     if freedoms:
         what = "its freedom is" if freedoms == 1 else f"its {freedoms} freedoms are"
         said = f"Nothing can move but parts about themselves: {what} idle or of parts that only spin."
-    ways = freeing(mechanism)
+    ways = mechanism.blocking_contacts()
     if not ways:
         return [f"{said} No single contact is the reason, nor are several between the same two parts."]
     return [f"{said} It could without one of these (leave a contact out with ignore=):", *(f"  {way}" for way in ways)]
+
+
+def why_infeasible(mechanism: Mechanism, drive: InfeasibleDrive) -> str:
+    """Why the loops cannot follow a drive, with the contacts or joints without which they could, where none moves."""
+    if not drive.immobile:
+        return drive.why
+    row_of = mechanism.structure.row_of
+    every = mechanism.blocking_contacts()
+    ways = [way for way in every if not {row_of[part] for part in way.parts}.isdisjoint(drive.immobile)]
+    if not ways:
+        return f"{drive.why}; no single contact or joint is the reason"
+    return f"{drive.why}; without one of these it would have some: {'; '.join(map(str, ways))}"

@@ -22,6 +22,7 @@ from jaxkin.contacts.states import find_state
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Face
 from jaxkin.joints.combine import combine
+from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, regularise
 from jaxkin.joints.screws import displacements, inverses
@@ -121,8 +122,6 @@ def _of_joint(joint: Joint, contacts: Sequence[Contact], moved: Displacements, s
     lost = [k for k, each in enumerate(gaps) if each.any()]
     if not lost:
         return []
-    from jaxkin.assembly.to_mechanism import noise_of
-
     noise = noise_of(setting.solids, contacts)
     which = np.zeros(moved.shape[2], int)  # numbers of the sets of contacts that are lost together
     for k in lost:

@@ -1,9 +1,9 @@
-"""The mechanism: joints and structure. The one representation that everything else works on."""
+"""The mechanism that users hold: a facade of its linkage, with solids, contacts and notes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -14,53 +14,47 @@ from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.loop_class import forms
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.mobility.mobility import Mobility, mobility
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.solve.system.loop_system import Form
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
-    from jaxkin.mechanism.drive_plan import Prepared
+    from jaxkin.assembly.blocking_contacts import BlockingContacts
     from jaxkin.mechanism.motion import Motion
     from jaxkin.mechanism.plan import Plan
     from jaxkin.mechanism.reassembly import Reassembly
     from jaxkin.mechanism.stream import Stream
-    from jaxkin.mobility.loop_freedoms import LoopFreedoms
-    from jaxkin.mobility.mobility import Mobility
 
 
 @dataclass(frozen=True, eq=False)
 class Mechanism:
-    """Parts held together by joints, in their assembled pose.
+    """Parts held together by joints, in their assembled pose: what users hold.
 
-    A pytree: its leaves are the frames and pitches of the joints, float arrays all; names and structure are static. A
-    new geometry of the same structure compiles nothing anew. Solids, notes and contacts are for pictures and tables
-    only: they are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
+    A pytree of its linkage: its leaves are the frames and pitches of the joints, float arrays all; names and structure
+    are static. A new geometry of the same structure compiles nothing anew. Solids, notes and contacts are for pictures
+    and tables only: they are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
     """
 
-    all_joints: tuple[Joint, ...]
-    structure: Structure
+    linkage: Linkage
     unit: str = ""
     """Unit of all lengths, such as "mm"; empty where it was not said."""
     solids: tuple[Part, ...] = field(default=())
-    notes: tuple[str, ...] = field(default=())
+    history: tuple[str, ...] = field(default=())
     """What was found, combined or refused on the way from solids to joints, in words."""
+    alignment: tuple[str, ...] = field(default=())
+    """By how much frames were moved for the rounding of their numbers, in words."""
     contacts: Mapping[str, tuple[Contact, ...]] = field(default_factory=dict)
     """The contacts that a joint stands for, by its name; none for joints by hand."""
     contacts_at_rest: tuple[Contact, ...] = field(default=())
     """Contacts of parts that only spin and are left at rest, which no joint stands for."""
-    ideal: tuple[Joint, ...] = field(default=())
-    """The nearest joints whose loops close throughout their motion, where those of `all_joints`, which disagree by more
-    than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to
-    the least residual of the joints that were given. See `jaxkin.mobility.alignment`."""
-    known_forms: tuple[Form, ...] | None = field(default=None)
-    """What `forms` was before JAX took the mechanism apart: to JAX that is what it is, whatever its numbers are now."""
 
     @staticmethod
     def build(
         *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | int | None = None
     ) -> Mechanism:
-        """A mechanism from joints written by hand, in world coordinates of its assembled pose.
+        """Make a mechanism of joints written by hand, in world coordinates of its assembled pose.
 
         Numbers that were rounded let the loops of many mechanisms close at the assembled pose only: their frames are
         moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
@@ -69,27 +63,28 @@ class Mechanism:
         Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
         such number.
         """
-        from jaxkin.mobility.alignment import aligned, asked_noise
-
         noise = asked_noise(align)
         if (wrong := _no_joint(joints)) is not None:
             raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         described = [(joint.name, *joint.parts) for joint in joints]
-        return aligned(Mechanism(tuple(joints), structure(parts, described, fixed), unit), noise)
-
-    @cached_property
-    def forms(self) -> tuple[Form, ...]:
-        """What is special about the loops of each structure element.
-
-        While JAX traces the frames this is what it was before: a mechanism tilted out of its planes is not closed then.
-        """
-        return forms(self) or self.known_forms or (Form(),) * len(self.structure.blocks)
+        linkage, notes = aligned(Linkage.of(joints, structure(parts, described, fixed)), noise, unit)
+        return Mechanism(linkage, unit, alignment=notes)
 
     @property
-    def solved_joints(self) -> tuple[Joint, ...]:
-        """The joints whose loops are solved: those given, or `ideal` where these cannot move."""
-        return self.ideal or self.all_joints
+    def all_joints(self) -> tuple[Joint, ...]:
+        """All joints, in the order of the columns of the incidence matrix."""
+        return self.linkage.joints
+
+    @property
+    def structure(self) -> Structure:
+        """Incidence, loops and structure elements."""
+        return self.linkage.structure
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a user should look at, in words: of the way from solids, and of the alignment of frames."""
+        return (*self.history, *self.alignment)
 
     @property
     def parts(self) -> tuple[str, ...]:
@@ -167,7 +162,7 @@ class Mechanism:
         """
         from jaxkin.dimensions.lengths import lengths
 
-        return lengths(self)
+        return lengths(self.linkage)
 
     def with_lengths(self, changes: Mapping[Any, Any]) -> Mechanism:
         """The mechanism with some of its `lengths` changed and all others as they are.
@@ -183,7 +178,8 @@ class Mechanism:
         """
         from jaxkin.dimensions.lengths import with_lengths
 
-        return with_lengths(self, changes)
+        moved = self.with_linkage(with_lengths(self.linkage, changes))
+        return moved._aligned(SIX_DIGITS) if self.linkage.ideal else moved
 
     def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
@@ -195,13 +191,25 @@ class Mechanism:
         """
         from jaxkin.dimensions.frames import with_frames
 
-        return with_frames(self, frames, align)
+        noise = asked_noise(align)
+        return self.with_linkage(with_frames(self.linkage, frames))._aligned(noise)
 
-    def with_points(self, points: Mapping[Any, Any]) -> Mechanism:
-        """The mechanism with the origins of some joint frames moved to given points; keys as in `with_frames`."""
+    def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
+        """The mechanism with the origins of some joint frames moved to given points; keys and `align` as in
+        `with_frames`."""
         from jaxkin.dimensions.frames import with_points
 
-        return with_points(self, points)
+        noise = asked_noise(align)
+        return self.with_linkage(with_points(self.linkage, points))._aligned(noise)
+
+    def with_linkage(self, linkage: Linkage) -> Mechanism:
+        """The mechanism of a linkage with the same joints in other places; solids, which do not follow, are left
+        behind."""
+        return replace(self, linkage=linkage, solids=())
+
+    def _aligned(self, noise: float) -> Mechanism:
+        linkage, notes = aligned(self.linkage, noise, self.unit)
+        return replace(self, linkage=linkage, alignment=notes)
 
     def plan(self, drive: Iterable[str]) -> Plan:
         """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`.
@@ -214,9 +222,17 @@ class Mechanism:
 
     def mobility(self) -> Mobility:
         """Freedoms, idle freedoms and redundant constraints at the assembled pose; ValueError where that is open."""
-        from jaxkin.mobility.mobility import mobility
+        return mobility(self.linkage, self.unit)
 
-        return mobility(self)
+    def blocking_contacts(self) -> tuple[BlockingContacts, ...]:
+        """Find the contacts, or joints by hand, without which a mechanism that cannot move could.
+
+        Single ones where there are such, else the fewest contacts of two parts; those first that look more likely to be
+        wrong, and each tried: the mechanism is found anew without it. None where it moves, or where no such few help.
+        """
+        from jaxkin.assembly.blocking_contacts import blocking_contacts
+
+        return blocking_contacts(self)
 
     def close(self, *, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
         """Close the loops without a drive, where the given pose is open, and place the joints anew there.
@@ -234,18 +250,6 @@ class Mechanism:
 
         return close(self, hold, align)
 
-    @cached_property
-    def loop_freedoms(self) -> tuple[LoopFreedoms, ...]:
-        """What the loops of each structure element allow at first order, in the order of `structure.blocks`."""
-        from jaxkin.mobility.loop_freedoms import loop_freedoms
-
-        return loop_freedoms(self)
-
-    @cached_property
-    def prepared(self) -> dict[Any, Prepared]:
-        """What sweeps have found out about their drives: see `jaxkin.mechanism.drive_plan.prepare`."""
-        return {}
-
     def __str__(self) -> str:
         from jaxkin.mechanism.describe import describe_mechanism
 
@@ -261,13 +265,7 @@ def _no_joint(joints: Any) -> str | None:
     return next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
 
 
-# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only. What is static must not change with
-# the numbers: a gradient, or the zeros that an optimiser begins with, is a tree of the same structure.
+# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only.
 jax.tree_util.register_pytree_node(
-    Mechanism,
-    lambda mechanism: (
-        (mechanism.all_joints, mechanism.ideal),
-        (mechanism.structure, mechanism.unit, mechanism.known_forms or mechanism.forms),
-    ),
-    lambda static, leaves: Mechanism(leaves[0], *static[:2], ideal=leaves[1], known_forms=static[2]),
+    Mechanism, lambda mechanism: ((mechanism.linkage,), mechanism.unit), lambda unit, leaves: Mechanism(*leaves, unit)
 )

@@ -21,16 +21,15 @@ from jaxkin.geometry.movements import MOVEMENTS, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism import writers
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.pose_error import check
-from jaxkin.mobility.infeasible_drive import left_free
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.lost_contacts import LostContact
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +116,13 @@ class Motion:
         return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
 
     def save(self, directory: str | os.PathLike[str], only: str | Collection[str] | None = None) -> tuple[Path, ...]:
-        """Write tables, animation and pictures into a directory; returns the paths. See `motion.writers.save`."""
-        return writers.save(self, directory, only)
+        """Write tables, animation and pictures into a directory; returns the paths.
+
+        `only` chooses some of the files by name; see `jaxkin.io.writers.save`.
+        """
+        from jaxkin.io.writers import save
+
+        return save(self, directory, only)
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
@@ -157,7 +161,7 @@ def tally(
     for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
         if counts[status]:
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
-    if free := left_free(mechanism, [coordinate(mechanism, name) for name in inputs]):
+    if free := undriven_freedoms(mechanism.linkage, [coordinate(mechanism.linkage, name) for name in inputs]):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
     lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
     return "\n".join(lines)

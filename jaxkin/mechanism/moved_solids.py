@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,30 +12,35 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose, apply
 
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
-
 _ALIKE = 1e-12
 """Radians, or lengths over the distance from the origin: two parts that were moved by the same but for rounding."""
 
 
-def with_moved_solids(mechanism: Mechanism, assembled: Mechanism, places: Mapping[str, Pose]) -> Mechanism:
-    """The newly `assembled` mechanism with the solids and contacts of `mechanism`, moved by the `places` of parts.
+class MovedSolids(NamedTuple):
+    """Solids and contacts where a new assembled pose has them."""
+
+    solids: tuple[Part, ...]
+    contacts: dict[str, tuple[Contact, ...]]
+    """The contacts that could follow, by the name of their joint."""
+    left_out: tuple[str, ...]
+    """The joints whose contacts could not."""
+
+
+def moved_solids(
+    solids: Sequence[Part], contacts: Mapping[str, tuple[Contact, ...]], places: Mapping[str, Pose]
+) -> MovedSolids:
+    """Move solids, and contacts by the name of their joint, by the displacements of parts.
 
     Contacts whose frames belong to more than the two parts, such as a cylinder that rolls on a plane, are followed only
-    where both parts have been moved alike; those of other joints are left out, and a note says so.
+    where both parts have been moved alike; those of other joints are left out.
     """
-    contacts, left_out = {}, []
-    for name, some in mechanism.contacts.items():
-        if all(_can_follow(contact, places) for contact in some):
-            contacts[name] = tuple(_moved_contact(contact, places) for contact in some)
-        else:
-            left_out.append(repr(name))
-    notes = assembled.notes
-    if left_out:
-        notes = (*notes, f"the contacts of {', '.join(left_out)} are not followed from here on: its parts have moved")
-    solids = tuple(_moved_part(part, places[part.name]) for part in mechanism.solids)
-    return replace(assembled, solids=solids, contacts=contacts, notes=notes)
+    found = {
+        name: tuple(_moved_contact(contact, places) for contact in some)
+        for name, some in contacts.items()
+        if all(_can_follow(contact, places) for contact in some)
+    }
+    moved = tuple(_moved_part(part, places[part.name]) for part in solids)
+    return MovedSolids(moved, found, tuple(name for name in contacts if name not in found))
 
 
 def _moved_part(part: Part, place: Pose) -> Part:

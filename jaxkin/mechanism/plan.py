@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
 from jaxkin.joints.subgroups import Subgroup
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.solve_order import Group, solve_order
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.infeasible_drive import dead_end, left_free
-from jaxkin.mobility.loop_freedoms import LoopFreedoms
+from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.mobility import names
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -82,24 +87,25 @@ def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
 
     Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
     """
+    linkage = mechanism.linkage
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
-    driven = list(dict.fromkeys(coordinate(mechanism, key) for key in drive))
+    driven = list(dict.fromkeys(coordinate(linkage, key) for key in drive))
     if not driven:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
-    check_closed(mechanism, "the plan of a drive", f"plan({[str(key) for key in drive]})")
-    structure, joints = mechanism.structure, mechanism.all_joints
+    check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in drive]})")
+    structure, joints = linkage.structure, linkage.joints
     moved = moving(structure, {joints[joint].name for joint, _ in driven})
     steps: list[Step] = []
-    for found in mechanism.loop_freedoms:
+    for found in loop_freedoms(linkage):
         if found.block in moved.blocks:
             columns = [column for column, owner in enumerate(found.columns) if owner in driven]
             groups = solve_order(found.ends, found.columns, found.screws, columns, found.noise)
             first = len(steps)
-            steps += [_step(mechanism, found, group, first) for group in groups]
-    dead = dead_end(mechanism, driven)
-    free = left_free(mechanism, driven)
-    notes = [f"dead end: {dead}"] if dead else []
+            steps += [_step(linkage, found, group, first) for group in groups]
+    dead = infeasible_drive(linkage, driven)
+    free = undriven_freedoms(linkage, driven)
+    notes = [f"dead end: {why_infeasible(mechanism, dead)}"] if dead else []
     if free:
         notes.append(f"left free: {listed(free)} could be driven as well; without, all move as little as they can")
     elif not dead and any(step.free for step in steps):
@@ -107,21 +113,21 @@ def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
     return Plan(
         tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in driven),
         tuple(steps),
-        tuple(_skipped(mechanism, driven, moved.parts)),
+        tuple(_skipped(linkage, driven, moved.parts)),
         tuple(notes),
     )
 
 
-def _step(mechanism: Mechanism, found: LoopFreedoms, group: Group, first: int) -> Step:
-    joints = mechanism.all_joints
+def _step(linkage: Linkage, found: LoopFreedoms, group: Group, first: int) -> Step:
+    joints = linkage.joints
     kind = found.subgroup({*group.joints, *group.passed})
     ends = {part for joint in group.joints for part in found.ends[joint]}
     return Step(
         joints=tuple(joints[joint].name for joint in group.joints),
-        parts=tuple(part for part in mechanism.structure.parts if part in ends),
+        parts=tuple(part for part in linkage.structure.parts if part in ends),
         loops=group.loops,
         subgroup=kind,
-        unknowns=tuple(names(mechanism, found, group.unknowns)),
+        unknowns=tuple(names(linkage, found, group.unknowns)),
         equations=kind.dimension * group.loops,
         redundant=kind.dimension * group.loops - group.rank,
         free=group.free,
@@ -129,11 +135,11 @@ def _step(mechanism: Mechanism, found: LoopFreedoms, group: Group, first: int) -
     )
 
 
-def _skipped(mechanism: Mechanism, driven: Sequence[tuple[int, int]], moved: Sequence[str]) -> list[str]:
+def _skipped(linkage: Linkage, driven: Sequence[tuple[int, int]], moved: Sequence[str]) -> list[str]:
     """Elements without a driven joint, and coordinates outside of loops."""
-    structure = mechanism.structure
+    structure = linkage.structure
     rows = {structure.row_of[part] for part in moved}
-    given = {mechanism.all_joints[joint].name for joint, _ in driven}
+    given = {linkage.joints[joint].name for joint, _ in driven}
     texts = []
     for element in structure.elements:
         held = {joint for loop in element.loops for joint in structure.loops[loop].path[1::2]}

@@ -22,7 +22,8 @@ from jaxkin.geometry.pose import Pose, inverse, turned_by
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, freedoms
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.moved_solids import with_moved_solids
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.moved_solids import moved_solids
 from jaxkin.mobility.alignment import aligned, asked_noise, extent
 from jaxkin.mobility.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.mobility.host_closure import ClosedLoops, Row
@@ -106,28 +107,39 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         )
     if isinstance(hold, str):
         raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
-    held = {coordinate(mechanism, key) for key in hold}
-    given = replace(mechanism, ideal=())
+    held = {coordinate(mechanism.linkage, key) for key in hold}
+    given = replace(mechanism.linkage, ideal=())
     blocks = [_closed(given, block, held, noise) for block in given.structure.blocks]
     before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
     rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
     if still_open := [block for block in blocks if not block.is_closed]:
         worst = max(still_open, key=lambda block: block.after)
-        left = tell_opening(given, worst.loops, worst.q)
+        left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    if all(np.array_equal(joint.before, joint.after) for joint in given.all_joints):
+    if all(np.array_equal(joint.before, joint.after) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [block for block in blocks if block.q.any()]
     others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
-    coordinates = [np.zeros(joint.freedoms) for joint in given.all_joints]
+    coordinates = [np.zeros(joint.freedoms) for joint in given.joints]
     for block in moved:
         for index, columns in block.loops.slices.items():
             coordinates[index] = (block.q * block.loops.units)[columns]
     places = _places(given, coordinates)
-    joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.all_joints, coordinates, strict=True)]
-    notes = (*given.notes, *_rounding(given, moved))
-    found = aligned(replace(given, all_joints=tuple(joints), notes=notes, known_forms=None), noise)
-    found = with_moved_solids(given, found, places)
+    joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.joints, coordinates, strict=True)]
+    linkage, notes = aligned(given.with_joints(joints), noise, mechanism.unit)
+    solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
+    history = mechanism.history
+    if left_out:
+        names = ", ".join(map(repr, left_out))
+        history = (*history, f"the contacts of {names} are not followed from here on: its parts have moved")
+    found = replace(
+        mechanism,
+        linkage=linkage,
+        solids=solids,
+        history=history,
+        alignment=(*_rounding(mechanism.unit, moved), *notes),
+        contacts=contacts,
+    )
     moves = {part: _move(given, part, place) for part, place in places.items()}
     starts = STARTS * len(moved)
     return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None)
@@ -149,35 +161,35 @@ class _Block:
     """Within the rounding of the numbers."""
 
 
-def _closed(mechanism: Mechanism, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
+def _closed(linkage: Linkage, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops(mechanism, block)
+    loops = ClosedLoops(linkage.joints, linkage.structure, block)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
     if loops.coincide or before <= loops.noise.closed:
         return _Block(loops, q, held, before, before, True)
     q, found = loops.closed(q, held)
-    size = extent([mechanism.all_joints[index] for index in block.joints])
+    size = extent([linkage.joints[index] for index in block.joints])
     enough = max(noise * size / loops.length, loops.noise.closed)
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
     return _Block(loops, q, held, before, found.gap, found.gap <= enough)
 
 
-def _rounding(mechanism: Mechanism, moved: Sequence[_Block]) -> list[str]:
+def _rounding(unit: str, moved: Sequence[_Block]) -> list[str]:
     """What was closed for the rounding of the numbers, in words."""
     left = [block.after * block.loops.length for block in moved if block.after > block.loops.noise.closed]
-    said = f"{max(left, default=0.0):.1g} {mechanism.unit}".rstrip()
+    said = f"{max(left, default=0.0):.1g} {unit}".rstrip()
     return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
 
 
-def _places(mechanism: Mechanism, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Pose]:
+def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Pose]:
     """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
-    places = {part: np.eye(4) for part in mechanism.fixed}
-    for part, parent, index, sign in mechanism.structure.tree:
-        step = _displacement(mechanism.all_joints[index], coordinates[index])
+    places = {part: np.eye(4) for part in linkage.fixed}
+    for part, parent, index, sign in linkage.structure.tree:
+        step = _displacement(linkage.joints[index], coordinates[index])
         places[part] = places[parent] @ (step if sign > 0 else inverse(step))
-    return {part: places[part] for part in mechanism.parts}
+    return {part: places[part] for part in linkage.parts}
 
 
 def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
@@ -205,10 +217,10 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
     return replace(joint, before=stacked, after=stacked)
 
 
-def _move(mechanism: Mechanism, part: str, place: Pose) -> Move:
+def _move(linkage: Linkage, part: str, place: Pose) -> Move:
     sides = [
         np.asarray(side, float)[frame, :3, 3]
-        for joint in mechanism.all_joints
+        for joint in linkage.joints
         for own, side, frame in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True)
         if own == part
     ]

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property, partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -21,11 +21,13 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion, placed
 from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 LEAD_POSES = 128
 """Poses of the lead of a chunk of several inputs, at least."""
@@ -53,7 +55,7 @@ class Stream:
         if not isinstance(chunk, int | np.integer) or chunk < 1:
             raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
         self.mechanism = mechanism
-        self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism, drive).items()}
+        self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism.linkage, drive).items()}
         """Driven displacements by "joint.coordinate", of all poses, as they were given."""
         followed, self._finite = without_gaps(tuple(self.inputs.values()))
         self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))
@@ -79,7 +81,7 @@ class Stream:
             count = min(self.chunk, self.poses - first)
             arrays = motion.inputs, motion.displacements, motion.status, motion.residual
             cut = _cut(arrays, self._turns(last, met), jnp.asarray(on_branch), leading, count)
-            motion = Motion(self.mechanism, *cut, motion.options)
+            motion = Motion(self.mechanism, *cut, options=motion.options)
             last = _shared_pose(motion, count - 1)
             yield self._as_given(motion, first)
 

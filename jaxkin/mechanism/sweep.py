@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -15,14 +15,17 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
+from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import Element, prepare
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import SEVERITY, ClosureTolerance, Status, default_tolerance, rounding_residual
 from jaxkin.solve.system.from_linkage import Columns
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
 """Displacements of the columns of a structure element, and what became of the poses."""
@@ -57,14 +60,14 @@ def sweep(
     `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose displacements are NaN or infinite is
     NONFINITE and NaN itself, and all others are what they would be without it. Raises ValueError for a drive that makes
     no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops have no freedoms for (see
-    `jaxkin.mobility.infeasible_drive.dead_end`; not where the geometry is traced), for options of wrong values, and for
+    `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of wrong values, and for
     `throw=True` where numbers are traced.
     """
     options = options_with(options, tolerance, method)
-    prepared = prepare(mechanism, named(drive))
+    prepared = prepare(mechanism.linkage, named(drive))
     values = given_values(prepared.driven, drive)
-    if prepared.refused:
-        raise ValueError(prepared.refused)
+    if prepared.infeasible:
+        raise ValueError(why_infeasible(mechanism, prepared.infeasible))
     asked = _closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
     _warn_of_float32()
     elements = prepared.elements if values[0].shape[0] else ()
@@ -82,7 +85,7 @@ def sweep(
     )
     # under `grad` JAX hands arrays of the host through as they are
     inputs = dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True))
-    motion = Motion(mechanism, inputs, displacements, *found, options)
+    motion = Motion(mechanism, inputs, displacements, *found, options=options)
     if throw:
         motion.check()
     return motion

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import jax
 import numpy as np
@@ -19,13 +19,11 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.regularise import Noise, align
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.consistency import STILL, beside, rounding
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.nearest_mobile import nearest_mobile
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
-    from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import Block
 
 SIX_DIGITS = 5e-6
 """Radians, or lengths over the extent of the joints: the largest error of a number that is rounded to six digits."""
@@ -72,46 +70,54 @@ def asked_noise(align: object) -> float:
     return float(align)
 
 
-def aligned(mechanism: Mechanism, noise: float) -> Mechanism:
-    """The mechanism with the frames of loops aligned that close at the assembled pose only, and a note of how much.
+class Aligned(NamedTuple):
+    """A linkage whose frames were aligned where its loops need it."""
+
+    linkage: Linkage
+    notes: tuple[str, ...]
+    """By how much frames were moved, or would have to be, in words."""
+
+
+def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
+    """Align the frames of loops that close at the assembled pose only; lengths of the notes are in the given unit.
 
     Where more than `noise` would be needed, the joints stay as they are, and the nearest ones that move become
-    `mechanism.ideal`: what the poses of least residual are found from. Where JAX traces the joints, and for those in
+    `linkage.ideal`: what the poses of least residual are found from. Where JAX traces the joints, and for those in
     single precision, nothing is done.
     """
-    leaves = jax.tree.leaves(mechanism.all_joints)
+    leaves = jax.tree.leaves(linkage.joints)
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
-        return mechanism
-    mechanism = replace(mechanism, ideal=())
-    exact, ideal, play = list(mechanism.all_joints), list(mechanism.all_joints), noise
-    for block in mechanism.structure.blocks:
-        level, joints = _consistent(mechanism, block, noise)
+        return Aligned(linkage, ())
+    exact, ideal, play = list(linkage.joints), list(linkage.joints), noise
+    for block in linkage.structure.blocks:
+        level, joints = _consistent(linkage, block, noise)
         for number, joint in zip(block.joints, joints, strict=True):
             ideal[number] = joint
             if level <= noise:
                 exact[number] = joint
         play = max(play, level)
-    told = list(mechanism.notes)
-    if moved := _correction(mechanism.all_joints, exact):
-        told.append(f"for the rounding of the numbers, {moved.said(mechanism.unit)}")
+    notes = []
+    if moved := _correction(linkage.joints, exact):
+        notes.append(f"for the rounding of the numbers, {moved.said(unit)}")
     if not (disagreement := _correction(exact, ideal)):
-        return replace(mechanism, all_joints=tuple(exact), notes=tuple(told))
-    told.append(
+        unchanged = not moved and not linkage.ideal
+        return Aligned(linkage if unchanged else linkage.with_joints(exact), tuple(notes))
+    notes.append(
         "the loops close at the assembled pose only; they would close throughout if "
-        f"{disagreement.said(mechanism.unit)}, most of all of {listed([repr(name) for name in disagreement.joints])}: "
+        f"{disagreement.said(unit)}, most of all of {listed([repr(name) for name in disagreement.joints])}: "
         "other poses are those of least residual (MISFIT); correct the numbers, or have them aligned with "
         f"align={play:g}"
     )
-    return replace(mechanism, all_joints=tuple(exact), ideal=tuple(ideal), notes=tuple(told))
+    return Aligned(linkage.with_joints(exact, ideal), tuple(notes))
 
 
-def _consistent(mechanism: Mechanism, block: Block, noise: float) -> tuple[float, list[Joint]]:
+def _consistent(linkage: Linkage, block: Block, noise: float) -> tuple[float, list[Joint]]:
     """The joints with which the loops close throughout, and the noise that they were aligned for; 0 for none at all.
 
     Loops that move at all have the freedoms of their own numbers: more play is looked for in those only that do not.
     """
-    given = [mechanism.all_joints[number] for number in block.joints]
-    loops = ClosedLoops(mechanism, block)
+    given = [linkage.joints[number] for number in block.joints]
+    loops = _closed_loops(linkage, block, given)
     for level in (noise, *(play for play in PLAY if play > noise)):
         found = beside(loops, level)
         if found is None:
@@ -120,17 +126,17 @@ def _consistent(mechanism: Mechanism, block: Block, noise: float) -> tuple[float
             if found.moved >= STILL:
                 return 0.0, given
             continue
-        if joints := _made_exact(mechanism, block, level):
+        if joints := _made_exact(linkage, block, level):
             return level, joints
     return 0.0, given
 
 
-def _made_exact(mechanism: Mechanism, block: Block, level: float) -> list[Joint] | None:
+def _made_exact(linkage: Linkage, block: Block, level: float) -> list[Joint] | None:
     """The joints of a block moved by at most `level` so that its loops close throughout; None where that fails."""
-    given = [mechanism.all_joints[number] for number in block.joints]
+    given = [linkage.joints[number] for number in block.joints]
     related = _related(given, _noise(given, level))
-    for joints in (related, _mobile(mechanism, block, related, level), _mobile(mechanism, block, given, level)):
-        if joints and _closes_throughout(mechanism, block, joints, level):
+    for joints in (related, _mobile(linkage, block, related, level), _mobile(linkage, block, given, level)):
+        if joints and _closes_throughout(linkage, block, joints, level):
             return joints
     return None
 
@@ -155,11 +161,11 @@ def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
     return [replace(joint, before=next(rest), after=next(rest)) for joint in joints]
 
 
-def _mobile(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: float) -> list[Joint] | None:
+def _mobile(linkage: Linkage, block: Block, joints: Sequence[Joint], level: float) -> list[Joint] | None:
     """The joints with the nearest frames with which the loops move; None where they are farther than `level`."""
     if not all(np.array_equal(joint.before, joint.after) for joint in joints):
         return None
-    loops = ClosedLoops(_with(mechanism, block, joints), block)
+    loops = _closed_loops(linkage, block, joints)
     if not nearest_mobile(loops, level):
         return None
     found = []
@@ -170,8 +176,8 @@ def _mobile(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: 
     return found
 
 
-def _closes_throughout(mechanism: Mechanism, block: Block, joints: Sequence[Joint], level: float) -> bool:
-    loops = ClosedLoops(_with(mechanism, block, joints), block)
+def _closes_throughout(linkage: Linkage, block: Block, joints: Sequence[Joint], level: float) -> bool:
+    loops = _closed_loops(linkage, block, joints)
     for seed in range(3):
         found = beside(loops, level, seed)
         if found is None or np.linalg.norm(found.residual) > rounding(loops) or found.moved < STILL:
@@ -179,11 +185,12 @@ def _closes_throughout(mechanism: Mechanism, block: Block, joints: Sequence[Join
     return True
 
 
-def _with(mechanism: Mechanism, block: Block, joints: Sequence[Joint]) -> Mechanism:
-    every = list(mechanism.all_joints)
+def _closed_loops(linkage: Linkage, block: Block, joints: Sequence[Joint]) -> ClosedLoops:
+    """The loops of a loop group with these joints, all others as they are given."""
+    every = list(linkage.joints)
     for number, joint in zip(block.joints, joints, strict=True):
         every[number] = joint
-    return replace(mechanism, all_joints=tuple(every))
+    return ClosedLoops(every, linkage.structure, block)
 
 
 def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | None:

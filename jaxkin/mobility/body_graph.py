@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.pose import inverse
 from jaxkin.joints.screws import complement, moved
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import LoopFreedoms
 from jaxkin.mobility.twists import constraints
 from jaxkin.topology.components import connected
@@ -29,9 +29,9 @@ class BodyGraph:
     Parts that are left out, such as those that only spin, hold nothing and are held by nothing.
     """
 
-    def __init__(self, mechanism: Mechanism, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
+    def __init__(self, linkage: Linkage, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
         self._found = found
-        structure, joints = mechanism.structure, mechanism.all_joints
+        structure, joints = linkage.structure, linkage.joints
         ends = [tuple(structure.row_of[part] for part in joint.parts) for joint in joints]
         rigid = [pair for joint, pair in zip(joints, ends, strict=True) if not joint.freedoms]
         groups = [sorted(rows, key=structure.parts.index) for rows in connected(structure.parts, rigid)]

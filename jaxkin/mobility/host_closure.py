@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import Block, Structure
 
 _ITERATIONS = 200
 """Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
@@ -62,13 +62,14 @@ class Travel(NamedTuple):
 class ClosedLoops:
     """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
 
-    def __init__(self, mechanism: Mechanism, block: Block) -> None:
-        joints = {index: mechanism.solved_joints[index] for index in block.joints}
+    def __init__(self, every: Sequence[Joint], structure: Structure, block: Block) -> None:
+        """`every` are the joints whose loops are solved, all of the linkage; `block` is the loop group."""
+        joints = {index: every[index] for index in block.joints}
         self.block = block
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
         single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
         self.noise = SINGLE if single else DOUBLE
-        row_of = mechanism.structure.row_of
+        row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
         origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints.values()])
         centre = self.centre = origins.mean(axis=0)

@@ -19,7 +19,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.body_graph import BodyGraph, Constraints, Twists
 from jaxkin.mobility.loop_freedoms import LoopFreedoms
 
@@ -79,9 +79,9 @@ class _Row:
 class IdleMotions:
     """The idle motions of one structure element. Parts that are left out hold nothing and are not looked at."""
 
-    def __init__(self, mechanism: Mechanism, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
-        self._mechanism, self._found, self._left_out = mechanism, found, set(left_out)
-        self._graph = BodyGraph(mechanism, found, left_out)
+    def __init__(self, linkage: Linkage, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
+        self._linkage, self._found, self._left_out = linkage, found, set(left_out)
+        self._graph = BodyGraph(linkage, found, left_out)
 
     @property
     def carrier(self) -> frozenset[str]:
@@ -123,7 +123,7 @@ class IdleMotions:
             (row, self._graph.free_of(np.concatenate([row.inner, *(end.forbidden for end in row.ends)])))
             for row in self._rows()
         ]
-        order = self._mechanism.structure.parts.index
+        order = self._linkage.structure.parts.index
         return sorted(
             ((row, twists) for row, twists in found if twists.size),
             key=lambda pair: (len(pair[0].moving), -pair[1].shape[1], sorted(map(order, pair[0].bodies))),
@@ -225,7 +225,7 @@ class IdleMotions:
                 yield kind, some @ twists.T
 
     def _described(self, row: _Row, kind: str, rates: Float[np.ndarray, "motions columns"]) -> IdleMotion:
-        joints, rows_of, order = self._mechanism.all_joints, self._graph.parts_of, self._mechanism.structure.parts.index
+        joints, rows_of, order = self._linkage.joints, self._graph.parts_of, self._linkage.structure.parts.index
         shows = [self._found.columns[k] for k in np.flatnonzero((np.abs(rates) > self._found.noise.rate).any(axis=0))]
         return IdleMotion(
             tuple(sorted((part for body in row.moving for part in rows_of[body]), key=order)),

@@ -3,48 +3,58 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from jaxkin._names import listed
 from jaxkin.linkage.first_order import independent
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.blocking_contacts import freeing
-from jaxkin.mobility.loop_freedoms import LoopFreedoms
-from jaxkin.mobility.mobility import drivable, largest, names
-from jaxkin.mobility.needless import spinning
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
+from jaxkin.mobility.mobility import drivable, independent_subset, names
 
 Coordinate = tuple[int, int]
 """(joint, coordinate)."""
 
 
-def dead_end(mechanism: Mechanism, driven: Sequence[Coordinate]) -> str | None:
-    """Why the loops cannot follow a drive of these coordinates; None where they can, or where it is not sure.
+@dataclass(frozen=True)
+class InfeasibleDrive:
+    """A drive that the loops cannot follow."""
+
+    why: str
+    """In words."""
+    immobile: tuple[str, ...]
+    """The rows of parts of loops that have no freedom at all; none where another drive is what is needed."""
+
+
+def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> InfeasibleDrive | None:
+    """Tell why the loops cannot follow a drive of these coordinates; None where they can, or where it is not sure.
 
     It is sure where the rates cannot be given at the assembled pose nor at a pose beside it: at a singular pose, where
     the motion may branch, the drive is left to the solver. What is to be driven instead can be given at both poses,
     where there is such.
     """
-    for found, columns in _driven_blocks(mechanism, driven):
+    for found, columns in _driven_blocks(linkage, driven):
         if _follows(found, columns):
             continue
-        given = names(mechanism, found, columns)
+        given = names(linkage, found, columns)
         if not len(found.motions):
-            said = f"{listed(given)} cannot be driven: {_mechanism_of(found)} has no freedom"
-            return f"{said}; {_what_holds(mechanism, found)}"
+            immobile = tuple(dict.fromkeys(row for pair in found.ends.values() for row in pair))
+            return InfeasibleDrive(f"{listed(given)} cannot be driven: {_loops_of(found)} has no freedom", immobile)
         choices = _choices(found)
         movable = {column for group in choices for column in group}
-        if stuck := names(mechanism, found, [column for column in columns if column not in movable]):
+        if stuck := names(linkage, found, [column for column in columns if column not in movable]):
             what = "has no freedom left to it" if len(stuck) == 1 else "have no freedom left to them"
-            others = _or(mechanism, found, _surest(found, choices))
-            return f"{listed(stuck)} {what} by the loops" + (f"; what can be driven is {others}" if others else "")
-        kept = largest(found, sorted(columns, key=[c for group in choices for c in group].index))
+            others = _or(linkage, found, _surest(found, choices))
+            instead = f"; what can be driven is {others}" if others else ""
+            return InfeasibleDrive(f"{listed(stuck)} {what} by the loops{instead}", ())
+        kept = independent_subset(found, sorted(columns, key=[c for group in choices for c in group].index))
         freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
         if len(kept) < len(found.motions):
             freedoms += f", {len(kept)} of them for these"
-        instead = f"drive only {listed(names(mechanism, found, sorted(kept)))}"
+        instead = f"drive only {listed(names(linkage, found, sorted(kept)))}"
         others = [group for group in _surest(found, choices) if not set(group) & set(kept)]
         if len(kept) == 1 and others:
-            instead += f", or one of {_or(mechanism, found, others)}"
-        return f"driven {listed(given)}, but {_mechanism_of(found)} has {freedoms}: {instead}"
+            instead += f", or one of {_or(linkage, found, others)}"
+        return InfeasibleDrive(f"driven {listed(given)}, but {_loops_of(found)} has {freedoms}: {instead}", ())
     return None
 
 
@@ -67,39 +77,30 @@ def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence
     return at_rest or choices
 
 
-def _or(mechanism: Mechanism, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
+def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
     """The names of columns to choose from, the angles of a ball together."""
-    return listed([" with ".join(names(mechanism, found, group)) for group in groups])
+    return listed([" with ".join(names(linkage, found, group)) for group in groups])
 
 
-def _what_holds(mechanism: Mechanism, found: LoopFreedoms) -> str:
-    """The contacts or joints without which the loops could move."""
-    rows = {row for pair in found.ends.values() for row in pair}
-    row_of = mechanism.structure.row_of
-    ways = [way for way in freeing(mechanism) if rows & {row_of[part] for part in way.parts}]
-    if not ways:
-        return "no single contact or joint is the reason"
-    return f"without one of these it would have some: {'; '.join(map(str, ways))}"
-
-
-def left_free(mechanism: Mechanism, driven: Sequence[Coordinate]) -> tuple[str, ...]:
+def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[str, ...]:
     """Coordinates that could be driven as well in the loops that a drive moves; idle ones are not among them."""
+    spinning = [part.name for part in linkage.spinning]
     return tuple(
         name
-        for found, columns in _driven_blocks(mechanism, driven)
-        for name in names(mechanism, found, drivable(mechanism, found, columns, spinning(mechanism)))
+        for found, columns in _driven_blocks(linkage, driven)
+        for name in names(linkage, found, drivable(linkage, found, columns, spinning))
     )
 
 
-def _mechanism_of(found: LoopFreedoms) -> str:
+def _loops_of(found: LoopFreedoms) -> str:
     """The loops of a structure element by some of its parts."""
     parts = dict.fromkeys(part for pair in found.ends.values() for part in pair)
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
 
 
-def _driven_blocks(mechanism: Mechanism, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
+def _driven_blocks(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
     """The loops that hold a driven coordinate, with its columns; of loops that cannot be closed nothing is known."""
-    for found in mechanism.loop_freedoms:
+    for found in loop_freedoms(linkage):
         columns = [column for column, owner in enumerate(found.columns) if owner in driven]
         if columns and found.closes:
             yield found, columns

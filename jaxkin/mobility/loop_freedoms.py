@@ -13,11 +13,12 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._memory import once_for_each
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.screws import Screws
 from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.first_order import loop_jacobian, null_space
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel, least_norm
 from jaxkin.topology.structure import Block
 
@@ -32,8 +33,8 @@ class LoopFreedoms:
     Lengths are over the characteristic length.
     """
 
-    def __init__(self, mechanism: Mechanism, block: Block) -> None:
-        self._loops = ClosedLoops(mechanism, block)
+    def __init__(self, linkage: Linkage, block: Block) -> None:
+        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, block)
         self.block = block
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the element's joints in turn."""
@@ -46,11 +47,11 @@ class LoopFreedoms:
         self.driven_together = {
             column_of[index, k]: tuple(column_of[index, other] for other in group)
             for index in block.joints
-            for group in mechanism.solved_joints[index].driven_together
+            for group in linkage.solved_joints[index].driven_together
             for k in group
         }
         """For each column those that can be driven with it only: the three angles of a ball."""
-        self.fixed = mechanism.structure.row_of[mechanism.fixed[0]]
+        self.fixed = linkage.structure.row_of[linkage.fixed[0]]
         """The row of the fixed parts."""
 
     @cached_property
@@ -120,6 +121,7 @@ class LoopFreedoms:
         return null_space(self.jacobian, self.noise)
 
 
-def loop_freedoms(mechanism: Mechanism) -> tuple[LoopFreedoms, ...]:
+@once_for_each
+def loop_freedoms(linkage: Linkage) -> tuple[LoopFreedoms, ...]:
     """The freedoms of the structure elements with loops, in the order of `structure.blocks`."""
-    return tuple(LoopFreedoms(mechanism, block) for block in mechanism.structure.blocks)
+    return tuple(LoopFreedoms(linkage, block) for block in linkage.structure.blocks)

@@ -15,13 +15,11 @@ from jaxtyping import Float
 
 from jaxkin._names import listed
 from jaxkin.joints.subgroups import Subgroup
-from jaxkin.linkage.first_order import independent, without
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.first_order import EQUATIONS, independent, without
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.idle import IdleMotion, IdleMotions
-from jaxkin.mobility.loop_freedoms import LoopFreedoms
-from jaxkin.mobility.needless import spinning
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.mobility.open_loops import check_closed
-from jaxkin.solve.system.loop_system import EQUATIONS
 
 
 @dataclass(frozen=True)
@@ -82,45 +80,45 @@ class Mobility:
         return f"{freedoms}{idle}, {self.redundant} redundant equation{'' if self.redundant == 1 else 's'}"
 
 
-def mobility(mechanism: Mechanism) -> Mobility:
+def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     """Freedoms from the rank of the closure Jacobian: the larger rank of the assembled pose and a closed one beside it.
 
     At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained. ValueError where the
     given pose is open: see `Mechanism.close`.
     """
-    check_closed(mechanism, "mobility", "mobility()")
-    blocks = mechanism.loop_freedoms
-    spins = spinning(mechanism)
-    in_loops = {joint for block in mechanism.structure.blocks for joint in block.joints}
+    check_closed(linkage, unit, "mobility", "mobility()")
+    blocks = loop_freedoms(linkage)
+    spins = {part.name: part.freedoms for part in linkage.spinning}
+    in_loops = {joint for block in linkage.structure.blocks for joint in block.joints}
     outside = [
         f"{joint.name}.{coordinate}"
-        for index, joint in enumerate(mechanism.all_joints)
+        for index, joint in enumerate(linkage.joints)
         if index not in in_loops and not spins.keys() & set(joint.parts)
         for coordinate in joint.coordinates
     ]
     kinds = tuple(found.subgroup(dict(loop)) for found in blocks for loop in found.block.loops)
-    at_ends = sum(joint.freedoms for index, joint in enumerate(mechanism.all_joints) if index not in in_loops)
-    coordinates = sum(joint.freedoms for joint in mechanism.all_joints)
+    at_ends = sum(joint.freedoms for index, joint in enumerate(linkage.joints) if index not in in_loops)
+    coordinates = sum(joint.freedoms for joint in linkage.joints)
     return Mobility(
         freedoms=at_ends + sum(len(found.motions) for found in blocks),
-        idle_motions=tuple(motion for found in blocks for motion in IdleMotions(mechanism, found, spins).motions),
+        idle_motions=tuple(motion for found in blocks for motion in IdleMotions(linkage, found, spins).motions),
         redundant=sum(EQUATIONS * len(found.block.loops) - found.rank for found in blocks),
         spinning=tuple(spins),
-        spins=sum(spin.freedoms for spin in spins.values()),
+        spins=sum(spins.values()),
         counted=coordinates - EQUATIONS * len(kinds),
         counted_in_subgroups=coordinates - sum(kind.dimension for kind in kinds),
         subgroups=kinds,
         drivable=(
             *outside,
-            *(name for found in blocks for name in names(mechanism, found, drivable(mechanism, found, [], spins))),
+            *(name for found in blocks for name in names(linkage, found, drivable(linkage, found, [], spins))),
         ),
     )
 
 
-def names(mechanism: Mechanism, found: LoopFreedoms, columns: Iterable[int]) -> list[str]:
+def names(linkage: Linkage, found: LoopFreedoms, columns: Iterable[int]) -> list[str]:
     """The full names of coordinates by their columns."""
     chosen = (found.columns[column] for column in columns)
-    return [f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}" for joint, k in chosen]
+    return [f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[k]}" for joint, k in chosen]
 
 
 def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"]) -> list[int]:
@@ -128,29 +126,29 @@ def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"])
     return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.noise.rate).tolist()
 
 
-def drivable(mechanism: Mechanism, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
+def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
     """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin.
 
     Joints at the part that carries the element come first, of these hinges and slides before balls. Columns in which
     idle motions show are taken only where all others leave something: to give one may move nothing but what idles.
     """
-    idle = IdleMotions(mechanism, found, spins)
+    idle = IdleMotions(linkage, found, spins)
     order = [k for k, (joint, _) in enumerate(found.columns) if not set(spins) & set(found.ends[joint])]
     owner = [joint for joint, _ in found.columns]
     of_joint = Counter(owner)
     order.sort(key=lambda column: (idle.carrier.isdisjoint(found.ends[owner[column]]), of_joint[owner[column]]))
     showing = set(moving_columns(found, idle.rates))
-    taken = largest(found, [column for column in order if column not in showing], driven)
+    taken = independent_subset(found, [column for column in order if column not in showing], driven)
     for column in (column for column in order if column in showing):
         left = without(found.motions, [*driven, *taken], found.noise)
         if independent(np.concatenate([idle.rates, left]), order, found.noise) == len(idle.rates):
             break
         if column not in taken:
-            taken += largest(found, found.driven_together[column], [*driven, *taken])
+            taken += independent_subset(found, found.driven_together[column], [*driven, *taken])
     return taken
 
 
-def largest(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
+def independent_subset(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
     """Those of the columns, each in turn, that can be given besides the ones before; the angles of a ball are given
     together."""
     taken: list[int] = []

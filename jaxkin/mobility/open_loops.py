@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,10 +10,8 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import chain, complement, freedoms
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.host_closure import ClosedLoops, Row
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True)
@@ -43,46 +40,46 @@ class Opening:
         )
 
 
-def opening(mechanism: Mechanism) -> Opening | None:
+def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     """The loop that is open the most in the given pose; None where all close to rounding, or where JAX traces."""
-    if traced(mechanism):
+    if traced(linkage):
         return None
     worst: Opening | None = None
-    for block in mechanism.structure.blocks:
-        loops = ClosedLoops(mechanism, block)
+    for block in linkage.structure.blocks:
+        loops = ClosedLoops(linkage.solved_joints, linkage.structure, block)
         at_rest = np.zeros(len(loops.columns))
         if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.noise.closed:
             continue
         if worst is None or gap > worst.residual:
-            worst = tell_opening(mechanism, loops, at_rest)
+            worst = tell_opening(linkage, unit, loops, at_rest)
     return worst
 
 
-def check_closed(mechanism: Mechanism, what: str, call: str) -> None:
+def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
     """Refuse to tell something of a pose that is open: ValueError with its size, and how to close it."""
-    if (found := opening(mechanism)) is not None:
+    if (found := opening(linkage, unit)) is not None:
         raise ValueError(
             f"{what} cannot be told of a pose that is not closed: {found}; close it first, mechanism.close() says how "
             f"far parts have to move for that, and write mechanism.close().mechanism.{call}"
         )
 
 
-def tell_opening(mechanism: Mechanism, loops: ClosedLoops, q: Row) -> Opening:
+def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Opening:
     """The loop of a structure element that is open the most at these scaled coordinates, and its worst joint."""
     found = loops.travel(q)
     number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
     loop, left = loops.block.loops[number], found.left_open[number]
     joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
     place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
-    joints = [mechanism.all_joints[index] for index, _ in loop]
+    joints = [linkage.joints[index] for index, _ in loop]
     return Opening(
         residual=found.gap,
         parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
         joints=tuple(joint.name for joint in joints),
         length=float(np.linalg.norm(apply(left, place) - place)) * loops.length,
         angle=turned_by(left),
-        joint=mechanism.all_joints[joint].name,
-        unit=mechanism.unit,
+        joint=linkage.joints[joint].name,
+        unit=unit,
     )
 
 

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 import jaxkin as jk
 from jaxkin.examples import path
 from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mobility.infeasible_drive import dead_end, left_free
+from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
 from reference import catalogue
 from reference.mechanisms import Z, cardan_shafts, planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
 
@@ -42,7 +43,8 @@ def all_drives(mechanism):
 
 def refusal(mechanism, keys):
     """Why a drive is refused, by its names or by its loops."""
-    return dead_end(mechanism, list(coordinates(mechanism, keys).values()))
+    found = infeasible_drive(mechanism.linkage, list(coordinates(mechanism.linkage, keys).values()))
+    return None if found is None else why_infeasible(mechanism, found)
 
 
 def alternatives(text):
@@ -88,7 +90,7 @@ def test_what_can_be_driven_as_well_can(name):
     mechanism = LINKAGES[name]
     drivable = mechanism.mobility().drivable
     assert refusal(mechanism, list(drivable)) is None
-    free = left_free(mechanism, [coordinate(mechanism, drivable[0])])
+    free = undriven_freedoms(mechanism.linkage, [coordinate(mechanism.linkage, drivable[0])])
     assert refusal(mechanism, [drivable[0], *free]) is None
 
 
@@ -96,9 +98,9 @@ def test_a_ball_is_said_to_be_driven_whole():
     mechanism = catalogue.hexapod()
     ball = next(joint for joint in mechanism.all_joints if joint.kind == "spherical")
     with pytest.raises(ValueError) as error:
-        coordinate(mechanism, ball.name)
+        coordinate(mechanism.linkage, ball.name)
     written = str(error.value).partition("write ")[2].split(" with ")
-    assert len(coordinates(mechanism, [literal_eval(name) for name in written])) == 3
+    assert len(coordinates(mechanism.linkage, [literal_eval(name) for name in written])) == 3
 
 
 def bars(*extra):

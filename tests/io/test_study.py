@@ -80,7 +80,7 @@ def test_how_much_is_taken_for_rounding(tmp_path, align, misfit):
         text += f'[joints.{name}]\nkind = "revolute"\nparts = ["{one}", "{other}"]\n'
         text += f"point = [{x}, {y}, 0]\naxis = {axis}\n"
     mechanism = load_study(written(tmp_path, text)).mechanism
-    assert bool(mechanism.ideal) == misfit and len(mechanism.notes) == 1
+    assert bool(mechanism.linkage.ideal) == misfit and len(mechanism.notes) == 1
 
 
 def test_a_study_without_geometry(tmp_path):

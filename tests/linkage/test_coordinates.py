@@ -28,28 +28,28 @@ from reference.mechanisms import cam, planar_fourbar, rssr_linkage
 )
 def test_refused(drive, message):
     with pytest.raises(ValueError, match=message):
-        resolve(planar_fourbar(), drive)
+        resolve(planar_fourbar().linkage, drive)
 
 
 def test_a_joint_of_several_coordinates_asks_which():
     with pytest.raises(ValueError, match=r"has 2 coordinates: write 'A.z' or 'A.phi'"):
-        resolve(planar_fourbar(pin=cylindrical), {"A": [0.0]})
+        resolve(planar_fourbar(pin=cylindrical).linkage, {"A": [0.0]})
 
 
 def test_a_ball_is_driven_whole():
     with pytest.raises(ValueError, match=r"drive all of 'B\.theta', 'B\.phi', 'B\.psi', or none"):
-        resolve(rssr_linkage(), {"B.phi": [0.1]})
+        resolve(rssr_linkage().linkage, {"B.phi": [0.1]})
 
 
 def test_nearest_name():
     with pytest.raises(ValueError, match="did you mean 'shaft'"):
-        resolve(cam(), {"shaf": [0.0]})
+        resolve(cam().linkage, {"shaf": [0.0]})
 
 
 def test_coordinates_that_a_chain_holds_twice_are_numbered():
     joint = cam().joints["touch"]
     assert joint.coordinates == ("x", "y", "phi1", "phi2")
-    driven = resolve(cam(), {"touch.phi2": np.zeros(3)})
+    driven = resolve(cam().linkage, {"touch.phi2": np.zeros(3)})
     assert driven["touch.phi2"].coordinate == 3
 
 

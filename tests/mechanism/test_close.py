@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from jaxkin.joints.pairs import revolute
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.open_loops import opening
 from reference.catalogue import delta, hexapod
@@ -39,7 +40,7 @@ def test_an_open_pose_is_told_and_closed(name):
     assert "Not closed in this pose" in str(mechanism) and "Mobility" not in str(mechanism)
     found = mechanism.close()
     assert found.closed and found.residual < 1e-12 < found.residual_before
-    assert opening(found.mechanism) is None
+    assert opening(found.mechanism.linkage) is None
     assert all(np.array_equal(joint.before, joint.after) for joint in found.mechanism.all_joints)
     assert found.mechanism.mobility().freedoms == mechanism_as_drawn(name).mobility().freedoms
     assert_same_lengths(found.mechanism, mechanism)
@@ -95,7 +96,7 @@ def test_what_is_found_depends_on_neither_place_nor_unit(scale):
             frames[:, :3, 3] *= scale
             sides.append(frames)
         moved.append(type(joint)(joint.name, joint.parts, joint.kind, joint.movements, *sides, joint.pitch))
-    one, other = mechanism.close(), Mechanism(tuple(moved), mechanism.structure).close()
+    one, other = mechanism.close(), Mechanism(Linkage.of(moved, mechanism.structure)).close()
     assert other.residual_before == pytest.approx(one.residual_before)
     for part, move in one.moves.items():
         assert other.moves[part].angle == pytest.approx(move.angle, abs=1e-6)

@@ -45,16 +45,16 @@ def _twice(home):
 
 
 def test_which_rods_spin_idly():
-    assert rssr_linkage().forms[0].spins == ((0, 1, 1, -1),)
-    assert len(hexapod().forms[0].spins) == 6 and len(delta().forms[0].spins) == 6
-    assert spherical_linkage().forms[0].spins == ()
+    assert rssr_linkage().linkage.classes[0].spins == ((0, 1, 1, -1),)
+    assert len(hexapod().linkage.classes[0].spins) == 6 and len(delta().linkage.classes[0].spins) == 6
+    assert spherical_linkage().linkage.classes[0].spins == ()
 
 
 def test_a_door_on_two_balls_turns():
     """The turn about the line of two balls is of use on one body; beside an oblique slide there is none."""
     hinges = [spherical(name, "frame", "door", point=(0, 0, z)) for name, z in (("low", 0.0), ("high", 9.0))]
     door = Mechanism.build(fixed=["frame"], joints=hinges)
-    assert door.forms[0].spins == ()
+    assert door.linkage.classes[0].spins == ()
     oblique = [
         revolute("in", "ground", "crank", point=(0, 0, 0), axis=(0, 0, 1)),
         spherical("a", "crank", "tube", point=(1, 0, 0)),
@@ -62,4 +62,4 @@ def test_a_door_on_two_balls_turns():
         spherical("b", "rod", "rocker", point=(5, 0, 0)),
         revolute("out", "ground", "rocker", point=(5, 1, 0), axis=(0, 0, 1)),
     ]
-    assert Mechanism.build(fixed=["ground"], joints=oblique).forms[0].spins == ()
+    assert Mechanism.build(fixed=["ground"], joints=oblique).linkage.classes[0].spins == ()

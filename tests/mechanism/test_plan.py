@@ -12,6 +12,7 @@ from jaxkin.linkage.first_order import DOUBLE
 from jaxkin.linkage.solve_order import solve_order
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.plan import plan
+from jaxkin.mobility.loop_freedoms import loop_freedoms
 from reference import catalogue
 from reference.mechanisms import Z, bennett_linkage, cam, cardan_shafts, planar_fourbar, rssr_linkage, slider_crank
 
@@ -158,7 +159,7 @@ def test_rates_found_group_by_group_close_all_loops(seed, dyads, welded):
     """Each group is solved alone, with what it leaves free drawn at random: no group behind it fails for that."""
     random = np.random.default_rng(seed)
     mechanism = linkage(random, dyads, welded)
-    for loops in mechanism.loop_freedoms:
+    for loops in loop_freedoms(mechanism.linkage):
         given = [column for column, (joint, _) in enumerate(loops.columns) if mechanism.all_joints[joint].name == "J0"]
         if np.linalg.norm(loops.motions[:, given]) < 1e-3:
             given = []  # a rigid piece, or a crank at a dead centre

@@ -7,11 +7,11 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.assembly.assembly import Assembly
+from jaxkin.assembly.blocking_contacts import blocking_contacts
 from jaxkin.examples import EXAMPLES, path
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import rotation
 from jaxkin.geometry.surfaces import Plane
-from jaxkin.mobility.blocking_contacts import freeing
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def test_the_stop_is_the_first_way_out(blocked):
     assembly, end = blocked
     mechanism = assembly.mechanism(fixed=["ground", "stop"])
     assert mechanism.mobility().freedoms == 0
-    ways = freeing(mechanism)
+    ways = blocking_contacts(mechanism)
     (contact,) = ways[0].what
     assert contact.parts == ("slider", "stop") and contact.faces == (end.name, "face 1")
     assert ways[0].freedoms == 1 and set(ways[0].parts) == {"crank", "rod", "slider"}
@@ -46,7 +46,7 @@ def test_each_way_out_is_one(blocked):
     is of use: a hinge without the face that it rests on slides along its pin, and no more."""
     assembly, _ = blocked
     mechanism = assembly.mechanism(fixed=["ground", "stop"])
-    promised = {contact: way.freedoms for way in freeing(mechanism) for contact in way.what}
+    promised = {contact: way.freedoms for way in blocking_contacts(mechanism) for contact in way.what}
     used = [contact for some in mechanism.contacts.values() for contact in some]
     assert 0 < len(promised) < len(used)
     for contact in [*promised, *[c for c in used if c not in promised][:2]]:
@@ -65,7 +65,7 @@ def test_joints_by_hand_are_named():
     points = {"A": (0, 0, 0), "B": (4, 0, 0), "C": (1, 3, 0)}
     parts = {"A": ("base", "left"), "B": ("base", "right"), "C": ("left", "right")}
     hinges = [jk.revolute(name, *parts[name], point=points[name], axis=(0, 0, 1)) for name in points]
-    ways = freeing(jk.Mechanism.build(fixed=["base"], joints=hinges))
+    ways = blocking_contacts(jk.Mechanism.build(fixed=["base"], joints=hinges))
     assert {way.what for way in ways} == {("A",), ("B",), ("C",)}
     assert [way.freedoms for way in ways] == [2, 2, 2]
     assert "joint 'A': then 2 freedoms, moving left, right" in map(str, ways)
@@ -76,7 +76,7 @@ def test_where_no_single_contact_is_the_reason_the_fewest_of_two_parts_are():
     lid = [jk.planar(f"lid {k}", "base", "lid", normal=(0, 0, 1), point=(k, 0, 0)) for k in range(2)]
     lid += [jk.planar(f"side {k}", "base", "lid", normal=(0, 1, 0), point=(k, 0, 0)) for k in range(2)]
     lid += [jk.planar(f"end {k}", "base", "lid", normal=(1, 0, 0), point=(k, 0, 0)) for k in range(2)]
-    ways = freeing(jk.Mechanism.build(fixed=["base"], joints=lid))
+    ways = blocking_contacts(jk.Mechanism.build(fixed=["base"], joints=lid))
     assert {way.what for way in ways} == {("lid 0", "lid 1"), ("side 0", "side 1"), ("end 0", "end 1")}
     assert "joint 'lid 0' and joint 'lid 1': then 1 freedom, moving lid" in map(str, ways)
     for way in ways:
@@ -105,7 +105,7 @@ def test_contacts_that_were_perhaps_meant_to_agree_come_first():
     assert len(contacts) == 3
     mechanism = assembly.mechanism(fixed=["base"])
     assert mechanism.mobility().freedoms == 0
-    ways = freeing(mechanism)
+    ways = blocking_contacts(mechanism)
     assert [way.what[0].faces[0] for way in ways] == ["left", "right", "floor"]
     for way in ways:
         (contact,) = way.what

@@ -12,6 +12,7 @@ from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.body_graph import BodyGraph
 from jaxkin.mobility.idle import IdleMotions
+from jaxkin.mobility.loop_freedoms import loop_freedoms
 from reference import catalogue
 from reference.cassie import cassie_leg
 from reference.mechanisms import Z, planar_fourbar, rssr_linkage
@@ -73,7 +74,7 @@ def left_free(mechanism: Mechanism, drive) -> list[str]:
 
 
 def rates_of(mechanism: Mechanism) -> list[IdleMotions]:
-    return [IdleMotions(mechanism, found) for found in mechanism.loop_freedoms]
+    return [IdleMotions(mechanism.linkage, found) for found in loop_freedoms(mechanism.linkage)]
 
 
 LEGS = {
@@ -258,7 +259,7 @@ def test_numbers_and_names_fit_together(name):
 @pytest.mark.parametrize("name", MANY)
 def test_idle_motions_keep_the_loops_closed_and_rest_elsewhere(name):
     mechanism = MANY[name]
-    for found, idle in zip(mechanism.loop_freedoms, rates_of(mechanism), strict=True):
+    for found, idle in zip(loop_freedoms(mechanism.linkage), rates_of(mechanism), strict=True):
         np.testing.assert_allclose(found.jacobian @ idle.rates.T, 0.0, atol=1e-9)  # Jacobians with entries near 1
         moving = {part for motion in idle.motions for part in motion.parts}
         resting = [k for k, (joint, _) in enumerate(found.columns) if not moving & set(found.ends[joint])]
@@ -269,7 +270,7 @@ def test_idle_motions_keep_the_loops_closed_and_rest_elsewhere(name):
 def test_the_basis_of_the_motions_does_not_matter(name):
     mechanism = MANY[name]
     before = [idle.motions for idle in rates_of(mechanism)]
-    for found in mechanism.loop_freedoms:
+    for found in loop_freedoms(mechanism.linkage):
         mix = np.linalg.qr(np.random.default_rng(3).normal(size=[len(found.motions)] * 2))[0]
         found.__dict__["_decomposed"] = found.rank, mix @ found.motions
         found.__dict__.pop("motions")
@@ -278,5 +279,5 @@ def test_the_basis_of_the_motions_does_not_matter(name):
 
 def test_the_body_that_carries_the_loops_is_known():
     mechanism = leg()
-    (found,) = mechanism.loop_freedoms
-    assert BodyGraph(mechanism, found).carrier == "hip"
+    (found,) = loop_freedoms(mechanism.linkage)
+    assert BodyGraph(mechanism.linkage, found).carrier == "hip"

@@ -98,7 +98,7 @@ def test_rounded_mechanisms_have_the_mobility_of_exact_ones(name):
     exact, rng = EVERY[name](), np.random.default_rng(len(name))
     joints = rounded(tilted(placed(exact.all_joints, rng), 1e-6, rng), 6)
     mechanism = Mechanism.build(fixed=list(exact.fixed), joints=joints)
-    assert not mechanism.ideal and numbers(mechanism) == numbers(exact)
+    assert not mechanism.linkage.ideal and numbers(mechanism) == numbers(exact)
     assert moved_by(mechanism, joints) <= SIX_DIGITS
 
 
@@ -113,7 +113,7 @@ def test_rounded_mechanisms_move_as_exact_ones(name, trials):
         drivable = ("A.phi", "B.phi", "C.phi")  # beside its pose they are independent
     for trial in trials:
         error = 10.0 ** -(6 + 3 * (trial % 3))
-        truth = replace(exact, all_joints=placed(exact.all_joints, rng), solids=(), known_forms=None)
+        truth = exact.with_linkage(exact.linkage.with_joints(placed(exact.all_joints, rng)))
         joints = truth.all_joints
         joints = rounded(joints, 6 + 3 * (trial % 3)) if trial % 2 else tilted(joints, error, rng)
         mechanism = Mechanism.build(fixed=list(exact.fixed), joints=joints)
@@ -161,7 +161,7 @@ def distance(one: Motion, other: Motion, size: float) -> Array:
 def test_loops_that_move_are_left_as_they_are(build):
     """Small numbers that are design: RCCC, Bennett's linkage, a crank that is a little shorter."""
     mechanism = build()
-    assert not mechanism.notes and not mechanism.ideal
+    assert not mechanism.notes and not mechanism.linkage.ideal
     tried = Mechanism.build(fixed=list(mechanism.fixed), joints=mechanism.all_joints, align=PLAY[-1])
     assert all(one is other for one, other in zip(tried.all_joints, mechanism.all_joints, strict=True))
 
@@ -218,7 +218,7 @@ def test_the_note_names_the_joint_and_what_it_advises_works():
     advised = re.search(r"align=(\S+)", note)
     assert advised
     aligned = fourbar(1e-4, align=float(advised[1]))
-    assert not aligned.ideal and np.all(aligned.sweep({"A": TURN}).closed)
+    assert not aligned.linkage.ideal and np.all(aligned.sweep({"A": TURN}).closed)
     assert "by at most" in str(aligned) and "MISFIT" in str(mechanism)
 
 
@@ -245,7 +245,7 @@ def test_a_misfit_with_slides_along_the_axes():
     joints = tilted(exact.all_joints, 1e-4, np.random.default_rng(0))
     mechanism = Mechanism.build(fixed=["ground"], joints=joints)
     motion = mechanism.sweep({"A.phi": TURN})
-    assert mechanism.ideal and set(np.asarray(motion.status)) <= {Status.CLOSED, Status.MISFIT}
+    assert mechanism.linkage.ideal and set(np.asarray(motion.status)) <= {Status.CLOSED, Status.MISFIT}
     expected = np.asarray(exact.sweep({"A.phi": TURN}).coordinates["D"])
     found = np.asarray(motion.coordinates["D"])
     assert np.abs(found - expected)[:, 1].max() <= 1e-2  # a hundred tilts: the loops cannot say where slides stay
@@ -254,7 +254,7 @@ def test_a_misfit_with_slides_along_the_axes():
 def test_frames_placed_anew_are_aligned_too():
     mechanism, tilted_axis = fourbar(0.0), fourbar(1e-7, align=0).joints["C"].before[0]
     assert np.all(mechanism.with_frames({"C": tilted_axis}).sweep({"A": TURN}).closed)
-    assert mechanism.with_frames({"C": tilted_axis}, align=0).ideal
+    assert mechanism.with_frames({"C": tilted_axis}, align=0).linkage.ideal
     one_side = mechanism.with_frames({("rocker", "C"): tilted_axis})
     assert np.all(one_side.sweep({"A": TURN}).closed) and len(one_side.notes) == 1
 

@@ -32,7 +32,7 @@ def zeroed_elsewhere(mechanism: Mechanism, angle: float, seed: int = 0) -> Mecha
             q = angle * np.array(scales) * rng.uniform(-1.0, 1.0, len(scales))
             frames.append(chain([name], frame[None], q, float(joint.pitch))[0] @ frame)
         joints.append(replace(joint, after=np.array(frames)))
-    return replace(mechanism, all_joints=tuple(joints))
+    return replace(mechanism, linkage=mechanism.linkage.with_joints(joints))
 
 
 def assert_same_lengths(one: Mechanism, other: Mechanism) -> None:

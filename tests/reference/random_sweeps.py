@@ -65,7 +65,7 @@ def sweeps(linkage: Linkage) -> Callable:
     """
     points, axes = linkage.draw(np.random.default_rng(0), 1, linkage.stages)
     template = linkage.build(points[0], axes[0])
-    assert template.forms  # found while the frames are numbers
+    assert template.linkage.classes  # found while the frames are numbers
 
     def one(given: tuple[jax.Array, jax.Array]):
         frames, inputs = given

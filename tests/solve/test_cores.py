@@ -81,6 +81,6 @@ def test_settings_of_a_thread_hold_in_those_of_its_shards():
 
 
 def test_how_many_shards():
-    (element,) = prepare(planar_fourbar(), ("A",)).elements
+    (element,) = prepare(planar_fourbar().linkage, ("A",)).elements
     options = SolverOptions(cores=8, min_shard_poses=1000)
     assert [shard_count(element.system, poses, options) for poses in (999, 3000, 100_000)] == [1, 3, 8]

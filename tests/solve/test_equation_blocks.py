@@ -29,8 +29,8 @@ CASES = {
 
 
 def system_and_joints(mechanism):
-    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
-    system, _ = block_system(mechanism, block, ((block.joints[0], 0),), form)
+    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
+    system, _ = block_system(mechanism.linkage, block, ((block.joints[0], 0),), form)
     return system, block_joints(mechanism.all_joints, block)
 
 
@@ -65,9 +65,9 @@ def test_blocks_do_not_depend_on_the_order_of_the_loops():
 def test_where_all_is_driven_there_is_nothing_to_solve():
     """A wrist: three driven hinges, and a ball at which the loop is cut."""
     mechanism = wrist()
-    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
     hinges = [joint for joint in block.joints if mechanism.all_joints[joint].freedoms == 1]
-    assert blocks(block_system(mechanism, block, tuple((joint, 0) for joint in hinges), form)[0]) == ()
+    assert blocks(block_system(mechanism.linkage, block, tuple((joint, 0) for joint in hinges), form)[0]) == ()
 
 
 def test_a_redundant_loop_is_solved_last():

@@ -24,9 +24,9 @@ PLANAR = [planar_fourbar, slider_crank, jansen, oldham, scotch_yoke]
 
 def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
-    (block,), (form,) = mechanism.structure.blocks, mechanism.forms
+    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
     for chosen in (form, Form()):
-        system, _ = block_system(mechanism, block, ((block.joints[0], 0),), chosen)
+        system, _ = block_system(mechanism.linkage, block, ((block.joints[0], 0),), chosen)
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block)))[0]
 
 
@@ -60,8 +60,8 @@ def test_the_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(ma
 
 
 def test_which_structures_are_planar():
-    assert all(make().forms[0].plane is not None for make in PLANAR)
-    assert spherical_linkage().forms[0].plane is None and rssr_linkage().forms[0].plane is None
+    assert all(make().linkage.classes[0].plane is not None for make in PLANAR)
+    assert spherical_linkage().linkage.classes[0].plane is None and rssr_linkage().linkage.classes[0].plane is None
 
 
 def test_a_tilted_hinge_makes_a_loop_spatial():
@@ -103,6 +103,6 @@ def test_placed_anywhere_the_plane_is_found_and_the_motion_is_the_same():
     mechanism = planar_fourbar(1.0)
     joints = [replace(joint, before=pose @ joint.before, after=pose @ joint.after) for joint in mechanism.all_joints]
     placed = Mechanism.build(joints=joints, fixed=["ground"])
-    assert placed.forms == mechanism.forms
+    assert placed.linkage.classes == mechanism.linkage.classes
     expected = mechanism.sweep({"A": turn}).coordinates["D"]
     np.testing.assert_allclose(placed.sweep({"A": turn}).coordinates["D"], expected, atol=1e-13)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.loop_system import Form, LoopSystem
 from jaxkin.topology.structure import Block
@@ -19,14 +19,14 @@ Columns = tuple[tuple[int, int], ...]
 
 
 def block_system(
-    mechanism: Mechanism, block: Block, driven: tuple[tuple[int, int], ...], form: Form
+    linkage: Linkage, block: Block, driven: tuple[tuple[int, int], ...], form: Form
 ) -> tuple[LoopSystem, Columns]:
     """The loops of a structure element, and its columns; `driven` are (joint, coordinate), in any order.
 
     An element of planar `form` is solved in its plane, unless something is driven along the normal: what would move
     along it rests, and has no columns.
     """
-    every = [(index, k) for index in block.joints for k in range(mechanism.all_joints[index].freedoms)]
+    every = [(index, k) for index in block.joints for k in range(linkage.joints[index].freedoms)]
     loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
     plane = None if form.plane is None else {every[column] for column in form.plane}
     if plane is not None and not plane.issuperset(driven):
@@ -34,7 +34,7 @@ def block_system(
     columns, movements = [], []
     for index in block.joints:
         chain, first = [], 0
-        for name in mechanism.all_joints[index].movements:
+        for name in linkage.joints[index].movements:
             own = [(index, first + k) for k in range(len(MOVEMENTS[name].coordinates))]
             inside = own if plane is None else [column for column in own if column in plane]
             chain.append(name if inside == own else RESTING[name])

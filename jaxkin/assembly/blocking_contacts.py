@@ -18,7 +18,6 @@ from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import NEARLY, joints_from_contacts
 from jaxkin.joints.joint import Joint
-from jaxkin.mobility.needless import spinning
 from jaxkin.mobility.twists import Twists, middle, twists
 from jaxkin.topology.bodies import bodies
 
@@ -41,7 +40,7 @@ _FITS = ("e", "k", "o")
 
 
 @dataclass(frozen=True)
-class Freeing:
+class BlockingContacts:
     """Something to leave out, and what can move then."""
 
     what: tuple[Contact | str, ...]
@@ -60,13 +59,13 @@ class Freeing:
 
 
 class _Way(NamedTuple):
-    """A `Freeing` that was not tried yet."""
+    """A `BlockingContacts` that was not tried yet."""
 
     rank: tuple
-    freeing: Freeing
+    found: BlockingContacts
 
 
-def freeing(mechanism: Mechanism) -> tuple[Freeing, ...]:
+def blocking_contacts(mechanism: Mechanism) -> tuple[BlockingContacts, ...]:
     """Single contacts or joints by hand without which parts of the mechanism could move; if there is none, the fewest
     contacts of two parts. Those first that are more likely to be wrong, some `LISTED` at most, all of them tried.
 
@@ -80,7 +79,7 @@ def freeing(mechanism: Mechanism) -> tuple[Freeing, ...]:
     ways.sort(key=lambda way: way.rank)
     listed = LISTED if len(mechanism.all_joints) <= MANY else FEW
     before = mechanism.mobility().useful
-    found: list[Freeing] = []
+    found: list[BlockingContacts] = []
     for _, way in ways[: _TRIED * listed]:
         if (tried := _tried(mechanism, way, before)) is not None:
             found.append(tried)
@@ -89,7 +88,7 @@ def freeing(mechanism: Mechanism) -> tuple[Freeing, ...]:
     return tuple(found)
 
 
-def _tried(mechanism: Mechanism, way: Freeing, before: int) -> Freeing | None:
+def _tried(mechanism: Mechanism, way: BlockingContacts, before: int) -> BlockingContacts | None:
     """The freedoms of the mechanism that is found without some contacts; None where they are no more than before."""
     try:
         freedoms = without_contacts(mechanism, way.what).mobility().useful
@@ -122,7 +121,14 @@ class _Judged(NamedTuple):
         source = {name: some[0] for name, some in found.contacts.items()}
         what = [source.get(joint.name, joint.name) for joint in joints]
         system = twists(joints, body_of, body_of[mechanism.fixed[0]])
-        return _Judged(joints, what, body_of, system, frozenset(spinning(mechanism)), middle(joints)[1])
+        return _Judged(
+            joints,
+            what,
+            body_of,
+            system,
+            frozenset(part.name for part in mechanism.linkage.spinning),
+            middle(joints)[1],
+        )
 
     def way(self, removed: Sequence[int]) -> _Way | None:
         """What is gained without some joints, unless it is nothing but parts that only spin."""
@@ -136,7 +142,7 @@ class _Judged(NamedTuple):
         if self.resting.issuperset(parts):
             return None
         what = tuple(self.what[k] for k in removed)
-        found = Freeing(what, len(gained), parts, self.joints[removed[0]].parts)
+        found = BlockingContacts(what, len(gained), parts, self.joints[removed[0]].parts)
         margin = self.system.strength(rows, gained)
         return _Way((*self._likely_right(removed, margin), len(gained), -len(parts)), found)
 

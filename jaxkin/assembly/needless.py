@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from jaxkin.assembly.spinning import SAME, Spin, spins
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement, freedoms
-from jaxkin.mobility.spinning import SAME, Spin, spins
+from jaxkin.linkage.linkage import SpinningPart
 from jaxkin.mobility.twists import Twists, middle, twists
 from jaxkin.topology.components import connected
 from jaxkin.topology.structure import Block
@@ -57,9 +58,11 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
     return Found({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
 
 
-def spinning(mechanism: Mechanism) -> dict[str, Spin]:
-    """The parts that only spin, and how."""
-    return found_spinning(mechanism).spins
+def with_spinning(mechanism: Mechanism) -> Mechanism:
+    """The mechanism whose linkage knows the parts that only spin, as the solids tell."""
+    found = found_spinning(mechanism).spins
+    spinning = tuple(SpinningPart(part, spin.freedoms) for part, spin in found.items())
+    return replace(mechanism, linkage=replace(mechanism.linkage, spinning=spinning))
 
 
 class _Judged(NamedTuple):
