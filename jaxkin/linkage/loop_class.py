@@ -42,11 +42,11 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
     fixed = row_of[structure.fixed[0]]
     bodies = {part: fixed if part in structure.fixed else row for part, row in row_of.items()}
     found = []
-    for block in structure.blocks:
-        inside = [joints[joint] for joint in block.joints]
+    for loop_group in structure.loop_groups:
+        inside = [joints[joint] for joint in loop_group.joints]
         schoenflies = tuple(
             number
-            for number, loop in enumerate(block.loops)
+            for number, loop in enumerate(loop_group.loops)
             if turn_about_one_direction([joints[joint] for joint, _ in loop])
         )
         found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))

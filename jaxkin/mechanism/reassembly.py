@@ -31,7 +31,7 @@ from jaxkin.mobility.open_loops import Opening, tell_opening
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
-    from jaxkin.topology.structure import Block
+    from jaxkin.topology.structure import LoopGroup
 
 _TOLD = 1e-6
 """Moves are told of parts that move by more than this part of what the most moved one does: not by rounding."""
@@ -109,7 +109,7 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
     held = {coordinate(mechanism.linkage, key) for key in hold}
     given = replace(mechanism.linkage, ideal=())
-    blocks = [_closed(given, block, held, noise) for block in given.structure.blocks]
+    blocks = [_closed(given, loop_group, held, noise) for loop_group in given.structure.loop_groups]
     before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
     rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
     if still_open := [block for block in blocks if not block.is_closed]:
@@ -161,15 +161,15 @@ class _Block:
     """Within the rounding of the numbers."""
 
 
-def _closed(linkage: Linkage, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
+def _closed(linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float) -> _Block:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops(linkage.joints, linkage.structure, block)
+    loops = ClosedLoops(linkage.joints, linkage.structure, loop_group)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
     if loops.coincide or before <= loops.noise.closed:
         return _Block(loops, q, held, before, before, True)
     q, found = loops.closed(q, held)
-    size = extent([linkage.joints[index] for index in block.joints])
+    size = extent([linkage.joints[index] for index in loop_group.joints])
     enough = max(noise * size / loops.length, loops.noise.closed)
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))

@@ -13,7 +13,7 @@ from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
-from jaxkin.topology.structure import Block, Structure
+from jaxkin.topology.structure import LoopGroup, Structure
 
 _ITERATIONS = 200
 """Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
@@ -62,10 +62,10 @@ class Travel(NamedTuple):
 class ClosedLoops:
     """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
 
-    def __init__(self, every: Sequence[Joint], structure: Structure, block: Block) -> None:
-        """`every` are the joints whose loops are solved, all of the linkage; `block` is the loop group."""
-        joints = {index: every[index] for index in block.joints}
-        self.block = block
+    def __init__(self, every: Sequence[Joint], structure: Structure, loop_group: LoopGroup) -> None:
+        """`every` are the joints whose loops are solved, all of the linkage; `loop_group` says which loops."""
+        joints = {index: every[index] for index in loop_group.joints}
+        self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
         single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
         self.noise = SINGLE if single else DOUBLE
@@ -132,11 +132,11 @@ class ClosedLoops:
         places: dict[str, Pose] = {}
         starts: list[Pose] = []
         left_open: list[Pose] = []
-        residual = np.zeros((len(self.block.loops), 6))
-        jacobian = np.zeros((len(self.block.loops), 6, len(q)))
+        residual = np.zeros((len(self.loop_group.loops), 6))
+        jacobian = np.zeros((len(self.loop_group.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
         for row, (misfit, twists) in enumerate(zip(residual, jacobian, strict=True)):
-            loop = self.block.loops[row]
+            loop = self.loop_group.loops[row]
             # a loop starts at a part that the loops before it hold (Section 4.2)
             start = pose = places.setdefault(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1], np.eye(4))
             starts.append(start)

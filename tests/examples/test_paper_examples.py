@@ -68,7 +68,7 @@ def test_loops_and_freedoms_of_figure_3(fixed, loops, freedoms):
     found = mechanism("eighteen_bars", fixed)
     assert [len(element.loops) for element in found.structure.elements if element.loops] == loops
     assert found.mobility().freedoms == freedoms
-    in_loops = {found.structure.joints[joint] for block in found.structure.blocks for joint in block.joints}
+    in_loops = {found.structure.joints[joint] for block in found.structure.loop_groups for joint in block.joints}
     assert set(found.mobility().idle) == {f"{name}.z" for name in in_loops}  # bars float along their pins
 
 

@@ -24,7 +24,7 @@ PLANAR = [planar_fourbar, slider_crank, jansen, oldham, scotch_yoke]
 
 def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
-    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
+    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     for chosen in (form, LoopClass()):
         system, _ = block_system(mechanism.linkage, block, ((block.joints[0], 0),), chosen)
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block)))[0]
