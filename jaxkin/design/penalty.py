@@ -33,7 +33,7 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
     square = jnp.zeros(len(motion))
     for loop_group in mechanism.structure.loop_groups:
         joints = [mechanism.all_joints[joint] for joint in loop_group.joints]
-        origins = jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints])
+        origins = jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
         centre = origins.mean(axis=0)
         spread = jnp.mean(jnp.sum((origins - centre) ** 2, axis=1))
         size = jnp.sqrt(jnp.where(spread > 0, spread, 1.0))

@@ -93,14 +93,14 @@ class Extended:
         return found
 
     def _displacement(self, joint: Joint, q: list) -> Any:
-        """J = product of `before T after^-1` (Table 2)."""
+        """J = product of `frames_1 T frames_2^-1` (Table 2)."""
         pose, first = self.mp.eye(4), 0
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
-            pose = pose * self._matrix(joint.before[frame])
+            pose = pose * self._matrix(joint.frames_1[frame])
             for element in movement.elements:
                 pose = pose * self._elementary(element, q[first + element.coordinate], float(joint.pitch))
-            pose = pose * self._inverse(self._matrix(joint.after[frame]))
+            pose = pose * self._inverse(self._matrix(joint.frames_2[frame]))
             first += len(movement.coordinates)
         return pose
 

@@ -164,4 +164,4 @@ def _counted_groups(
 
 def _edited(joints: list[Joint]) -> bool:
     """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
-    return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
+    return traced(joints) or any(not np.array_equal(joint.frames_1, joint.frames_2) for joint in joints)

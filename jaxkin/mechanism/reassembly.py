@@ -116,7 +116,7 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         worst = max(still_open, key=lambda block: block.after)
         left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    if all(np.array_equal(joint.before, joint.after) for joint in given.joints):
+    if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [block for block in blocks if block.q.any()]
     others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
@@ -193,7 +193,7 @@ def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) ->
 
 
 def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
-    before, after = (np.asarray(side, float) for side in (joint.before, joint.after))
+    before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
     return chain(joint.movements, before, q, float(joint.pitch), after)[0]
 
 
@@ -205,7 +205,7 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
     """
     frames, start = [], 0
     for number, name in enumerate(joint.movements):
-        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.before, joint.after))
+        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.frames_1, joint.frames_2))
         own = q[start : start + freedoms([name])]
         start += len(own)
         most = own.copy()
@@ -213,15 +213,15 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
         frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
         place = place @ chain([name], before, own, float(joint.pitch), after)[0]
-    stacked = np.array(frames, np.asarray(joint.before).dtype)
-    return replace(joint, before=stacked, after=stacked)
+    stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
+    return replace(joint, frames_1=stacked, frames_2=stacked)
 
 
 def _move(linkage: Linkage, part: str, place: Pose) -> Move:
     sides = [
         np.asarray(side, float)[frame, :3, 3]
         for joint in linkage.joints
-        for own, side, frame in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True)
+        for own, side, frame in zip(joint.parts, (joint.frames_1, joint.frames_2), (0, -1), strict=True)
         if own == part
     ]
     origins = np.array(sides).reshape(-1, 3)

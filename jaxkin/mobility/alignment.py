@@ -142,28 +142,28 @@ def _made_exact(linkage: Linkage, loop_group: LoopGroup, level: float) -> list[J
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:
-    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.before, joint.after))
+    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.frames_1, joint.frames_2))
     return Noise(level, level * extent(joints) + _SINGLE * farthest)
 
 
 def extent(joints: Sequence[Joint]) -> float:
     """The diagonal of the box around the origins of all frames."""
-    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     return float(np.linalg.norm(np.ptp(origins, axis=0)))
 
 
 def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
     """The joints with directions and places related as they are but for the noise."""
-    sides = [side for joint in joints for side in (joint.before, joint.after)]
+    sides = [side for joint in joints for side in (joint.frames_1, joint.frames_2)]
     names = [name for joint in joints for _ in range(2) for name in joint.movements]
     frames = align(names, np.concatenate(sides), noise)[0]
     rest = iter(np.split(frames, np.cumsum([len(side) for side in sides])[:-1]))
-    return [replace(joint, before=next(rest), after=next(rest)) for joint in joints]
+    return [replace(joint, frames_1=next(rest), frames_2=next(rest)) for joint in joints]
 
 
 def _mobile(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> list[Joint] | None:
     """The joints with the nearest frames with which the loops move; None where they are farther than `level`."""
-    if not all(np.array_equal(joint.before, joint.after) for joint in joints):
+    if not all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints):
         return None
     loops = _closed_loops(linkage, loop_group, joints)
     if not nearest_mobile(loops, level):
@@ -172,7 +172,7 @@ def _mobile(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], le
     for number, joint in zip(loop_group.joints, joints, strict=True):
         frames = loops.chains[number][1].copy()
         frames[:, :3, 3] = loops.centre + loops.length * frames[:, :3, 3]
-        found.append(replace(joint, before=frames, after=frames))
+        found.append(replace(joint, frames_1=frames, frames_2=frames))
     return found
 
 
@@ -199,7 +199,7 @@ def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | 
         return None
     angles, lengths = np.zeros(len(given)), np.zeros(len(given))
     for number, (one, other) in enumerate(zip(given, found, strict=True)):
-        for side in ("before", "after") if one is not other else ():
+        for side in ("frames_1", "frames_2") if one is not other else ():
             change = np.asarray(getattr(other, side)) - np.asarray(getattr(one, side))
             angles[number] = max(angles[number], np.linalg.norm(change[:, :3, 2], axis=1).max(initial=0.0))
             lengths[number] = max(lengths[number], np.linalg.norm(change[:, :3, 3], axis=1).max(initial=0.0))

@@ -71,7 +71,7 @@ class ClosedLoops:
         self.noise = SINGLE if single else DOUBLE
         row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
-        origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints.values()])
+        origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints.values()])
         centre = self.centre = origins.mean(axis=0)
         length = self.length = float(np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())) or 1.0
 
@@ -81,14 +81,14 @@ class ClosedLoops:
             return frames
 
         self.chains = {
-            index: (joint.movements, scaled(joint.before), scaled(joint.after), float(joint.pitch) / length)
+            index: (joint.movements, scaled(joint.frames_1), scaled(joint.frames_2), float(joint.pitch) / length)
             for index, joint in joints.items()
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
         names = [name for joint in joints.values() for name in joint.coordinates]
         self.units = np.array([length if name.split(".")[-1] in ("x", "y", "z") else 1.0 for name in names])
         """Of each column: what its scaled coordinate is multiplied by."""
-        self.coincide = all(np.array_equal(joint.before, joint.after) for joint in joints.values())
+        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values())
         """Whether all joints have one frame on both of their parts: then the assembled pose is closed as it is given,
         though frames that are rigid to some digits only leave a residual of their own."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}

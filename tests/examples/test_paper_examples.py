@@ -97,7 +97,7 @@ def drawing_axis(example, axis):
 
 def sign(found, joint, direction):
     """+1 where the joint's axis points along a direction of the drawing, -1 against it: files have it either way."""
-    return np.sign(float(np.asarray(found.joints[joint].before)[0][:3, 2] @ direction))
+    return np.sign(float(np.asarray(found.joints[joint].frames_1)[0][:3, 2] @ direction))
 
 
 @pytest.mark.parametrize("combine", [True, pytest.param(False, marks=pytest.mark.long)])
