@@ -6,18 +6,39 @@ coordinates that are driven. Coordinates of all joints stand one after another a
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate, product
+from itertools import accumulate
+from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.screws import freedoms
 from jaxkin.linkage.loop_class import LoopClass
 
-EQUATIONS, IN_PLANE, CENTRE, LENGTH = 6, 3, 3, 1
-"""Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
-one and two; cut at a ball the latter three, at both balls of a rod one. Of a loop that turns about one direction only,
-one and three."""
+EQUATIONS = 6
+"""Independent equations of a loop at most: three of rotation, three of translation, of the twelve of Eq. 11."""
+IN_PLANE = 3
+"""Independent equations of a planar loop: one of rotation, two of translation."""
+
+
+class Sections(NamedTuple):
+    """Which loops in space have which equations, in the order in which they are rows of the Jacobian."""
+
+    rotation: tuple[int, ...]
+    """Numbers of the loops of three equations of rotation."""
+    spherical: tuple[int, ...]
+    """Numbers of the loops whose axes meet in one point, with three equations in all."""
+    one_rotation: tuple[int, ...]
+    """Numbers of the loops that turn about one direction only."""
+    translation: tuple[int, ...]
+    """Numbers of the loops of three equations of translation; of those that are cut at a ball these are all."""
+    rod_length: tuple[int, ...]
+    """Numbers of the loops that are cut at both balls of a rod, of which its length is left."""
+
+
+EQUATIONS_OF = (3, 3, 1, 3, 1)
+"""Number of equations of a loop in each of the `Sections`."""
 
 
 LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
@@ -84,6 +105,16 @@ class LoopSystem:
                     locking[joint, frame + pair[0]] = tuple(column + k for k in pair[1])
                 column += len(MOVEMENTS[name].coordinates)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
+
+    def axes(self, joints: Iterable[int]) -> list[tuple[int, int]]:
+        """(frame, axis) of each elementary motion of some joints; frames are counted through, those of all joints."""
+        first = tuple(accumulate(map(len, self.movements), initial=0))
+        return [
+            (first[joint] + frame, element.axis)
+            for joint in joints
+            for frame, name in enumerate(self.movements[joint])
+            for element in MOVEMENTS[name].elements
+        ]
 
     @cached_property
     def is_length(self) -> tuple[bool, ...]:
@@ -156,15 +187,18 @@ class LoopSystem:
         return replace(self, loop_class=self.loop_class._replace(cut_at_balls=False))
 
     @cached_property
-    def rotations(self) -> tuple[int, ...]:
-        """For each loop in space the number of its equations of rotation."""
-        one = self.loop_class.schoenflies
-        return tuple(0 if cut else 1 if loop in one else 3 for loop, cut in enumerate(self.cuts))
-
-    @cached_property
-    def translations(self) -> tuple[int, ...]:
-        """For each loop in space the number of its equations of translation, or of the length of a rod."""
-        return tuple(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+    def sections(self) -> Sections:
+        """Which loops in space have which equations."""
+        one, about_point = self.loop_class.schoenflies, self.loop_class.spherical
+        uncut = [loop for loop, cut in enumerate(self.cuts) if not cut]
+        spherical = tuple(loop for loop in uncut if loop in about_point)
+        return Sections(
+            rotation=tuple(loop for loop in uncut if loop not in one and loop not in about_point),
+            spherical=spherical,
+            one_rotation=tuple(loop for loop in uncut if loop in one),
+            translation=tuple(loop for loop, cut in enumerate(self.cuts) if len(cut) < 2 and loop not in spherical),
+            rod_length=tuple(loop for loop, cut in enumerate(self.cuts) if len(cut) > 1),
+        )
 
     @cached_property
     def rows(self) -> tuple[tuple[int, ...], ...]:
@@ -173,11 +207,10 @@ class LoopSystem:
             return tuple(tuple(range(IN_PLANE * loop, IN_PLANE * (loop + 1))) for loop in range(len(self.loops)))
         rows: list[tuple[int, ...]] = [()] * len(self.loops)
         first = 0
-        for counts, size in product((self.rotations, self.translations), (3, 1)):
-            for loop, count in enumerate(counts):
-                if count == size:
-                    rows[loop] += tuple(range(first, first + size))
-                    first += size
+        for loops, size in zip(self.sections, EQUATIONS_OF, strict=True):
+            for loop in loops:
+                rows[loop] += tuple(range(first, first + size))
+                first += size
         return tuple(rows)
 
     @cached_property
