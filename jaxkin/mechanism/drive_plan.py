@@ -23,7 +23,7 @@ from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
-from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
+from jaxkin.solve.system.loop_system import IN_SUBGROUP, LoopSystem
 from jaxkin.topology.structure import Block
 
 
@@ -156,7 +156,8 @@ def _counted_groups(linkage: Linkage, block: Block, driven: Columns, loop_class:
     for column, (joint, k) in enumerate(solved.columns):
         if (joint, k) not in driven:
             unknown[joint].append(column)
-    equations = [IN_PLANE if solved.planar else None for _ in block.loops]
+    about_point = loop_class.spherical
+    equations = [IN_SUBGROUP if solved.planar or k in about_point else None for k in range(len(block.loops))]
     return order_by_counting(block.loops, unknown, equations)
 
 

@@ -18,8 +18,9 @@ from jaxkin.linkage.loop_class import LoopClass
 
 EQUATIONS = 6
 """Independent equations of a loop at most: three of rotation, three of translation, of the twelve of Eq. 11."""
-IN_PLANE = 3
-"""Independent equations of a planar loop: one of rotation, two of translation."""
+IN_SUBGROUP = 3
+"""Independent equations of a planar loop, one of rotation and two of translation, and of a spherical one, all three of
+rotation."""
 
 
 class Sections(NamedTuple):
@@ -204,7 +205,7 @@ class LoopSystem:
     def rows(self) -> tuple[tuple[int, ...], ...]:
         """For each loop its rows of the Jacobian: see `Closure.residual`."""
         if self.planar:
-            return tuple(tuple(range(IN_PLANE * loop, IN_PLANE * (loop + 1))) for loop in range(len(self.loops)))
+            return tuple(tuple(range(IN_SUBGROUP * loop, IN_SUBGROUP * (loop + 1))) for loop in range(len(self.loops)))
         rows: list[tuple[int, ...]] = [()] * len(self.loops)
         first = 0
         for loops, size in zip(self.sections, EQUATIONS_OF, strict=True):
