@@ -23,7 +23,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
-from jaxkin.solve.system.chain_tables import AXES, steps
+from jaxkin.solve.system.chain_tables import AXES, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rotation_matrix
 
@@ -52,7 +52,7 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     Columns follow `LoopSystem`, those of balls turn about world axes.
     """
     rotation, translation, twists = _travel(system, geometry, state)
-    table, poses, sections = steps(system), state.x.shape[-1], system.sections
+    table, poses, sections = chain_tables(system), state.x.shape[-1], system.sections
     free, spherical, schoenflies, ends = (np.array(loops, int) for loops in sections[:-1])
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
     uncut = np.sort(np.concatenate([free, spherical, schoenflies]))
@@ -130,7 +130,7 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
     """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it; a rod spins somehow."""
     if not any(system.cuts):
         return {}
-    table = steps(system)
+    table = chain_tables(system)
     rotation, translation, _ = _travel(system, geometry, state)
     closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of what the chain turns, [row, column]
     if table.rods.size:
@@ -151,8 +151,8 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
 def _travel(
     system: LoopSystem, geometry: Spatial, state: State
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
-    """Displacement of the ends of the chains, and the twists that the steps give to them, as in `Steps.source`."""
-    table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    """Displacement of the ends of the chains, and the twists that the rows give to them: `ChainTables.source`."""
+    table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
     chains = len(table.begin)
     turn, slide, screw, sign, side = (
         jnp.asarray(entry, dtype)[..., None]
@@ -189,7 +189,7 @@ def _travel(
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 chains poses"]:
+def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
     """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
@@ -211,7 +211,7 @@ def _product(a: Rotation, b: Rotation) -> Rotation:
 
 def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
     """The constants of the loops from the frames of the joints: those before, those after, and none."""
-    table = steps(system)
+    table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
     along = jnp.asarray(turned[table.axis], frames.dtype)
