@@ -12,8 +12,6 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.effects.accuracy import work_precision as work_precision
 from jaxkin.effects.rates import accelerations as accelerations
 from jaxkin.effects.rates import velocities as velocities
-from jaxkin.io import gltf as _gltf  # writers and drawings register themselves
-from jaxkin.io import tables as _tables
 from jaxkin.io.load import load as load
 from jaxkin.io.study import load_study as load_study
 from jaxkin.joints.joint import Joint as Joint
@@ -29,14 +27,14 @@ from jaxkin.joints.pairs import universal as universal
 from jaxkin.mechanism.lost_contacts import LostContact as LostContact
 from jaxkin.mechanism.mechanism import Mechanism as Mechanism
 from jaxkin.mechanism.motion import Motion as Motion
+from jaxkin.mechanism.pose_error import PoseError as PoseError
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
 from jaxkin.mobility.open_loops import Opening as Opening
+from jaxkin.solve.options import SolverOptions as SolverOptions
 from jaxkin.solve.status import Status as Status
-from jaxkin.view import page as _page
-from jaxkin.view import storyboard as _storyboard
 from jaxkin.view import structure as _structure
 
-del _gltf, _page, _storyboard, _structure, _tables
+del _structure
 
 __version__ = "0.1.0"

@@ -1,8 +1,12 @@
-"""Files as they are named by users."""
+"""Files as they are named by users, and files that appear whole or not at all."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 
 def check_file(path: Path, kind: str) -> int:
@@ -18,3 +22,18 @@ def check_file(path: Path, kind: str) -> int:
     if not path.is_file():
         raise ValueError(f"{path} is a pipe or a device: give the {kind} itself")
     return path.stat().st_size
+
+
+@contextmanager
+def whole(target: Path) -> Iterator[Path]:
+    """A draft of a file, which takes its place when it is written, and never does where that fails.
+
+    It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
+    where the folder of the file is not there.
+    """
+    if not target.parent.is_dir():
+        raise FileNotFoundError(f"cannot write {target}: there is no folder {target.parent}; make it, or name another")
+    with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
+        draft = Path(folder) / target.name
+        yield draft
+        os.replace(draft, target)

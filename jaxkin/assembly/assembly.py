@@ -6,13 +6,16 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from jaxkin.assembly.to_mechanism import mechanism_from_solids
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 @dataclass(frozen=True, eq=False)

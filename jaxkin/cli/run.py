@@ -24,18 +24,18 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     import jax
 
     from jaxkin.cli import report
-    from jaxkin.mechanism.writers import filenames
+    from jaxkin.io.writers import WRITERS
 
     with progress(2) as step:
         study = found(files, options, step)
     if len(next(iter(study.drive.values()))) > LONG:
         said, paths = _streamed(study, out)
     else:
-        with progress(1 + len(filenames())) as step:
+        with progress(1 + len(WRITERS)) as step:
             step("solving")
             motion = jax.block_until_ready(study.sweep())
             said, paths = motion, []
-            for filename in filenames():
+            for filename in WRITERS:
                 step(f"writing {filename}")
                 paths += motion.save(out, only=filename)
     report.say(f"{named(files)}: {study.mechanism.mobility()}")

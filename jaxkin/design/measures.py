@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._names import nearest
 from jaxkin.dimensions.lengths import find_length
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:

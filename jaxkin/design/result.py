@@ -6,19 +6,21 @@ import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from jaxkin._files import whole
 from jaxkin.design.objectives import Objective
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import whole
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 POSES, PIECE = 361, 32
 """Of the range, and at least of what is swept at once."""
@@ -211,7 +213,7 @@ def judged_range(motion: Motion) -> Moves:
         status, steepest = np.zeros(len(values), int), 0.0
         for first in range(0, len(values) - 1, size - 1):  # neighbours share a pose
             piece = slice(min(first, len(values) - size), first + size)
-            found = motion.mechanism.sweep({name: values[piece]})
+            found = motion.mechanism.sweep({name: values[piece]}, options=motion.options)
             status[piece], steepest = found.status, max(steepest, _steepest(found))
     counts = {each.name: int(np.sum(status == each)) for each in Status if np.any(status == each)}
     return Moves(len(status), counts, steepest)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
@@ -12,7 +12,9 @@ from jaxtyping import Float
 from jaxkin.design.measures import length_now
 from jaxkin.dimensions.frames import locate
 from jaxkin.dimensions.lengths import find_length
-from jaxkin.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Vector = Float[np.ndarray, " variables"]
 

@@ -1,16 +1,17 @@
-"""A drawing of time against error."""
+"""Draw time against error."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jaxkin.mechanism.writers import whole
+from jaxkin._files import whole
 
 if TYPE_CHECKING:
     from jaxkin.effects.accuracy import WorkPrecision
 
 MARKERS = "osD^vPX"
+"""Markers of matplotlib, one a method and precision in turn."""
 
 
 def draw(work: WorkPrecision, path: Path) -> Path:

@@ -9,16 +9,17 @@ import json
 import struct
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.io.units import METRES
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import register
 from jaxkin.view.drawing import drawn_parts
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 DURATION = 6.0
 """Seconds that the whole range takes."""
@@ -36,7 +37,6 @@ _FLOAT, _VERTICES, _INDICES = 5126, 34962, 34963
 _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
-@register("motion.glb")
 def write_animation(motion: Motion, path: Path) -> None:
     """Write a motion as an animated binary glTF 2.0.
 

@@ -6,16 +6,18 @@ import zipfile
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
+from jaxkin._files import whole
 from jaxkin.io.tables import poses_of, words_of
 from jaxkin.mechanism.lost_contacts import LostContact, joined
 from jaxkin.mechanism.motion import largest_residuals, tally
-from jaxkin.mechanism.stream import Stream
-from jaxkin.mechanism.writers import whole
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.stream import Stream
 
 
 def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: None) -> str:

@@ -6,15 +6,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from jaxkin._names import listed, nearest
-from jaxkin.assembly.assembly import Assembly
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
 from jaxkin.io.ranges import Range, Values, in_radians
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
+    from jaxkin.mechanism.motion import Motion
 
 
 @dataclass(frozen=True, eq=False)

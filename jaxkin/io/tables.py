@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import csv
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jaxkin.geometry.movements import is_length
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import register
 from jaxkin.solve.status import Status
 
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.mechanism.motion import Motion
 
-@register("motion.npz", table=True)
+
 def write_arrays(motion: Motion, path: Path) -> None:
     """Write all arrays of a motion, in its own precision, for `numpy.load(path)`; nothing in it is pickled.
 
@@ -44,7 +45,6 @@ def words_of(mechanism: Mechanism) -> dict[str, np.ndarray]:
     return words | {"status_names": np.array([s.name for s in Status]), "unit": np.array(mechanism.unit)}
 
 
-@register("motion.csv", table=True)
 def write_table(motion: Motion, path: Path) -> None:
     """Write a motion as comma-separated values, one row a pose: inputs, joint displacements, status, residual.
 

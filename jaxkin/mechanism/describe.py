@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from jaxkin.mechanism.mechanism import Mechanism
+from typing import TYPE_CHECKING
+
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
 from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 def describe_mechanism(mechanism: Mechanism) -> str:

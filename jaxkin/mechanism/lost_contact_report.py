@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Array, Bool
 
 from jaxkin.geometry.movements import is_length
 from jaxkin.mechanism.lost_contacts import LostContact
-from jaxkin.mechanism.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 LISTED = 8
 """Joints that a report names at most: more are a sign of one cause."""

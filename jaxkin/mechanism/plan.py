@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
 from jaxkin._traced import traced
@@ -11,12 +12,14 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.plan_steps import Step, element_steps
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Place = tuple[int, int]
 """(joint, coordinate)."""

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region
 from jaxkin.view.sheet import MARGIN, Place, Sheet
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 COLORS = {
     "surface": (0.84, 0.15, 0.16),

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.assembly import Assembly
+from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.states import find_state
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Part
-from jaxkin.mechanism.writers import whole
 from jaxkin.view.callouts import COLORS, draw_contacts
 from jaxkin.view.drawing import PALETTE
 from jaxkin.view.glass import canvas_of, see_through
@@ -21,6 +21,9 @@ from jaxkin.view.illustration import INK, Canvas
 from jaxkin.view.inspection import legend_of_regions
 from jaxkin.view.regions import Region, region_of
 from jaxkin.view.sheet import CAPTION, GREY, MARGIN, clip, draw_legend, make_sheet
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
 
 PANEL = 340
 """Pixels of a side of a panel."""

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.assembly import Assembly
+from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
-from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.writers import whole
 from jaxkin.view.callouts import CHAIN, COLORS, MOST, draw_axes, draw_contacts, draw_states
 from jaxkin.view.drawing import GREY as STILL
 from jaxkin.view.drawing import PALETTE
@@ -23,6 +21,9 @@ from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Color, clip, draw_legend, d
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+
+    from jaxkin.assembly.assembly import Assembly
+    from jaxkin.mechanism.mechanism import Mechanism
 
 
 def draw_inspection(

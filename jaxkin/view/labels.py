@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import is_length
-from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 LISTED = 3  # driven displacements that are told; there may be many, and no place for them
 

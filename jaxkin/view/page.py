@@ -7,24 +7,25 @@ from base64 import b64encode
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jaxkin.geometry.part import Part
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import register
 from jaxkin.solve.status import Status
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.lost_marks import told
 from jaxkin.view.mesh import shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
 
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
+
 MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
 TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
 RISE = 0.52  # pitch that one in space is first seen from
 
 
-@register("motion.html")
 def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None = None) -> None:
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
-from jaxkin.mechanism.motion import Motion
 from jaxkin.view.camera import Displacements, View, choose_view, move
 from jaxkin.view.drawing import drawn_parts
 from jaxkin.view.lost_marks import LostMark, lost_marks
 from jaxkin.view.traces import default_marks, given_marks
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 PROBES = 60  # poses that the view and the points are chosen from
 CLOSED = 1e-4  # the ends of a motion so near to each other, over its size, are one pose: safe in float32

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.writers import register
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title
 from jaxkin.view.lost_marks import WARNING, told
@@ -18,6 +16,8 @@ from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Sheet, clip, draw_legend, d
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
+
+    from jaxkin.mechanism.motion import Motion
 
 PANELS = 6
 COLUMNS = {0: 1, 1: 1, 2: 2, 4: 2}
@@ -39,7 +39,6 @@ LOST = {
 """Rings where the faces of a lost contact were on each other, one on either part, and a dotted line between them."""
 
 
-@register("motion.png")
 def storyboard(
     motion: Motion,
     path: Path | str,

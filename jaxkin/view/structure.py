@@ -8,7 +8,7 @@ from warnings import catch_warnings, filterwarnings
 
 import numpy as np
 
-from jaxkin.mechanism.writers import whole
+from jaxkin._files import whole
 from jaxkin.topology.plotting import register
 from jaxkin.topology.structure import Structure
 from jaxkin.view.graph import colors, draw_graph, lines_of, places

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
@@ -10,8 +11,10 @@ from jaxtyping import Float
 from jaxkin._names import nearest
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.view.camera import Displacements, View, move
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 Marks = list[tuple[str, Vector]]
 """Points of parts: the part, and where the point is in the assembled pose, in world coordinates."""

@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from jaxkin.cli.app import app
 from jaxkin.examples import path
-from jaxkin.mechanism.writers import filenames
+from jaxkin.io.writers import WRITERS
 from reference.planar import fourbar
 from tessellation import tessellated, write_stl
 
@@ -39,7 +39,7 @@ def run(*arguments, **environment):
 def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
     done = run("demo", "--out", tmp_path / "out", XDG_CACHE_HOME=str(tmp_path / "cache"))
     assert done.returncode == 0, done.stderr
-    assert {file.name for file in (tmp_path / "out").iterdir()} == set(filenames())
+    assert {file.name for file in (tmp_path / "out").iterdir()} == set(WRITERS)
     assert "361  CLOSED" in done.stdout
     assert any((tmp_path / "cache" / "jaxkin").iterdir())
     with np.load(tmp_path / "out" / "motion.npz") as arrays:

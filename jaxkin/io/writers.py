@@ -1,0 +1,69 @@
+"""The files that a motion is saved as."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from jaxkin._files import whole
+from jaxkin.io.gltf import write_animation
+from jaxkin.io.tables import write_arrays, write_table
+from jaxkin.view.page import page
+from jaxkin.view.storyboard import storyboard
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
+
+Writer = Callable[["Motion", Path], None]
+"""Writes exactly the path that it is given, which ends in the name of the file but lies in a temporary folder."""
+
+WRITERS: dict[str, Writer] = {
+    "motion.npz": write_arrays,
+    "motion.csv": write_table,
+    "motion.glb": write_animation,
+    "motion.html": page,
+    "motion.png": storyboard,
+}
+"""By the name of the file, in the order in which they are written: tables before all else, since they are cheap and
+are there even if a picture fails."""
+
+
+def save(
+    motion: Motion,
+    directory: str | os.PathLike[str],
+    only: str | Collection[str] | None = None,
+    writers: Mapping[str, Writer] = WRITERS,
+) -> tuple[Path, ...]:
+    """Write the motion's files into a directory, made if it is not there; `only` chooses some of them by name.
+
+    Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name,
+    NotADirectoryError where the directory is a file, and OSError, naming the file, where one cannot be written: those
+    before it are there by then, those after it are not.
+    """
+    chosen = _choose(only, writers)
+    directory = Path(directory)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise NotADirectoryError(
+            f"cannot save into {str(directory)!r}: it is, or lies in, a file; name a directory"
+        ) from None
+    return tuple(_write(motion, directory / filename, writers[filename]) for filename in chosen)
+
+
+def _choose(only: str | Collection[str] | None, writers: Mapping[str, Writer]) -> list[str]:
+    wanted = set(writers) if only is None else {only} if isinstance(only, str) else set(only)
+    if unknown := sorted(wanted - set(writers)):
+        raise ValueError(f"no file {unknown[0]!r} can be written for a motion; choose from {', '.join(writers)}")
+    return [filename for filename in writers if filename in wanted]
+
+
+def _write(motion: Motion, target: Path, writer: Writer) -> Path:
+    try:
+        with whole(target) as draft:
+            writer(motion, draft)
+    except Exception as error:  # whatever fails in a writer, the user asked for a file
+        raise OSError(f"could not write {str(target)!r}: {error}") from error
+    return target

@@ -1,0 +1,21 @@
+"""The import graph: what a reader may rely on when going down from a call to what it computes with."""
+
+import grimp
+import networkx as nx
+
+FACADE = {
+    "jaxkin.mechanism.mechanism",
+    "jaxkin.assembly.blocking_contacts",  # leaves contacts out and makes the mechanism anew
+    "jaxkin.assembly.to_mechanism",
+}
+"""A method of the facade gets its code from a higher floor when it is called; that code may make mechanisms."""
+
+
+def test_there_is_no_circle_of_imports_but_the_facades():
+    """Imports for annotations do not count: they say what a function is given, not what it needs."""
+    graph = grimp.build_graph("jaxkin", cache_dir=None, exclude_type_checking_imports=True)
+    imports = nx.DiGraph(
+        (one, other) for one in graph.modules for other in graph.find_modules_directly_imported_by(one)
+    )
+    circles = [set(circle) for circle in nx.strongly_connected_components(imports) if len(circle) > 1]
+    assert all(circle <= FACADE for circle in circles), circles
