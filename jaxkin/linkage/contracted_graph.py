@@ -1,76 +1,105 @@
-"""The graph of a mechanism in which parts whose place to each other is known count as one."""
+"""The graph of a structure element in which parts whose place to each other is known count as one part.
+
+Parts are nodes and joints are edges. A joint whose coordinates are all known is contracted: its two parts get the same
+representative. Circuits of what is left are the loops that are still to be solved.
+"""
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from heapq import heappop, heappush
 
+from jaxkin.topology.graph import Circuit, Step
+
 Ends = Mapping[int, tuple[str, str]]
-"""For each joint its two parts."""
+"""For each joint its part 1 and part 2."""
 
 
-class Merged:
-    """Parts and joints, some of them known."""
+class ContractedGraph:
+    """Parts and joints of a structure element, some of the joints known."""
 
     def __init__(self, ends: Ends) -> None:
         self.ends = ends
-        self.stands = {part: part for pair in ends.values() for part in pair}
-        """For each part the one that stands for all that are known relative to it."""
-        self.known: dict[str, list[tuple[int, str, int | None]]] = {part: [] for part in self.stands}
-        """The joints that are known: (joint, other part, number of the group that gave it; None for a drive)."""
+        self.representative = {part: part for pair in ends.values() for part in pair}
+        """For each part the one part by which all that are known relative to it are named."""
+        self._known: dict[str, list[tuple[int, int, str]]] = {part: [] for part in self.representative}
+        """For each part its known joints: (joint, sign when it is left by the joint, part that is reached)."""
+        self._group_of: dict[int, int | None] = {}
+        """For each known joint the number of the group that gave it; None for a drive."""
 
-    def merge(self, joint: int, group: int | None) -> None:
-        """A joint is known: its parts count as one."""
+    def contract(self, joint: int, group: int | None) -> None:
+        """Contract a joint that is known from now on: by the solution of a numbered group, or (None) by the drive."""
         part1, part2 = self.ends[joint]
-        self.known[part1].append((joint, part2, group))
-        self.known[part2].append((joint, part1, group))
-        kept, gone = self.stands[part1], self.stands[part2]
+        self._known[part1].append((joint, 1, part2))
+        self._known[part2].append((joint, -1, part1))
+        self._group_of[joint] = group
+        kept, gone = self.representative[part1], self.representative[part2]
         if kept != gone:
-            self.stands = {part: kept if stands == gone else stands for part, stands in self.stands.items()}
+            self.representative = {part: kept if own == gone else own for part, own in self.representative.items()}
 
-    def passed(self, joints: Sequence[int]) -> dict[int, int | None]:
-        """The known joints that loops through these joints pass, with the groups that gave them."""
-        met: dict[str, str] = {}
-        found: dict[int, int | None] = {}
-        for joint in joints:
-            for part in self.ends[joint]:
-                found |= self._path(met.setdefault(self.stands[part], part), part)
-        return found
+    def known_joints(self, circuits: Iterable[Circuit]) -> dict[int, int | None]:
+        """The known joints on closed circuits, each with the number of the group that gave it (None: the drive)."""
+        return {joint: self._group_of[joint] for loop in circuits for joint, _ in loop if joint in self._group_of}
 
-    def _path(self, start: str, end: str) -> dict[int, int | None]:
-        """The fewest known joints between two merged parts, with the groups that gave them."""
-        came: dict[str, tuple[int, str, int | None] | None] = {start: None}
+    def known_path(self, start: str, end: str) -> Circuit:
+        """The path of fewest known joints between two parts of one representative."""
+        came: dict[str, tuple[int, int, str] | None] = {start: None}
         queue = deque([start])
         while end not in came:
             part = queue.popleft()
-            for joint, other, group in self.known[part]:
+            for joint, sign, other in self._known[part]:
                 if other not in came:
-                    came[other] = joint, part, group
+                    came[other] = joint, sign, part
                     queue.append(other)
-        path: dict[int, int | None] = {}
+        path: list[Step] = []
         while (step := came[end]) is not None:
-            path[step[0]], end = step[2], step[1]
-        return path
+            joint, sign, end = step
+            path.append(Step(joint, sign))
+        return tuple(reversed(path))
 
-    def _around(self, joints: Sequence[int]) -> dict[str, list[tuple[int, int, str]]]:
-        """For each merged part its (joint, sign, other part)."""
+    def closed(self, circuit: Circuit) -> Circuit:
+        """A circuit of representatives as a closed circuit of parts, with the known joints that it passes."""
+        left = dict(circuit)
+        (joint, sign), *_ = circuit
+        start = part = self.ends[joint][0 if sign > 0 else 1]
+        travelled: list[Step] = []
+        while left:
+            joint, sign = self._onward(part, left, travelled)
+            entered, left_by = self.ends[joint][::sign]
+            travelled += [*self.known_path(part, entered), Step(joint, sign)]
+            del left[joint]
+            part = left_by
+        return tuple([*travelled, *self.known_path(part, start)])
+
+    def _onward(self, part: str, left: Mapping[int, int], travelled: Sequence[Step]) -> tuple[int, int]:
+        """The joint of a circuit by which the parts known relative to this one are left, and its sign."""
+        here = self.representative[part]
+        if not travelled:
+            return next(iter(left.items()))
+        for joint, sign in left.items():
+            if self.representative[self.ends[joint][0 if sign > 0 else 1]] == here:
+                return joint, sign
+        raise AssertionError("the joints are no circuit")
+
+    def _around(self, joints: Iterable[int]) -> dict[str, list[tuple[int, int, str]]]:
+        """For each representative its (joint, sign, other representative)."""
         around: dict[str, list[tuple[int, int, str]]] = {}
         for joint in joints:
-            part1, part2 = (self.stands[part] for part in self.ends[joint])
+            part1, part2 = (self.representative[part] for part in self.ends[joint])
             around.setdefault(part1, []).append((joint, 1, part2))
             around.setdefault(part2, []).append((joint, -1, part1))
         return around
 
     def lightest(self, weights: Mapping[int, int]) -> set[frozenset[int]]:
-        """The lightest circuit through each of some joints with weights; it alone where its parts are merged."""
-        around = self._around(list(weights))
+        """The lightest circuit through each of some weighted joints; the joint alone where it ends where it begins."""
+        around = self._around(weights)
         return {self._lightest(around, weights, joint) for joint in weights}
 
     def _lightest(
         self, around: Mapping[str, Sequence[tuple[int, int, str]]], weights: Mapping[int, int], joint: int
     ) -> frozenset[int]:
-        start, end = (self.stands[part] for part in self.ends[joint])
+        start, end = (self.representative[part] for part in self.ends[joint])
         queue: list[tuple[int, str, tuple[int, ...]]] = [(0, start, ())]
         done: set[str] = set()
         while queue:
@@ -85,10 +114,11 @@ class Merged:
                     heappush(queue, (weight + weights[other], to, (*path, other)))
         raise AssertionError("every joint of an element with loops lies in a circuit")
 
-    def circuits(self, joints: Sequence[int]) -> list[list[tuple[int, int]]]:
-        """Independent circuits of the merged parts through these joints: one for each that closes a tree of the others.
+    def circuits(self, joints: Sequence[int]) -> list[Circuit]:
+        """Independent circuits of representatives through these joints: one for each joint that a spanning tree of the
+        others leaves out, (joint, sign) in any order, that joint first.
 
-        Known joints on the way are left out: their rates are given.
+        Known joints on the way are left out: see `closed`.
         """
         around = self._around(joints)
         came: dict[str, tuple[int, int, str] | None] = {}
@@ -107,12 +137,13 @@ class Merged:
         def to_root(part: str) -> dict[int, int]:
             signs = {}
             while (step := came[part]) is not None:
-                signs[step[0]], part = step[1], step[2]
+                joint, sign, part = step
+                signs[joint] = sign
             return signs
 
         circuits = []
         for joint in sorted(closing):
-            there, back = (to_root(self.stands[part]) for part in self.ends[joint])
+            there, back = (to_root(self.representative[part]) for part in self.ends[joint])
             signs = {j: there.get(j, 0) - back.get(j, 0) for j in {**there, **back}}
-            circuits.append([(joint, 1), *((j, sign) for j, sign in signs.items() if sign)])
+            circuits.append((Step(joint, 1), *(Step(j, sign) for j, sign in signs.items() if sign)))
         return circuits

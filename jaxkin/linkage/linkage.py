@@ -9,8 +9,7 @@ from typing import NamedTuple
 import jax
 
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.loop_class import loop_classes
-from jaxkin.solve.system.loop_system import Form
+from jaxkin.linkage.loop_class import LoopClass, loop_classes
 from jaxkin.topology.structure import Structure
 
 
@@ -34,7 +33,7 @@ class Linkage:
     joints: tuple[Joint, ...]
     """As they were given; in the order of the columns of the incidence matrix."""
     structure: Structure
-    classes: tuple[Form, ...]
+    classes: tuple[LoopClass, ...]
     """What is special about the loops of each loop group of `structure`, as the numbers of the joints had it when the
     linkage was made: loops that leave their class later are not closed, which their poses' status says."""
     ideal: tuple[Joint, ...] = ()
@@ -48,7 +47,7 @@ class Linkage:
     def of(joints: Sequence[Joint], structure: Structure) -> Linkage:
         """The linkage of some joints, its loop classes found from their numbers; general ones where JAX traces these,
         or where they are of many mechanisms."""
-        classes = loop_classes(joints, structure) or (Form(),) * len(structure.blocks)
+        classes = loop_classes(joints, structure) or (LoopClass(),) * len(structure.blocks)
         return Linkage(tuple(joints), structure, classes)
 
     def with_joints(self, joints: Sequence[Joint], ideal: Sequence[Joint] = ()) -> Linkage:

@@ -1,8 +1,9 @@
-"""What is special about the loops of a linkage, found while the frames of its joints are numbers: see `Form`."""
+"""The class of the loops of a loop group, found on the host while the joint frames are numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import jax
 import numpy as np
@@ -11,11 +12,25 @@ from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.planes import plane_columns, turn_about_one_direction
 from jaxkin.linkage.rods import idle_spins
-from jaxkin.solve.system.loop_system import Form
+from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import Structure
 
 
-def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[Form, ...] | None:
+class LoopClass(NamedTuple):
+    """What is special about the loops of a structure element, so that they need fewer equations, or others."""
+
+    plane: tuple[int, ...] | None = None
+    """Columns of the coordinates that act in the plane, where all joints move in parallel planes; else None."""
+    spins: tuple[tuple[int, int, int, int], ...] = ()
+    """Rods that spin idly about the line through their two balls: the numbers of both balls, and for each ball +1, or
+    -1 where the rod is part 1 of the ball's joint."""
+    schoenflies: tuple[int, ...] = ()
+    """Numbers of the loops that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
+    cut_at_balls: bool = False
+    """Whether loops are cut at balls where that is possible: see `LoopSystem.cuts`."""
+
+
+def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopClass, ...] | None:
     """The class of each loop group; None where the frames are traced, or those of many mechanisms."""
     if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in joints):
         return None
@@ -29,10 +44,28 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[Form, .
     found = []
     for block in structure.blocks:
         inside = [joints[joint] for joint in block.joints]
-        directed = tuple(
+        schoenflies = tuple(
             number
             for number, loop in enumerate(block.loops)
             if turn_about_one_direction([joints[joint] for joint, _ in loop])
         )
-        found.append(Form(plane_columns(inside), idle_spins(inside, bodies), directed, cut=True))
+        found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))
     return tuple(found)
+
+
+def renumbered(
+    loop_class: LoopClass, loops: Sequence[Circuit], chosen: Sequence[Circuit], joints: Sequence[Joint]
+) -> LoopClass:
+    """The class of some `loops` for others of the same joints; those that are new among `chosen` need numbers."""
+    if tuple(chosen) == tuple(loops):
+        return loop_class
+    schoenflies = tuple(
+        number
+        for number, loop in enumerate(chosen)
+        if (
+            loops.index(loop) in loop_class.schoenflies
+            if loop in loops
+            else turn_about_one_direction([joints[joint] for joint, _ in loop])
+        )
+    )
+    return loop_class._replace(schoenflies=schoenflies)

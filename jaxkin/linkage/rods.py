@@ -17,7 +17,7 @@ about the line is free whatever the angle: the rod is held by its balls."""
 
 
 def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int, int], ...]:
-    """The spins of rods, as `Form.spins`. `body_of` gives the body of a part, the same for all fixed parts.
+    """The spins of rods, as `LoopClass.spins`. `body_of` gives the body of a part, the same for all fixed parts.
 
     A rod is one part, or several in a row that slide along the line only, such as the halves of a leg, held by two
     balls and nothing else, on two different bodies: between two balls on the same body its turn is of use.

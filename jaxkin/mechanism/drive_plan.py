@@ -1,4 +1,4 @@
-"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a mechanism and a drive.
+"""What of a sweep depends on which coordinates are driven, and not on how far: found once for a linkage and a drive.
 
 A sweep of some hundred poses takes a few milliseconds: to find this anew each time would be a large part of them.
 """
@@ -10,100 +10,154 @@ from typing import Any, NamedTuple
 
 import jax
 import numpy as np
-from jax import dtypes
+from jax import dtypes, lax
 
 from jaxkin._memory import once_for_each
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.range.solve_range import Joints
-from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
+from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
+from jaxkin.topology.structure import Block
 
 
-class Given(NamedTuple):
-    """The loops of joints that close at the assembled pose only."""
+class GivenLoops(NamedTuple):
+    """The loops of the joints that were given, which close at the assembled pose only."""
 
     system: LoopSystem
     columns: Columns
     joints: Joints
 
 
-class Element(NamedTuple):
+class DrivenElement(NamedTuple):
     """A structure element that is to be solved."""
 
+    block: Block
+    """Its joints and loops in the structure."""
     system: LoopSystem
+    """What is solved; the groups of its `order` are the steps of the plan."""
     columns: Columns
+    groups: tuple[Group, ...]
+    """The groups of loops of `system.order`; their joints are those of the linkage, their columns those of the
+    system."""
+    by_counting: bool
+    """Whether the groups were found by counting and not by the ranks of the closure Jacobian: for a single loop, or
+    where the joint frames are traced or do not close."""
     inputs: tuple[int, ...]
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
-    given: Given | None
+    given: GivenLoops | None
     """What the poses are brought to the least residual of, where the loops solved are those of `linkage.ideal`."""
 
 
-class Prepared(NamedTuple):
-    """A drive of a mechanism, as yet without displacements."""
+class DrivePlan(NamedTuple):
+    """A drive of a linkage, as yet without displacements: what is solved for it, and in which order."""
 
     driven: dict[str, tuple[int, int]]
     """(joint, coordinate) by full names, in the order given."""
     freedoms: tuple[int, ...]
-    """Of every joint."""
-    elements: tuple[Element, ...]
+    """Number of freedoms of every joint."""
+    elements: tuple[DrivenElement, ...]
+    """Structure elements that are solved; they do not depend on each other."""
     infeasible: InfeasibleDrive | None
-    """Why the loops cannot follow it."""
+    """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
 
 
-def prepare(linkage: Linkage, keys: tuple[str, ...]) -> Prepared:
-    """The coordinates of these names, and the structure elements they move; ValueError as in `resolve`.
+def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
+    """The plan of a drive of the coordinates of these names; ValueError as in `coordinates.resolve`.
 
-    Kept as long as the linkage lives, unless its numbers, or what JAX makes of them here, are traced.
+    The plan is kept as long as the linkage lives, unless its numbers, or what JAX makes of them here, are traced.
     """
     if traced(linkage):
-        return _prepared(linkage, keys)
-    kept = _kept(linkage)
+        return _plan_drive(linkage, keys)
     key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
-    if key in kept:
+    if key in (kept := _kept(linkage)):
         return kept[key]
-    prepared = _prepared(linkage, keys)
-    on_device = jax.device_put([element.joints for element in prepared.elements])
+    plan = _plan_drive(linkage, keys)
+    on_device = jax.device_put([element.joints for element in plan.elements])
     if traced(on_device):
-        return prepared
-    elements = tuple(
-        element._replace(joints=joints) for element, joints in zip(prepared.elements, on_device, strict=True)
-    )
-    kept[key] = prepared._replace(elements=elements)
+        return plan
+    elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
+    kept[key] = plan._replace(elements=elements)
     return kept[key]
 
 
 @once_for_each
-def _kept(linkage: Linkage) -> dict[Any, Prepared]:
-    """What was found out about drives of a linkage, by the names that they give."""
+def _kept(linkage: Linkage) -> dict[Any, DrivePlan]:
+    """The plans of drives of a linkage, by the names that the drives give."""
     del linkage
     return {}
 
 
-def _prepared(linkage: Linkage, keys: Sequence[str]) -> Prepared:
+def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
     driven = coordinates(linkage, keys)
     places = list(driven.values())
+    on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there
+    judged = not traced(on_host) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(on_host))
     elements = []
-    for block, form in zip(linkage.structure.blocks, linkage.classes, strict=True):
+    for number, block in enumerate(linkage.structure.blocks):
         inside = sorted(
             (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
         )
         if not inside and not _edited([linkage.solved_joints[joint] for joint in block.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
-        system, columns = block_system(linkage, block, tuple(places[i] for i in inputs), form)
-        given = None
-        if linkage.ideal:
-            whole = block_system(linkage, block, tuple(places[i] for i in inputs), Form())
-            given = Given(*whole, block_joints(linkage.joints, block))
-        elements.append(Element(system, columns, inputs, block_joints(linkage.solved_joints, block), given))
+        elements.append(
+            _element(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
+        )
     freedoms = tuple(joint.freedoms for joint in linkage.joints)
-    judged = not traced(linkage) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(linkage))
-    return Prepared(driven, freedoms, tuple(elements), infeasible_drive(linkage, places) if judged else None)
+    infeasible = infeasible_drive(linkage, places) if judged and not traced(linkage) else None
+    return DrivePlan(driven, freedoms, tuple(elements), infeasible)
+
+
+def _element(
+    linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
+) -> DrivenElement:
+    """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
+    block, loop_class = linkage.structure.blocks[number], linkage.classes[number]
+    # of a single loop there is one order only, and the freedoms take a millisecond to find
+    freedoms = loop_freedoms(on_host)[number] if on_host is not None and len(block.loops) > 1 else None
+    by_counting = freedoms is None or not freedoms.closes
+    if freedoms is None or by_counting:
+        groups = _counted_groups(linkage, block, driven, loop_class)
+    else:
+        groups = ranked_groups(linkage, block, driven, loop_class, freedoms)
+    loops = [group.loops for group in groups]
+    system, columns = block_system(on_host or linkage, block, driven, loop_class, loops)
+    given = None
+    if linkage.ideal:
+        every = block_system(linkage, block, driven, LoopClass())
+        given = GivenLoops(*every, block_joints(linkage.joints, block))
+    joints = block_joints(linkage.solved_joints, block)
+    return DrivenElement(block, system, columns, groups, by_counting, inputs, joints, given)
+
+
+def ranked_groups(
+    linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
+) -> tuple[Group, ...]:
+    """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
+    columns = solved_coordinates(linkage, block, driven, loop_class).columns
+    screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
+    given = [columns.index(place) for place in driven]
+    groups = solve_order(freedoms.ends, block.loops, columns, screws, given, freedoms.noise)
+    return keep_freedoms_together(groups, columns, screws, freedoms.noise)
+
+
+def _counted_groups(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> tuple[Group, ...]:
+    """The groups of loops of a structure element where nothing but the class of the loops is known."""
+    solved = solved_coordinates(linkage, block, driven, loop_class)
+    unknown = {joint: list[int]() for joint in block.joints}
+    for column, (joint, k) in enumerate(solved.columns):
+        if (joint, k) not in driven:
+            unknown[joint].append(column)
+    equations = [IN_PLANE if solved.planar else None for _ in block.loops]
+    return order_by_counting(block.loops, unknown, equations)
 
 
 def _edited(joints: list[Joint]) -> bool:

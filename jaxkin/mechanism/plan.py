@@ -1,20 +1,19 @@
-"""The plan of a drive: which loops it moves, in which order they can be solved, and what is skipped and why."""
+"""The plan of a drive in words: which loops are solved, in which order, by which equations, and what is skipped."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jaxkin._names import listed
-from jaxkin.joints.subgroups import Subgroup
+from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.linkage.solve_order import Group, solve_order
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
-from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.mobility.mobility import names
+from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
+from jaxkin.mechanism.plan_steps import Step, element_steps
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import Element
 from jaxkin.topology.moving import moving
@@ -22,46 +21,15 @@ from jaxkin.topology.moving import moving
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-
-@dataclass(frozen=True)
-class Step:
-    """Loops that can be solved together, once those of some steps before are."""
-
-    joints: tuple[str, ...]
-    """The joints that are solved here."""
-    parts: tuple[str, ...]
-    """The parts that these join."""
-    loops: int
-    subgroup: Subgroup
-    """The smallest displacement subgroup that holds the loops: planar, spherical, Schoenflies, ..."""
-    unknowns: tuple[str, ...]
-    """Coordinates that are solved."""
-    equations: int
-    """One for each freedom of the subgroup and each loop."""
-    redundant: int
-    """How many of them follow from the others."""
-    free: int
-    """Unknowns that no equation settles, idle or for want of a drive: the solver moves them as little as it can."""
-    after: tuple[int, ...]
-    """Numbers of the steps that it needs."""
-
-    def __str__(self) -> str:
-        after = f"after {listed([str(other + 1) for other in self.after])}: " if self.after else ""
-        loops = _count(self.loops, f"{self.subgroup.name} loop")
-        redundant = f", {self.redundant} of them redundant" if self.redundant else ""
-        free = f"; {self.free} left free" if self.free else ""
-        return (
-            f"{after}{loops} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
-            f"{', '.join(self.joints)}, {_count(self.equations, 'equation')}{redundant}{free}"
-        )
+Place = tuple[int, int]
+"""(joint, coordinate)."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What a drive moves, in the order in which it can be solved. `print` it.
+    """What a drive moves, in the order in which the solver of `sweep` solves it. `print` it.
 
-    The plan describes the structure. The solver of today solves all loops of a structure element together; the steps
-    say into what they fall apart.
+    Every step is a block of equations of the solver (`jaxkin.solve.system.equation_blocks`), in the same order.
     """
 
     drive: tuple[str, ...]
@@ -70,7 +38,7 @@ class Plan:
     skipped: tuple[str, ...]
     """What is not solved, and why, a sentence each."""
     notes: tuple[str, ...]
-    """Dead ends, and freedoms that the drive leaves."""
+    """Why the loops cannot follow the drive, what the drive leaves free, and where the order is not found by ranks."""
 
     def __str__(self) -> str:
         lines = [f"Plan of a drive of {', '.join(self.drive)}"]
@@ -87,63 +55,48 @@ def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
 
     Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
     """
-    linkage = mechanism.linkage
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
-    driven = list(dict.fromkeys(coordinate(linkage, key) for key in drive))
-    if not driven:
+    linkage = mechanism.linkage
+    keys = {coordinate(linkage, key): key for key in drive}
+    if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in plan(['A'])")
-    check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in drive]})")
-    structure, joints = linkage.structure, linkage.joints
-    moved = moving(structure, {joints[joint].name for joint, _ in driven})
+    check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in keys.values()]})")
+    found = plan_drive(linkage, tuple(keys.values()))
     steps: list[Step] = []
-    for found in loop_freedoms(linkage):
-        if found.block in moved.blocks:
-            columns = [column for column, owner in enumerate(found.columns) if owner in driven]
-            groups = solve_order(found.ends, found.columns, found.screws, columns, found.noise)
-            first = len(steps)
-            steps += [_step(linkage, found, group, first) for group in groups]
-    dead = infeasible_drive(linkage, driven)
-    free = undriven_freedoms(linkage, driven)
-    notes = [f"dead end: {why_infeasible(mechanism, dead)}"] if dead else []
+    for element in found.elements:
+        steps += element_steps(linkage, element, len(steps))
+    dead = [f"dead end: {why_infeasible(mechanism, found.infeasible)}"] if found.infeasible else []
+    skipped = (*_skipped(linkage, keys, found), *_at_rest(linkage, found))
+    return Plan(tuple(found.driven), tuple(steps), skipped, (*dead, *_notes(linkage, keys, found, steps)))
+
+
+def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
+    """What the drive leaves free, and why an order is not that of the ranks."""
+    notes = []
+    free = () if traced(linkage) else undriven_freedoms(linkage, list(driven))
     if free:
         notes.append(f"left free: {listed(free)} could be driven as well; without, all move as little as they can")
-    elif not dead and any(step.free for step in steps):
+    elif not found.infeasible and any(step.free for step in steps):
         notes.append("what is left free is idle: it moves as little as it can")
-    return Plan(
-        tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in driven),
-        tuple(steps),
-        tuple(_skipped(linkage, driven, moved.parts)),
-        tuple(notes),
-    )
+    for element in found.elements:
+        if element.by_counting and len(element.block.loops) > 1:
+            why = "its joint frames are traced" if traced(linkage) else "its loops do not close"
+            parts = _parts(linkage, element.block.joints)
+            notes.append(f"the loops of {listed(parts)} are put in order by counting unknowns, since {why}")
+    return notes
 
 
-def _step(linkage: Linkage, found: LoopFreedoms, group: Group, first: int) -> Step:
-    joints = linkage.joints
-    kind = found.subgroup({*group.joints, *group.passed})
-    ends = {part for joint in group.joints for part in found.ends[joint]}
-    return Step(
-        joints=tuple(joints[joint].name for joint in group.joints),
-        parts=tuple(part for part in linkage.structure.parts if part in ends),
-        loops=group.loops,
-        subgroup=kind,
-        unknowns=tuple(names(linkage, found, group.unknowns)),
-        equations=kind.dimension * group.loops,
-        redundant=kind.dimension * group.loops - group.rank,
-        free=group.free,
-        after=tuple(first + number for number in group.after),
-    )
-
-
-def _skipped(linkage: Linkage, driven: Sequence[tuple[int, int]], moved: Sequence[str]) -> list[str]:
+def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> list[str]:
     """Elements without a driven joint, and coordinates outside of loops."""
     structure = linkage.structure
-    rows = {structure.row_of[part] for part in moved}
     given = {linkage.joints[joint].name for joint, _ in driven}
+    rows = {structure.row_of[part] for part in moving(structure, given).parts}
+    solved = [element.block for element in found.elements]
     texts = []
+    blocks = iter(structure.blocks)
     for element in structure.elements:
-        held = {joint for loop in element.loops for joint in structure.loops[loop].path[1::2]}
-        if element.loops and not held & given:
+        if element.loops and next(blocks) not in solved:
             texts.append(
                 f"{_loops(element)} of {listed(element.parts)}: none of its joints is driven, it keeps its shape"
             )
@@ -159,9 +112,33 @@ def _skipped(linkage: Linkage, driven: Sequence[tuple[int, int]], moved: Sequenc
     return texts
 
 
+def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
+    """Coordinates along the normals of planar elements, and loops in which all coordinates are given."""
+    texts = []
+    for element in found.elements:
+        own = set(element.columns)
+        resting = [
+            f"{joint.name}.{name}"
+            for index, joint in ((index, linkage.joints[index]) for index in element.block.joints)
+            for k, name in enumerate(joint.coordinates)
+            if (index, k) not in own
+        ]
+        if resting:
+            texts.append(f"{listed(resting)}: along the normal of the plane of the loops, at rest")
+        checked = sum(len(group.loops) for group in element.groups if not group.unknowns)
+        if checked:
+            what = "the loop" if checked == 1 else f"{checked} loops"
+            parts = listed(_parts(linkage, element.block.joints))
+            texts.append(f"{what} of {parts} in which all coordinates are given: the status says whether it closes")
+    return texts
+
+
+def _parts(linkage: Linkage, joints: Iterable[int]) -> list[str]:
+    """The rows of the parts that some joints connect."""
+    rows: Mapping[str, str] = linkage.structure.row_of
+    held = {rows[part] for joint in joints for part in linkage.joints[joint].parts}
+    return [part for part in linkage.structure.parts if part in held]
+
+
 def _loops(element: Element) -> str:
     return "the loop" if len(element.loops) == 1 else f"the {len(element.loops)} loops"
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"

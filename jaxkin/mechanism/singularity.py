@@ -26,9 +26,9 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     linkage = motion.mechanism.linkage
     driven = [coordinate(linkage, name) for name in motion.inputs]
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
-    for number, (block, form) in enumerate(zip(linkage.structure.blocks, linkage.classes, strict=True)):
+    for number, (block, loop_class) in enumerate(zip(linkage.structure.blocks, linkage.classes, strict=True)):
         inside = tuple(entry for entry in driven if entry[0] in block.joints)
-        system, columns = block_system(linkage, block, inside, form)
+        system, columns = block_system(linkage, block, inside, loop_class)
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             least = jnp.minimum(
@@ -43,7 +43,7 @@ def _rank(linkage: Linkage, number: int, system: LoopSystem, columns: Columns) -
     As many as may be where JAX traces, and where the host finds no closed pose to count them at.
     """
     if traced(linkage.joints) or not loop_freedoms(linkage)[number].closes:
-        return min(system.whole.equations, len(system.free))
+        return min(system.uncut.equations, len(system.free))
     freedoms = loop_freedoms(linkage)[number]
     free = [freedoms.columns.index(columns[column]) for column in system.free]
     return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise)[0]

@@ -21,7 +21,8 @@ from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
-from jaxkin.mechanism.motion import Motion, placed
+from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
@@ -151,7 +152,7 @@ class Stream:
     def _same(self, one: _SharedPose, other: _SharedPose) -> bool:
         """Tell whether all parts are at the same places in both poses, and the other one is closed."""
         both = tuple(np.stack(pair) for pair in zip(one.displacements, other.displacements, strict=True))
-        for transforms in map(np.asarray, placed(self.mechanism, both)):
+        for transforms in map(np.asarray, part_transforms(self.mechanism.linkage, both)):
             rotation, shift = transforms[1, :3, :3] - transforms[0, :3, :3], transforms[1, :3, 3] - transforms[0, :3, 3]
             moved = rotation @ self._centre + shift
             if not max(np.abs(rotation).max(), np.abs(moved).max() / self._size) <= SAME_PLACE:

@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.drive_plan import Element, prepare
+from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
@@ -64,13 +64,13 @@ def sweep(
     `throw=True` where numbers are traced.
     """
     options = options_with(options, tolerance, method)
-    prepared = prepare(mechanism.linkage, named(drive))
-    values = given_values(prepared.driven, drive)
-    if prepared.infeasible:
-        raise ValueError(why_infeasible(mechanism, prepared.infeasible))
+    plan = plan_drive(mechanism.linkage, named(drive))
+    values = given_values(plan.driven, drive)
+    if plan.infeasible:
+        raise ValueError(why_infeasible(mechanism, plan.infeasible))
     asked = _closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
     _warn_of_float32()
-    elements = prepared.elements if values[0].shape[0] else ()
+    elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     solutions = [
         solve(element.system, options, element.joints, _padded([followed[i] for i in element.inputs]), asked)
@@ -78,13 +78,13 @@ def sweep(
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
-    layout = DisplacementSources(prepared.freedoms, tuple(prepared.driven.values()), columns)
+    layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
     inputs, moved, resting, *found = _collect(layout, values, finite, solutions)
     displacements = tuple(
-        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(prepared.freedoms)
+        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(plan.freedoms)
     )
     # under `grad` JAX hands arrays of the host through as they are
-    inputs = dict(zip(prepared.driven, map(jnp.asarray, inputs), strict=True))
+    inputs = dict(zip(plan.driven, map(jnp.asarray, inputs), strict=True))
     motion = Motion(mechanism, inputs, displacements, *found, options=options)
     if throw:
         motion.check()
@@ -92,8 +92,8 @@ def sweep(
 
 
 def _of_least_residual(
-    elements: Sequence[Element], solutions: Sequence[Solution], asked: ClosureTolerance
-) -> tuple[list[Element], list[Solution]]:
+    elements: Sequence[DrivenElement], solutions: Sequence[Solution], asked: ClosureTolerance
+) -> tuple[list[DrivenElement], list[Solution]]:
     """Replace solutions of ideal joints by the poses of least residual of the joints that were given."""
     every, found = list(elements), list(solutions)
     for number, (element, (rows, outcome)) in enumerate(zip(elements, solutions, strict=True)):

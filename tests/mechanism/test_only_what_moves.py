@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.mechanism.drive_plan import prepare
+from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure import spatial
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.execution.programs import _solve
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance
-from jaxkin.solve.system.loop_system import Form
 from jaxkin.solve.system.state import assembled
 from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
 
@@ -30,7 +30,7 @@ RANGE = np.linspace(0.0, 1.0, 20)
 def solved(mechanism, joint):
     """Arguments of each solve that a sweep over the range asks for, by the plan of its drive."""
     tolerance = ClosureTolerance(np.asarray(1e-12), np.asarray(0.0))
-    elements = prepare(mechanism.linkage, (joint,)).elements
+    elements = plan_drive(mechanism.linkage, (joint,)).elements
     return [(element.system, SolverOptions(), element.joints, RANGE[None], tolerance) for element in elements]
 
 
@@ -57,7 +57,7 @@ def test_loops_that_do_not_move_are_absent():
     assert operations(_solve, *among[0]) == operations(_solve, *alone[0])
 
 
-def closures(mechanism: Mechanism, joint: str, form: Form | None = None) -> float:
+def closures(mechanism: Mechanism, joint: str, form: LoopClass | None = None) -> float:
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
     ((system, _, joints, *_),) = solved(mechanism, joint)
     system = system if form is None else replace(system, form=form)
@@ -70,7 +70,7 @@ def closures(mechanism: Mechanism, joint: str, form: Form | None = None) -> floa
 @pytest.mark.long
 def test_equations_that_a_planar_loop_lacks_are_absent():
     """The same four-bar in its plane and in space."""
-    assert closures(planar_fourbar(), "A") < 0.8 * closures(planar_fourbar(), "A", Form())
+    assert closures(planar_fourbar(), "A") < 0.8 * closures(planar_fourbar(), "A", LoopClass())
 
 
 @pytest.mark.long
@@ -78,7 +78,7 @@ def test_turns_of_balls_are_absent_where_there_is_none():
     """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
     hinges, cut, whole = (
         closures(mechanism, "A", form)
-        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), Form()))
+        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), LoopClass()))
     )
     assert hinges < 0.75 * whole and cut < 0.75 * whole
 

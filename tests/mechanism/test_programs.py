@@ -25,7 +25,7 @@ def test_nothing_is_recompiled_for_new_numbers():
 def test_what_does_not_depend_on_the_values_is_found_once(monkeypatch):
     mechanism = planar_fourbar(1.0)
     mechanism.sweep({"A": np.linspace(0.0, 1.0, 37)})
-    monkeypatch.delattr("jaxkin.mechanism.drive_plan._prepared")
+    monkeypatch.delattr("jaxkin.mechanism.drive_plan._plan_drive")
     motion = mechanism.sweep({"A": np.linspace(0.0, 1.1, 30)})
     assert np.all(motion.closed)
     with pytest.raises(NameError):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from jaxkin.solve.system.equation_blocks import Block
+from jaxkin.solve.system.equation_blocks import EquationBlock
 
 
 def block_triangular(rng, poses):
@@ -10,7 +10,7 @@ def block_triangular(rng, poses):
     rows, columns = rng.permutation(9), rng.permutation(12)
     cut = [0, 3, 7, 9], [0, 3, 7, 10]
     found = tuple(
-        Block(tuple(map(int, rows[a:b])), tuple(map(int, columns[c:d])))
+        EquationBlock(tuple(map(int, rows[a:b])), tuple(map(int, columns[c:d])))
         for a, b, c, d in zip(cut[0], cut[0][1:], cut[1], cut[1][1:], strict=False)
     )
     jacobian = np.zeros((9, 12, poses))

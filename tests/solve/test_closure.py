@@ -7,10 +7,11 @@ import pytest
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import rotation
+from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure import closure as module
 from jaxkin.solve.closure import spatial
 from jaxkin.solve.closure.joint_coordinates import as_state, read_off
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import angles, assembled, from_angles, matrix, multiply, retract
 from reference.movements import matrix as movement_matrix
 
@@ -49,7 +50,7 @@ def loop():
             ((2, -1), (0, 1), (6, -1), (4, -1), (7, 1)),
         ),
         (0,),
-        Form(),
+        LoopClass(),
     )
     before = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
     after = tuple(jnp.array([random_pose(rng) for _ in chain]) for chain in CHAINS)
@@ -94,7 +95,7 @@ def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
 def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
     """Away from closure the columns are twists, so the loop is closed first, by a constant behind its last joint."""
     system, before, after, pitch, q = loop
-    system = LoopSystem(system.movements, system.loops[:1], system.driven, Form())
+    system = LoopSystem(system.movements, system.loops[:1], system.driven, LoopClass())
     geometry, _ = loop_geometry(system, before, after, pitch)
     state = as_state(system, before, after, q[:, :1])
 
@@ -135,7 +136,7 @@ def test_what_is_read_off_is_what_was_put_in(loop):
 def test_balls_roll_anywhere_and_are_read_off_right(off):
     """Long random ways of (d) and (p), frames as in Table 1 or a little off: lines of centres turn about themselves."""
     rng = np.random.default_rng(5)
-    system = LoopSystem(CHAINS[-2:], (((0, 1), (1, 1)),), (), Form())
+    system = LoopSystem(CHAINS[-2:], (((0, 1), (1, 1)),), (), LoopClass())
     above = np.eye(4)
     above[2, 3] = 1.3
     before = tuple(
@@ -183,7 +184,7 @@ def matrices(given):
 @pytest.mark.long
 def test_a_ball_turns_half_a_turn_about_any_axis():
     """retract never locks: many small turns about a generic axis add up to the turn about that axis."""
-    system = LoopSystem((("T_theta_phi_psi",),), (((0, 1),),), (), Form())
+    system = LoopSystem((("T_theta_phi_psi",),), (((0, 1),),), (), LoopClass())
     axes = np.random.default_rng(2).normal(size=(3, 20))
     axes /= np.linalg.norm(axes, axis=0)
     state = assembled(system, 20, jnp.float64)

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.mechanism.drive_plan import prepare
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.execution.cores import shard_count
 from jaxkin.solve.options import SolverOptions
@@ -81,6 +80,6 @@ def test_settings_of_a_thread_hold_in_those_of_its_shards():
 
 
 def test_how_many_shards():
-    (element,) = prepare(planar_fourbar().linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar().linkage, ("A",)).elements
     options = SolverOptions(cores=8, min_shard_poses=1000)
     assert [shard_count(element.system, poses, options) for poses in (999, 3000, 100_000)] == [1, 3, 8]

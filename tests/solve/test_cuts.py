@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure.closure import closure
 from jaxkin.solve.closure.rod_spin import turn_between, without_spin
 from jaxkin.solve.execution.programs import solve
@@ -13,7 +14,7 @@ from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.from_linkage import block_joints, block_system
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, retract
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import ball_in_bore, rssr_linkage
@@ -24,7 +25,7 @@ def systems(mechanism, drive, **changed):
     (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
     inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
     cut, _ = block_system(mechanism.linkage, block, inside, form._replace(**changed))
-    return cut, cut.whole, block_joints(mechanism.all_joints, block)
+    return cut, cut.uncut, block_joints(mechanism.all_joints, block)
 
 
 def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_six():
@@ -49,7 +50,7 @@ def test_only_balls_of_one_loop_that_nothing_drives_are_cut():
     for mechanism in (ball_in_bore(), rssr_linkage()):
         driven, _, _ = systems(mechanism, ["A"])
         ball, *_ = driven.cuts[0]
-        free = LoopSystem(driven.movements, driven.loops, driven.balls[ball], driven.form)
+        free = LoopSystem(driven.movements, driven.loops, driven.balls[ball], driven.loop_class)
         assert ball not in free.cuts[0] and len(free.cuts[0]) == len(driven.cuts[0]) - 1
 
 
@@ -120,7 +121,7 @@ def test_of_two_directions_one_is_turned_into_the_other():
 @pytest.mark.parametrize("sides", [(1, -1), (1, 1), (-1, -1)])
 def test_rods_are_spun_to_where_their_balls_turn_least(sides):
     system = LoopSystem(
-        (("T_theta_phi_psi",), ("T_theta_phi_psi",)), (((0, 1), (1, 1)),), (), Form(spins=((0, 1, *sides),))
+        (("T_theta_phi_psi",), ("T_theta_phi_psi",)), (((0, 1), (1, 1)),), (), LoopClass(spins=((0, 1, *sides),))
     )
     rng = np.random.default_rng(5 + sum(sides))
     turns = Rotation.random(2, rng)

@@ -33,7 +33,7 @@ def systems(mechanism, driven):
     names = [mechanism.all_joints[joint].name for joint in block.joints]
     places = tuple((block.joints[names.index(name)], k) for name, k in driven)
     joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block))
-    for chosen in (form, form._replace(directed=())):
+    for chosen in (form, form._replace(schoenflies=())):
         system, _ = block_system(mechanism.linkage, block, places, chosen)
         yield system, loop_geometry(system, *joints)[0]
 
@@ -73,10 +73,10 @@ def test_a_four_bar_is_lifted_while_it_turns():
 
 
 def test_other_loops_keep_all_their_equations():
-    assert rssr_linkage().linkage.classes[0].directed == spherical_linkage().linkage.classes[0].directed == ()
+    assert rssr_linkage().linkage.classes[0].schoenflies == spherical_linkage().linkage.classes[0].schoenflies == ()
     pins = [
         revolute("A", "ground", "crank", point=(0, 0, 0), axis=(0, 0, 1)),
         revolute("B", "crank", "rod", point=(1, 0, 0), axis=(0, 1e-6, 1)),
         revolute("C", "rod", "ground", point=(2, 1, 0), axis=(0, 0, 1)),
     ]
-    assert Mechanism.build(fixed=["ground"], joints=pins).linkage.classes[0].directed == ()
+    assert Mechanism.build(fixed=["ground"], joints=pins).linkage.classes[0].schoenflies == ()

@@ -27,7 +27,7 @@ def least_singular_value(
 
     Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
     """
-    system = system.whole
+    system = system.uncut
     geometry, lengths = scaled(system, joints)
     state = as_state(system, joints.before, joints.after, displacements)
     state = state._replace(x=state.x / lengths)

@@ -52,18 +52,18 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     rotation, translation, twists = _travel(system, geometry, state)
     table, poses = steps(system), state.x.shape[-1]
     rotations = np.array(system.rotations)
-    free, directed, whole = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
+    free, schoenflies, uncut = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
     ends = np.setdiff1d(np.arange(len(system.loops)), table.rods[0])
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
-    turned = rotation[:, :, whole] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
+    turned = rotation[:, :, uncut] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
     residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
     rows = [twists[table.source[:, free], :3, free]]
-    if directed.size:
+    if schoenflies.size:
         # the twist of a joint that turns holds the direction
         turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
-        direction = twists[turning[directed], :3, directed]
-        residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, directed].swapaxes(0, 1))), axis=1))
-        rows.append(jnp.sum(direction * twists[table.source[:, directed], :3, directed], axis=2, keepdims=True))
+        direction = twists[turning[schoenflies], :3, schoenflies]
+        residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, schoenflies].swapaxes(0, 1))), axis=1))
+        rows.append(jnp.sum(direction * twists[table.source[:, schoenflies], :3, schoenflies], axis=2, keepdims=True))
     moved = translation[:, ends]
     squares = jnp.sum(moved**2, axis=(0, 1))
     residual += [*_of_loops(moved)]

@@ -14,7 +14,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.least_norm import Matrix
-from jaxkin.solve.system.equation_blocks import Block
+from jaxkin.solve.system.equation_blocks import EquationBlock
 
 Square = Float[Array, "n n poses"]
 
@@ -23,7 +23,7 @@ DIAGONAL = 0.1
 Jacobians, so that rows or columns for which the Jacobian lacks rank do not decide the sign by rounding."""
 
 
-def determinant_ratio(before: Matrix, after: Matrix, blocks: Sequence[Block]) -> Float[Array, "blocks poses"]:
+def determinant_ratio(before: Matrix, after: Matrix, blocks: Sequence[EquationBlock]) -> Float[Array, "blocks poses"]:
     """The determinant of each block of the Jacobian `after` over that of `before`: negative where its sign changed.
 
     Both are (equations, columns, poses). A block that need not be square is compared by `det(J0^T J1) / det(J0^T J0)`,

@@ -15,7 +15,7 @@ from jaxkin.solve.closure.closure import Geometry
 from jaxkin.solve.continuation.input_path import InputPath
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled
 
@@ -87,7 +87,7 @@ def assembled_fronts(system: LoopSystem, fronts: int, dtype) -> Fronts:
         before=zeros,
         before_tangent=zeros,
         width=jnp.ones(fronts, dtype),
-        determinant_ratio=jnp.ones((len(blocks(system)), fronts), dtype),
+        determinant_ratio=jnp.ones((len(equation_blocks(system)), fronts), dtype),
         has_before=jnp.zeros(fronts, bool),
         along_tangent=jnp.zeros(fronts, bool),
         step=jnp.full(fronts, FIRST_STEP, dtype),

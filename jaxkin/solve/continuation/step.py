@@ -40,7 +40,7 @@ from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import solve_blocks
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, driven_rate, rate, retract
 
@@ -114,7 +114,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     status = classify(found.gap, found.stationary, ~fronts.anchored | beside_limit)
     closed = is_closed(status)
 
-    ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, blocks(system))
+    ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
     good, deviation, slack = _accepted(fronts, attempt, found.state, closed, ratio)
     step = _next_step(fronts, attempt, good, deviation - slack)
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
@@ -258,4 +258,4 @@ def input_slopes(
     """Derivative of all coordinates of closed states while the inputs change in a direction (least norm)."""
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), blocks(system))
+    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), equation_blocks(system))

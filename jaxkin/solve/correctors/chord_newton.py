@@ -15,7 +15,7 @@ from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import floor
 from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import inverse
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
@@ -31,7 +31,7 @@ def shared_steps(
     groups = -(-poses // NEIGHBOURS)
     middles = np.minimum(np.arange(groups) * NEIGHBOURS + NEIGHBOURS // 2, poses - 1)
     jacobian = closure(system, geometry, State(*(part[..., middles] for part in state))).jacobian
-    back = inverse(jacobian, floor(jacobian.dtype), blocks(system))
+    back = inverse(jacobian, floor(jacobian.dtype), equation_blocks(system))
 
     def moved(residual: Float[Array, "equations poses"]) -> Float[Array, "columns poses"]:
         filled = jnp.pad(residual, ((0, 0), (0, groups * NEIGHBOURS - poses))).reshape(-1, groups, NEIGHBOURS)

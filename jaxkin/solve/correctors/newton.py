@@ -16,7 +16,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import choose, floor
 from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import UNROLLED, solve_blocks
 from jaxkin.solve.status import Scalar
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
@@ -45,7 +45,7 @@ def newton(
     """
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
-    costly = any(len(block.rows) > UNROLLED for block in blocks(system))
+    costly = any(len(block.rows) > UNROLLED for block in equation_blocks(system))
 
     def running(at: _Iterate) -> Array:
         return (at.count <= STEPS) & any_in_lockstep((at.closure.gap > enough) & (at.foreseen > enough))
@@ -55,7 +55,7 @@ def newton(
         closed = closure(system, geometry, at.trial)
 
         def solved() -> Array:
-            return solve_blocks(closed.jacobian, closed.residual, floor(dtype), blocks(system), regular=True)
+            return solve_blocks(closed.jacobian, closed.residual, floor(dtype), equation_blocks(system), regular=True)
 
         if costly:  # not a last time, when all are closed: to ask costs as much as to solve small systems
             delta = lax.cond(any_in_lockstep(closed.gap > enough), solved, lambda: jnp.zeros_like(at.trial.x))

@@ -15,7 +15,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.system.equation_blocks import Block
+from jaxkin.solve.system.equation_blocks import EquationBlock
 
 FEW, UNROLLED, MANY, MULTIPLIED, HALVED, LARGE = 3, 9, 1024, 9, 12, 40
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
@@ -76,7 +76,7 @@ def _put_back(x: Array, used: Sequence[int], columns: int) -> Array:
 
 
 def solve_blocks(
-    jacobian: Matrix, right: Vector, floor: float, blocks: Sequence[Block], *, regular: bool = False
+    jacobian: Matrix, right: Vector, floor: float, blocks: Sequence[EquationBlock], *, regular: bool = False
 ) -> Array:
     """The x with J x = r, block after block, for every pose: (columns, poses). No derivatives.
 
@@ -86,7 +86,7 @@ def solve_blocks(
     return _in_turn(jacobian, right[:, None], floor, blocks, regular)[:, 0]
 
 
-def inverse(jacobian: Matrix, floor: float, blocks: Sequence[Block]) -> Float[Array, "poses columns rows"]:
+def inverse(jacobian: Matrix, floor: float, blocks: Sequence[EquationBlock]) -> Float[Array, "poses columns rows"]:
     """What `solve_blocks` multiplies right-hand sides by where all is regular."""
     rows, _, poses = jacobian.shape
     unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
@@ -94,7 +94,11 @@ def inverse(jacobian: Matrix, floor: float, blocks: Sequence[Block]) -> Float[Ar
 
 
 def _in_turn(
-    jacobian: Matrix, right: Float[Array, "rows sides poses"], floor: float, blocks: Sequence[Block], regular: bool
+    jacobian: Matrix,
+    right: Float[Array, "rows sides poses"],
+    floor: float,
+    blocks: Sequence[EquationBlock],
+    regular: bool,
 ) -> Array:
     """Solutions for several right-hand sides: (columns, sides, poses)."""
     known: list[int] = []

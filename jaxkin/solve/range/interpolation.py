@@ -29,7 +29,7 @@ from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import inverse
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
 from jaxkin.solve.status import default_tolerance, rounding_residual
-from jaxkin.solve.system.equation_blocks import blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
 
@@ -132,7 +132,7 @@ def _solved_segments(
     state = drive(system, prediction.state, nodes[None])
     state, evaluation, _ = newton(system, geometry, state, rounding_residual(values.dtype, CLOSED_ROUNDINGS))
     middles = evaluation.jacobian[..., len(NODES) // 2 :: len(NODES)]
-    inverses = inverse(middles, floor(values.dtype), blocks(system))
+    inverses = inverse(middles, floor(values.dtype), equation_blocks(system))
 
     slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
     state_and_slope = jax.jvp(partial(at_rest, system, geometry), (state,), (slope,))

@@ -1,8 +1,7 @@
-"""Planar loops that can be closed one after another.
+"""The equations of a loop system in the blocks in which they are solved: one block for each group of its order.
 
-A loop that brings three new coordinates follows from the loops before it, as a dyad does in a linkage (an Assur group).
-The Jacobian is then block triangular, and three systems of three equations cost a tenth of one of nine. In space to
-count is not enough: there, equations that seem to fit are often redundant, and coordinates idle.
+No block holds an unknown of a later one: the Jacobian is block lower triangular. Three systems of three equations cost
+a tenth of one of nine.
 """
 
 from __future__ import annotations
@@ -10,32 +9,31 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import NamedTuple
 
-from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 
 
-class Block(NamedTuple):
-    """Equations, and the coordinates that they are solved for when those of the blocks before are known."""
+class EquationBlock(NamedTuple):
+    """Equations, and the unknowns that they are solved for when those of the blocks before are known."""
 
     rows: tuple[int, ...]
+    """Rows of the Jacobian, as `Closure.residual` has them."""
     columns: tuple[int, ...]
+    """Columns of the Jacobian, rising."""
 
 
 @lru_cache(maxsize=256)
-def blocks(system: LoopSystem) -> tuple[Block, ...]:
-    """The blocks in an order in which they can be solved; the last holds all loops that follow from no others.
+def equation_blocks(system: LoopSystem) -> tuple[EquationBlock, ...]:
+    """The blocks of a system in the order in which they are solved; equations without any unknown left are in none."""
+    return tuple(block for block in blocks_of_groups(system) if block.columns)
 
-    Equations in which nothing is left to be solved for are in none.
-    """
-    if not system.planar:
-        return (Block(tuple(range(system.equations)), system.used),) if system.used else ()
-    held = [{column for joint, _ in loop for column in system.span(joint)} & set(system.used) for loop in system.loops]
-    left, known, found = list(range(len(held))), set(), []
-    while left:
-        group = next(([loop] for loop in left if len(held[loop] - known) == IN_PLANE), left)
-        rows = [IN_PLANE * loop + row for loop in group for row in range(IN_PLANE)]
-        unknown = set().union(*(held[loop] for loop in group)) - known
-        if unknown:
-            found.append(Block(tuple(rows), tuple(sorted(unknown))))
-        known |= unknown
-        left = [loop for loop in left if loop not in group]
+
+def blocks_of_groups(system: LoopSystem) -> tuple[EquationBlock, ...]:
+    """The block of each group of `LoopSystem.order`; without columns where nothing is left to be solved for."""
+    known: set[int] = set()
+    found = []
+    for group in system.order:
+        held = {column for loop in group for joint, _ in system.loops[loop] for column in system.span(joint)}
+        unknown = tuple(column for column in system.used if column in held and column not in known)
+        found.append(EquationBlock(tuple(sorted(row for loop in group for row in system.rows[loop])), unknown))
+        known.update(unknown)
     return tuple(found)

@@ -1,49 +1,89 @@
-"""From a mechanism's structure elements to the loop systems of the solver."""
+"""From the structure elements of a linkage to the loop systems of the solver."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate, pairwise
+from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.loop_class import LoopClass, renumbered
 from jaxkin.solve.range.solve_range import Joints
-from jaxkin.solve.system.loop_system import Form, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import Block
 
-RESTING = {"T_z": "I", "T_z_phi": "T_phi"}
+WITHOUT_NORMAL = {"T_z": "I", "T_z_phi": "T_phi"}
 """What is left of a movement whose translation along z is one along the normal of the plane."""
 
 Columns = tuple[tuple[int, int], ...]
 """(joint, coordinate) of each."""
 
 
-def block_system(
-    linkage: Linkage, block: Block, driven: tuple[tuple[int, int], ...], form: Form
-) -> tuple[LoopSystem, Columns]:
-    """The loops of a structure element, and its columns; `driven` are (joint, coordinate), in any order.
+class SolvedCoordinates(NamedTuple):
+    """The coordinates of a structure element that are columns of its loop system."""
 
-    An element of planar `form` is solved in its plane, unless something is driven along the normal: what would move
-    along it rests, and has no columns.
+    columns: Columns
+    movements: tuple[tuple[str, ...], ...]
+    """For each joint of the element the movements that are left of it."""
+    planar: bool
+    """Whether all columns act in one plane."""
+    at_rest: Columns
+    """Coordinates along the normal of the plane, which rest and are no columns."""
+
+
+def solved_coordinates(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> SolvedCoordinates:
+    """The coordinates that are solved or given in a structure element, of which `driven` are (joint, coordinate).
+
+    A planar element is solved in its plane, unless something is driven along the normal: what would move along the
+    normal rests.
     """
     every = [(index, k) for index in block.joints for k in range(linkage.joints[index].freedoms)]
-    loops = tuple(tuple((block.joints.index(joint), sign) for joint, sign in loop) for loop in block.loops)
-    plane = None if form.plane is None else {every[column] for column in form.plane}
-    if plane is not None and not plane.issuperset(driven):
-        plane = None
-    columns, movements = [], []
+    plane = {every[column] for column in loop_class.plane or ()}
+    planar = loop_class.plane is not None and plane.issuperset(driven)
+    if not planar:
+        plane = set(every)
+    movements = []
     for index in block.joints:
         chain, first = [], 0
         for name in linkage.joints[index].movements:
-            own = [(index, first + k) for k in range(len(MOVEMENTS[name].coordinates))]
-            inside = own if plane is None else [column for column in own if column in plane]
-            chain.append(name if inside == own else RESTING[name])
-            columns += inside
-            first += len(own)
+            count = len(MOVEMENTS[name].coordinates)
+            whole = plane.issuperset((index, first + k) for k in range(count))
+            chain.append(name if whole else WITHOUT_NORMAL[name])
+            first += count
         movements.append(tuple(chain))
-    form = form._replace(plane=None if plane is None else tuple(range(len(columns))))
+    inside, outside = ([place for place in every if (place in plane) == yes] for yes in (True, False))
+    return SolvedCoordinates(tuple(inside), tuple(movements), planar, tuple(outside))
+
+
+def block_system(
+    linkage: Linkage,
+    block: Block,
+    driven: Columns,
+    loop_class: LoopClass,
+    groups: Sequence[Sequence[Circuit]] = (),
+) -> tuple[LoopSystem, Columns]:
+    """The loops of a structure element, and its columns; `driven` are (joint, coordinate), in any order.
+
+    `groups` are the loops that are solved together, in turn, of joints of the mechanism; by default all loops of the
+    structure are solved together.
+    """
+    columns, movements, planar, _ = solved_coordinates(linkage, block, driven, loop_class)
+    circuits = tuple(loop for group in groups for loop in group) or block.loops
+    loop_class = renumbered(
+        loop_class._replace(plane=tuple(range(len(columns))) if planar else None),
+        block.loops,
+        circuits,
+        linkage.solved_joints,
+    )
+    number = {joint: place for place, joint in enumerate(block.joints)}
+    loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
+    ends = [0, *accumulate(map(len, groups))]
+    order = tuple(tuple(range(first, last)) for first, last in pairwise(ends))
     given = tuple(sorted(columns.index(place) for place in driven))
-    return LoopSystem(tuple(movements), loops, given, form), tuple(columns)
+    return LoopSystem(movements, loops, given, loop_class, order), columns
 
 
 def block_joints(joints: Sequence[Joint], block: Block) -> Joints:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate
-from typing import NamedTuple
+from itertools import accumulate, product
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.screws import freedoms
+from jaxkin.linkage.loop_class import LoopClass
 
 EQUATIONS, IN_PLANE, CENTRE, LENGTH = 6, 3, 3, 1
 """Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
@@ -26,20 +26,6 @@ ball turns instead, and the columns that turn it about x, y, z, counted from the
 second angle about z does is left to the movement behind it."""
 
 
-class Form(NamedTuple):
-    """What is special about some loops, so that they need fewer equations, or others."""
-
-    plane: tuple[int, ...] | None = None
-    """If all joints move in parallel planes, the columns that do; None for loops in space."""
-    spins: tuple[tuple[int, int, int, int], ...] = ()
-    """Pairs of balls about whose line a rod spins idly: their numbers among the balls, and for each +1, or -1 where the
-    rod is part 1 of the pair."""
-    directed: tuple[int, ...] = ()
-    """Loops, by number, that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
-    cut: bool = False
-    """Whether loops are cut at balls where they can be: see `LoopSystem.cuts`."""
-
-
 @dataclass(frozen=True)
 class LoopSystem:
     """Loops that share joints, and which of their coordinates are given."""
@@ -50,7 +36,14 @@ class LoopSystem:
     """For each loop its joints in order of travel with +1, or -1 where travelled from part 2 to part 1."""
     driven: tuple[int, ...]
     """Columns whose values are given."""
-    form: Form
+    loop_class: LoopClass
+    """What is special about the loops, so that they need fewer equations."""
+    order: tuple[tuple[int, ...], ...] = ()
+    """Numbers of the loops that are solved together, in turn: each loop once. By default all loops are."""
+
+    def __post_init__(self) -> None:
+        if not self.order:
+            object.__setattr__(self, "order", (tuple(range(len(self.loops))),))
 
     @cached_property
     def chains(self) -> tuple[tuple[tuple[str, int, int, int | None], ...], ...]:
@@ -115,7 +108,7 @@ class LoopSystem:
     @property
     def planar(self) -> bool:
         """Whether all coordinates act in one plane; those of the joints along its normal are no columns then."""
-        return self.form.plane is not None
+        return self.loop_class.plane is not None
 
     @cached_property
     def cuts(self) -> tuple[tuple[int, ...], ...]:
@@ -125,7 +118,7 @@ class LoopSystem:
         centre stays where it is, three equations in three coordinates less. What remains of a rod between two such
         balls is that it keeps their centres at its length: one equation in six coordinates less.
         """
-        if self.planar or not self.form.cut:
+        if self.planar or not self.loop_class.cut_at_balls:
             return ((),) * len(self.loops)
         inside = [
             {ball for joint, _ in loop for *_, ball in self.chains[joint] if ball is not None} for loop in self.loops
@@ -148,9 +141,9 @@ class LoopSystem:
 
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
-        """See `Form`; without those of balls that are driven."""
+        """See `LoopClass`; without those of balls that are driven."""
         free = [columns[0] not in self.driven for columns in self.balls]
-        return tuple(spin for spin in self.form.spins if free[spin[0]] and free[spin[1]])
+        return tuple(spin for spin in self.loop_class.spins if free[spin[0]] and free[spin[1]])
 
     @property
     def spinning(self) -> bool:
@@ -158,21 +151,39 @@ class LoopSystem:
         return any(ball in self.turned_balls for one, other, *_ in self.spins for ball in (one, other))
 
     @property
-    def whole(self) -> LoopSystem:
+    def uncut(self) -> LoopSystem:
         """The same with no loop cut."""
-        return replace(self, form=self.form._replace(cut=False))
+        return replace(self, loop_class=self.loop_class._replace(cut_at_balls=False))
 
     @cached_property
     def rotations(self) -> tuple[int, ...]:
         """For each loop in space the number of its equations of rotation."""
-        return tuple(0 if cut else 1 if loop in self.form.directed else 3 for loop, cut in enumerate(self.cuts))
+        one = self.loop_class.schoenflies
+        return tuple(0 if cut else 1 if loop in one else 3 for loop, cut in enumerate(self.cuts))
 
-    @property
+    @cached_property
+    def translations(self) -> tuple[int, ...]:
+        """For each loop in space the number of its equations of translation, or of the length of a rod."""
+        return tuple(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+
+    @cached_property
+    def rows(self) -> tuple[tuple[int, ...], ...]:
+        """For each loop its rows of the Jacobian: see `Closure.residual`."""
+        if self.planar:
+            return tuple(tuple(range(IN_PLANE * loop, IN_PLANE * (loop + 1))) for loop in range(len(self.loops)))
+        rows: list[tuple[int, ...]] = [()] * len(self.loops)
+        first = 0
+        for counts, size in product((self.rotations, self.translations), (3, 1)):
+            for loop, count in enumerate(counts):
+                if count == size:
+                    rows[loop] += tuple(range(first, first + size))
+                    first += size
+        return tuple(rows)
+
+    @cached_property
     def equations(self) -> int:
         """Number of rows of the Jacobian."""
-        if self.planar:
-            return IN_PLANE * len(self.loops)
-        return sum(self.rotations) + sum(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+        return sum(map(len, self.rows))
 
     @cached_property
     def free(self) -> tuple[int, ...]:

@@ -1,0 +1,174 @@
+"""The steps of a plan: the blocks of the solver's equations, told by the names of joints, parts and coordinates."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from jaxkin._names import listed
+from jaxkin._traced import traced
+from jaxkin.joints.subgroups import Subgroup, subgroup
+from jaxkin.linkage.joint_pattern import letter, loop_name
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.solve_order import Group
+from jaxkin.mechanism.drive_plan import DrivenElement, ranked_groups
+from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
+from jaxkin.solve.system.equation_blocks import EquationBlock, blocks_of_groups
+from jaxkin.solve.system.loop_system import LoopSystem
+
+RANK_OF_CUT = {0: 0, 1: 3, 2: 5}
+"""Independent equations that a cut takes away, by the number of balls: three rotations; both rotations of a rod but its
+idle spin."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Loops that are solved together, once those of some steps before are: one block of the solver's equations."""
+
+    joints: tuple[str, ...]
+    """The joints whose unknown coordinates are determined here."""
+    parts: tuple[str, ...]
+    """The parts that these joints connect."""
+    loops: int
+    """Number of loops."""
+    loop_class: str
+    """What the loops are: "planar dyad RRP", "spherical dyad RRR", "spatial loop RSSR", or of several "2 planar loops".
+    The letters are those of `jaxkin.linkage.joint_pattern`."""
+    subgroup: Subgroup | None
+    """The smallest displacement subgroup that holds the loops: planar, spherical, Schoenflies, ... None where the joint
+    frames are traced."""
+    unknowns: tuple[str, ...]
+    """Coordinates for which the equations are solved."""
+    equations: int
+    """Number of equations that are solved."""
+    redundant: int
+    """Number of equations that follow from the others."""
+    free: int
+    """Number of unknowns that no equation determines, idle or for want of a drive: they move as little as they can."""
+    follow: tuple[str, ...]
+    """Balls at which the loops are cut: their turns are no unknowns, and follow when the others are known."""
+    after: tuple[int, ...]
+    """Numbers of the steps that must be solved before."""
+    merged: int
+    """Number of groups of loops that are one step because they share what is left free; 1 where nothing is shared."""
+
+    def __str__(self) -> str:
+        after = f"after {listed([str(other + 1) for other in self.after])}: " if self.after else ""
+        of_joints = ", ".join(joint for joint in self.joints if joint not in self.follow)
+        redundant = f", {self.redundant} of them redundant" if self.redundant else ""
+        free = f"; {self.free} left free" if self.free else ""
+        follow = f"; the turns of {', '.join(self.follow)} follow" if self.follow else ""
+        merged = f"; {self.merged} groups in one step: they share what is left free" if self.merged > 1 else ""
+        count = "1 " if self.loops == 1 else ""
+        return (
+            f"{after}{count}{self.loop_class} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
+            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}"
+        )
+
+
+def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[Step]:
+    """The steps of a structure element, numbered from `first` on: one for each group that has unknowns."""
+    freedoms = None if traced(linkage) else _freedoms(linkage, element)
+    groups = _ranked(linkage, element, freedoms)
+    blocks = blocks_of_groups(element.system)
+    solved = [k for k, block in enumerate(blocks) if block.columns]
+    number = {k: first + place for place, k in enumerate(solved)}
+    steps = []
+    for k in solved:
+        after = tuple(sorted(number[other] for other in _solved_before(groups, k, solved)))
+        steps.append(_step(linkage, element, k, groups[k], freedoms, after))
+    return steps
+
+
+def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
+    return loop_freedoms(linkage)[linkage.structure.blocks.index(element.block)]
+
+
+def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
+    """The groups of an element with their ranks, which are not found beforehand for a single loop."""
+    if freedoms is None or not freedoms.closes or len(element.block.loops) > 1:
+        return element.groups
+    driven = tuple(element.columns[column] for column in element.system.driven)
+    loop_class = linkage.classes[linkage.structure.blocks.index(element.block)]
+    return ranked_groups(linkage, element.block, driven, loop_class, freedoms) or element.groups
+
+
+def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]) -> set[int]:
+    """The groups with unknowns that one needs: in place of one without, what that one needs."""
+    return {
+        k
+        for other in groups[number].after
+        for k in ({other} if other in solved else _solved_before(groups, other, solved))
+    }
+
+
+def _step(
+    linkage: Linkage,
+    element: DrivenElement,
+    number: int,
+    group: Group,
+    freedoms: LoopFreedoms | None,
+    after: tuple[int, ...],
+) -> Step:
+    system, block = element.system, blocks_of_groups(element.system)[number]
+    joints, loops = linkage.joints, system.order[number]
+    cuts = [system.cuts[loop] for loop in loops]
+    rank = group.rank - sum(RANK_OF_CUT[len(cut)] for cut in cuts)
+    cut = {ball for balls in cuts for ball in balls}
+    joint_of_ball = {ball: joint for (joint, _), (ball, _) in system.places.items()}
+    rows = linkage.structure.row_of
+    ends = {rows[part] for joint in group.joints for part in joints[joint].parts}
+    return Step(
+        joints=tuple(joints[joint].name for joint in group.joints),
+        parts=tuple(part for part in linkage.structure.parts if part in ends),
+        loops=len(loops),
+        loop_class=_loop_class(element, number, group),
+        subgroup=None if freedoms is None else _subgroup(element, group, freedoms),
+        unknowns=_names(linkage, element, block),
+        equations=len(block.rows),
+        redundant=len(block.rows) - rank,
+        free=len(block.columns) - rank,
+        follow=tuple(joints[element.block.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
+        after=after,
+        merged=group.merged,
+    )
+
+
+def _names(linkage: Linkage, element: DrivenElement, block: EquationBlock) -> tuple[str, ...]:
+    places = (element.columns[column] for column in block.columns)
+    joints = linkage.joints
+    return tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in places)
+
+
+def _subgroup(element: DrivenElement, group: Group, freedoms: LoopFreedoms) -> Subgroup:
+    """The smallest subgroup that holds the coordinates of a group's loops, those that rest left out."""
+    held = {joint for loop in group.loops for joint, _ in loop}
+    columns = [freedoms.columns.index(place) for place in element.columns if place[0] in held]
+    return subgroup(freedoms.assembled[:, columns], 10 * freedoms.noise.rank)
+
+
+def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
+    """What the loops of a group are to the solver, and of a single one the pattern of its joints."""
+    loops = element.system.order[number]
+    kinds = [_kind(element.system, loop) for loop in loops]
+    if len(loops) > 1:
+        return " and ".join(_count(times, f"{kind} loop") for kind, times in Counter(kinds).items())
+    letters = {}
+    for place, movements in enumerate(element.system.movements):
+        unknown = set(element.system.span(place)) - set(element.system.driven)
+        columns = unknown or set(element.system.span(place))
+        first = element.system.span(place).start
+        letters[element.block.joints[place]] = letter(movements, {column - first for column in columns})
+    return loop_name(group, letters, kinds[0])
+
+
+def _kind(system: LoopSystem, loop: int) -> str:
+    """The class of a loop by the equations that the solver needs for it."""
+    if system.planar:
+        return "planar"
+    return "Schoenflies" if loop in system.loop_class.schoenflies else "spatial"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
