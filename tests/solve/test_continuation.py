@@ -96,12 +96,15 @@ def traced_rocker():
 
 
 def test_a_branch_is_followed_to_its_limits(traced_rocker):
-    """Coupler and rocker in line, stretched or folded, by the law of cosines; as near as is documented."""
+    """Coupler and rocker in line, stretched or folded, by the law of cosines; as near as is documented.
+
+    A pose may close beyond the limit by its residual, at most 1e-12 of the size.
+    """
     at, status = np.asarray(traced_rocker.at), np.asarray(traced_rocker.table[:, -1])
     at = at[np.isfinite(at) & (status == Status.CLOSED)]
     for reach, limit in ((60.0 + 80.0, at.max()), (80.0 - 60.0, at.min())):
         expected = np.arccos((95.0**2 + 100.0**2 - reach**2) / (2 * 95.0 * 100.0)) - 1.0
-        assert 0 <= abs(expected) - abs(limit) <= NEAR_LIMIT
+        assert -1e-11 <= abs(expected) - abs(limit) <= NEAR_LIMIT
     assert not traced_rocker.complete and not traced_rocker.repeats
 
 
