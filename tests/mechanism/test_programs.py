@@ -7,7 +7,7 @@ import pytest
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.pairs import revolute
-from jaxkin.mechanism.drive_plan import prepare
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.execution.programs import compilations
@@ -25,9 +25,9 @@ def test_nothing_is_recompiled_for_new_numbers():
 
 def test_what_does_not_depend_on_the_values_is_found_once():
     linkage = planar_fourbar(1.0).linkage
-    plan = prepare(linkage, ("A",))
-    assert prepare(linkage, ("A",)) is plan
-    assert prepare(linkage, ("D",)) is not plan
+    plan = plan_drive(linkage, ("A",))
+    assert plan_drive(linkage, ("A",)) is plan
+    assert plan_drive(linkage, ("D",)) is not plan
 
 
 @pytest.mark.long

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.mechanism.drive_plan import prepare
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.predictor import hermite, predict_state
@@ -84,7 +84,7 @@ def test_where_a_slope_says_nothing_the_secant_is_taken():
 @pytest.fixture(scope="module")
 def traced_rocker():
     """Samples of a double rocker 100, 95, 60, 80 that is assembled at 1 rad, over a full turn."""
-    (element,) = prepare(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).elements
     geometry, _ = scaled(element.system, element.joints)
 
     @partial(jax.jit, **jit_options())

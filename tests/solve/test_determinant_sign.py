@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio, ratio_of_determinants
-from jaxkin.solve.system.equation_blocks import Block
+from jaxkin.solve.system.equation_blocks import EquationBlock
 from reference.matrices import block_triangular
 
 
@@ -47,5 +47,5 @@ def test_a_jacobian_that_is_not_square_is_compared_in_its_own_range(shape):
     rows, columns = (np.arange(count) for count in shape)
     for factor in (-1.0, 0.5):
         other = jacobian.at[:, 0].multiply(factor) if shape[1] < shape[0] else jacobian.at[0].multiply(factor)
-        found = determinant_ratio(jacobian, other, [Block(tuple(rows), tuple(columns))])
+        found = determinant_ratio(jacobian, other, [EquationBlock(tuple(rows), tuple(columns))])
         np.testing.assert_allclose(found, factor, rtol=1e-6)

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.mechanism.drive_plan import prepare
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.system.state import State
@@ -26,7 +26,7 @@ CRANK, COUPLER, ROCKER = 40.0, 120.0, 80.0
 @pytest.fixture(scope="module")
 def closed():
     """The one structure element of the four-bar, its joints, and its states by the closed form."""
-    (element,) = prepare(planar_fourbar(START).linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar(START).linkage, ("A",)).elements
     theta = START + np.concatenate([[0.0], TURN])
     at = planar.fourbar(theta)
     angles = {0: theta, 1: at.coupler - theta, 2: at.rocker - at.coupler, 3: at.rocker}
