@@ -15,7 +15,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.rigid import inverse, product
 from jaxkin.linkage.coordinates import resolve
-from jaxkin.mechanism.motion import Motion, joint_motion
+from jaxkin.linkage.joint_motion import joint_motion
+from jaxkin.mechanism.motion import Motion
 
 
 def closure_gaps(motion: Motion) -> Float[Array, " poses"]:

@@ -14,10 +14,11 @@ from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
-from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -109,20 +110,27 @@ class Mechanism:
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
     def sweep(
-        self, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+        self,
+        drive: Mapping[str, object],
+        *,
+        options: SolverOptions | None = None,
+        tolerance: float | None = None,
+        method: str | None = None,
+        throw: bool = False,
     ) -> Motion:
         """The motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
         from jaxkin.mechanism.sweep import sweep
 
-        return sweep(self, drive, tolerance=tolerance, method=method)
+        return sweep(self, drive, options=options, tolerance=tolerance, method=method, throw=throw)
 
     def stream(
         self,
         drive: Mapping[str, object],
         chunk: int = 100_000,
         *,
+        options: SolverOptions | None = None,
         tolerance: float | None = None,
-        method: str = CONTINUATION,
+        method: str | None = None,
     ) -> Stream:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
 
@@ -135,7 +143,20 @@ class Mechanism:
         """
         from jaxkin.mechanism.stream import Stream
 
-        return Stream(self, drive, chunk, tolerance, method)
+        return Stream(self, drive, chunk, options_with(options, tolerance, method))
+
+    def closure(self, coordinates: Mapping[str, object]) -> ClosureEquations:
+        """Evaluate the closure equations of all loops and their Jacobian, for optimisers of your own.
+
+        `coordinates` gives for a joint, by name, one number for each of its coordinates, in radians and lengths of the
+        mechanism from the assembled pose, as a row of `motion.coordinates` has them; joints that are not named rest.
+        The residual has twelve equations a loop (Eq. 11), lengths over the characteristic length; the columns of the
+        Jacobian are named by `coordinates` of the result. A ball has its three angles, whose Jacobian is singular where
+        phi is a quarter turn. Works inside `jit`, `vmap` and `grad`.
+
+        Raises ValueError for a joint that is not there, and where its numbers are not as many as its coordinates.
+        """
+        return closure_equations(self.linkage, coordinates)
 
     @cached_property
     def lengths(self) -> dict[tuple[str, ...], float | jax.Array]:

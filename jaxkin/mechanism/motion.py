@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property, partial
+from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
-from jaxkin.geometry.movements import MOVEMENTS, displaced
-from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
-from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
-from jaxkin.topology.structure import Structure
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.lost_contacts import LostContact
@@ -47,6 +45,8 @@ class Motion:
     """Codes of `Status`."""
     residual: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length of the loops."""
+    options: SolverOptions = field(default_factory=SolverOptions)
+    """How the poses were found; effects of the motion use the same. Static data to JAX, without a traced tolerance."""
 
     def __len__(self) -> int:
         return self.status.shape[0]
@@ -60,6 +60,14 @@ class Motion:
     def on_branch(self) -> Bool[Array, " poses"]:
         """Which poses are on the branch of the assembled pose: closed, or as nearly closed as the joints agree."""
         return self.closed | (self.status == Status.MISFIT.value)
+
+    def check(self) -> Motion:
+        """Raise PoseError where a pose is not on the branch of the assembled pose, with a remedy; else return itself.
+
+        Raises ValueError inside `jit`, `vmap` and `grad`, where the statuses are no numbers yet.
+        """
+        check(self)
+        return self
 
     @cached_property
     def sigma_min(self) -> Float[Array, " poses"]:
@@ -81,7 +89,9 @@ class Motion:
     @cached_property
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
         """Displacement of each part from its assembled pose, in world coordinates (Section 5.2)."""
-        return Named("part", zip(self.mechanism.parts, placed(self.mechanism, self.displacements), strict=True))
+        return Named(
+            "part", zip(self.mechanism.parts, part_transforms(self.mechanism.linkage, self.displacements), strict=True)
+        )
 
     @cached_property
     def lost_contacts(self) -> tuple[LostContact, ...]:
@@ -156,45 +166,5 @@ def tally(
 
 
 jax.tree_util.register_dataclass(
-    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=[]
+    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=["options"]
 )
-
-
-def placed(
-    mechanism: Mechanism, displacements: tuple[Float[Array | np.ndarray, "poses _"], ...]
-) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Transforms of all parts, in the order of `mechanism.parts`, for displacements of all joints."""
-    return _transforms(mechanism.structure, mechanism.all_joints, displacements)
-
-
-@partial(jax.jit, static_argnums=0)
-def _transforms(
-    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
-) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
-    poses, dtype = displacements[0].shape[0], displacements[0].dtype
-    found: dict[str, Rigid] = {}  # without the fixed parts
-    for part, parent, joint, sign in structure.tree:
-        moved = joint_motion(joints[joint], displacements[joint])
-        moved = moved if sign > 0 else inverse(moved)
-        # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
-        found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
-    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
-    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
-
-
-def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
-    """Displacement J of part 2 relative to part 1, in world coordinates: the product of `before T after^-1` (Table 2).
-
-    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
-    """
-    found, first = None, 0
-    for frame, movement in enumerate(joint.movements):
-        count = len(MOVEMENTS[movement].coordinates)
-        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.before, joint.after))
-        begin = before if found is None else product(found, before)
-        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
-        found = product(moved, inverse(after))
-        first += count
-    still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
-    return jnp.broadcast_to(still, (3, 4, q.shape[0]))

@@ -1,0 +1,95 @@
+"""The closure equations of a linkage for any displacements of its joints (Eq. 10 and 11), in plain JAX.
+
+The solver has its own kernels, which evaluate only the equations that a loop needs; these here are all twelve of each
+loop, for other people's optimisers, and as a check.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin._names import by_name, nearest
+from jaxkin.geometry.rigid import as_matrices, inverse, product
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.joint_motion import joint_motion
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.topology.structure import Structure
+
+
+class ClosureEquations(NamedTuple):
+    """The closure equations of all loops at one set of displacements."""
+
+    residual: Float[Array, " equations"]
+    """Twelve a loop (Eq. 11), in the order of `structure.loops`: the rotation matrix that is left when the loop has
+    been travelled, less the unit matrix, row by row, then how far its end is from its start, over the characteristic
+    length. The norm is the square root of Eq. 12."""
+    jacobian: Float[Array, "equations coordinates"]
+    """Derivative of the residual with respect to the coordinates of all joints, one joint after the other."""
+    coordinates: tuple[str, ...]
+    """Names of the columns, "joint.coordinate"."""
+
+
+def closure_equations(linkage: Linkage, coordinates: Mapping[str, object]) -> ClosureEquations:
+    """Evaluate the closure equations and their Jacobian: see `Mechanism.closure`."""
+    given = dict(by_name(coordinates, "coordinates", "{'A': 0.1, 'ball': (0.1, 0.2, 0.3)}"))
+    names = linkage.structure.joints
+    for name in given:
+        if name not in names:
+            raise ValueError(f"there is no joint {name!r}{nearest(str(name), names)}")
+    rows = [_of_joint(joint, given.get(joint.name, np.zeros(joint.freedoms))) for joint in linkage.joints]
+    residual, jacobian = _equations(linkage.structure, linkage.joints, jnp.concatenate([jnp.zeros(0), *rows]))
+    columns = tuple(f"{joint.name}.{name}" for joint in linkage.joints for name in joint.coordinates)
+    return ClosureEquations(residual, jacobian, columns)
+
+
+def _of_joint(joint: Joint, given: Any) -> Float[Array, " freedoms"]:
+    try:
+        values = jnp.atleast_1d(jnp.asarray(given, float))
+    except (TypeError, ValueError):
+        values = None
+    if values is None or values.shape != (joint.freedoms,):
+        raise ValueError(
+            f"joint {joint.name!r} ({joint.kind}) has {joint.freedoms} coordinates ({', '.join(joint.coordinates)}): "
+            f"give one number for each, got {given!r}"
+        )
+    return values
+
+
+@partial(jax.jit, static_argnums=0)
+def _equations(
+    structure: Structure, joints: tuple[Joint, ...], coordinates: Float[Array, " coordinates"]
+) -> tuple[Float[Array, " equations"], Float[Array, "equations coordinates"]]:
+    def residual(q: Float[Array, " coordinates"]) -> Float[Array, " equations"]:
+        return _residual(structure, joints, q)
+
+    return residual(coordinates), jax.jacfwd(residual)(coordinates)
+
+
+def _residual(
+    structure: Structure, joints: tuple[Joint, ...], q: Float[Array, " coordinates"]
+) -> Float[Array, " equations"]:
+    motions, first = [], 0
+    for joint in joints:
+        motions.append(joint_motion(joint, q[None, first : first + joint.freedoms]))
+        first += joint.freedoms
+    origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints]))
+    centre = jnp.mean(origins, axis=0)
+    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
+    length = jnp.where(radius > 0, radius, 1.0)
+    rows = [jnp.zeros(0, q.dtype)]
+    for loop in structure.loops:
+        travelled = jnp.eye(4, dtype=q.dtype)[:3, :, None]
+        for joint, sign in loop.joints:
+            travelled = product(travelled, motions[joint] if sign > 0 else inverse(motions[joint]))
+        left = as_matrices(travelled)[0] - jnp.eye(4, dtype=q.dtype)
+        away = left[:3, 3] + left[:3, :3] @ centre
+        rows.append(jnp.concatenate([left[:3, :3].ravel(), away / length]))
+    return jnp.concatenate(rows)

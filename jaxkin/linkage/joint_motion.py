@@ -1,0 +1,58 @@
+"""Joint-motion matrices (Table 2), and where they take the parts (Section 5.2), over many poses at once."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.movements import MOVEMENTS, displaced
+from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.topology.structure import Structure
+
+Displacements = tuple[Float[Array | np.ndarray, "poses _"], ...]
+"""Of all joints, in the order of `Linkage.joints`: radians, and lengths in the unit of the mechanism."""
+
+
+def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Displace all parts from their assembled pose, in the order of `linkage.parts`, in world coordinates."""
+    return _transforms(linkage.structure, linkage.joints, displacements)
+
+
+@partial(jax.jit, static_argnums=0)
+def _transforms(
+    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
+) -> tuple[Float[Array, "poses 4 4"], ...]:
+    """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
+    poses, dtype = displacements[0].shape[0], displacements[0].dtype
+    found: dict[str, Rigid] = {}  # without the fixed parts
+    for part, parent, joint, sign in structure.tree:
+        moved = joint_motion(joints[joint], displacements[joint])
+        moved = moved if sign > 0 else inverse(moved)
+        # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
+        found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
+    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
+    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
+
+
+def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
+    """Displacement J of part 2 relative to part 1, in world coordinates: the product of `before T after^-1` (Table 2).
+
+    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
+    """
+    found, first = None, 0
+    for frame, movement in enumerate(joint.movements):
+        count = len(MOVEMENTS[movement].coordinates)
+        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.before, joint.after))
+        begin = before if found is None else product(found, before)
+        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
+        found = product(moved, inverse(after))
+        first += count
+    still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
+    return jnp.broadcast_to(still, (3, 4, q.shape[0]))

@@ -1,0 +1,68 @@
+"""The closure equations that users may put into optimisers of their own."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from reference.catalogue import jansen
+from reference.mechanisms import planar_fourbar, rssr_linkage
+
+
+def at_random(mechanism, size, rng):
+    return {joint.name: size * rng.standard_normal(joint.freedoms) for joint in mechanism.all_joints}
+
+
+@pytest.mark.parametrize("make", [planar_fourbar, jansen, rssr_linkage])
+def test_the_assembled_pose_is_closed_and_the_jacobian_is_the_derivative(make):
+    mechanism, rng = make(), np.random.default_rng(3)
+    at_rest = mechanism.closure({})
+    assert at_rest.residual.shape == (12 * len(mechanism.structure.loops),)
+    assert np.abs(at_rest.residual).max() < 1e-14  # rounding of a few products
+    q, direction = at_random(mechanism, 0.3, rng), at_random(mechanism, 1.0, rng)
+    step = 1e-6  # rounding over it, and its square, are both 1e-10 and less
+    there, back = (
+        mechanism.closure({name: q[name] + sign * step * direction[name] for name in q}).residual for sign in (1, -1)
+    )
+    along = np.concatenate([direction[joint.name] for joint in mechanism.all_joints])
+    assert np.allclose(mechanism.closure(q).jacobian @ along, (there - back) / (2 * step), atol=1e-8)
+
+
+def test_a_four_bars_loop_is_open_by_the_chord_of_its_crank():
+    """The crank alone is turned by t: all behind it turns with it about the first hinge."""
+    mechanism, t = planar_fourbar(), 0.2
+    found = mechanism.closure({"A": t})
+    origins = np.array([joint.before[0, :3, 3] for joint in mechanism.all_joints])
+    centre = origins.mean(axis=0)
+    length = np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())
+    chord = 2 * np.sin(t / 2) * np.linalg.norm(centre - origins[0])
+    assert np.isclose(np.linalg.norm(found.residual[9:]) * length, chord, rtol=1e-12)
+    assert np.isclose(np.linalg.norm(found.residual[:9]), 2 * np.sqrt(2) * np.sin(t / 2), rtol=1e-12)
+    assert found.coordinates == ("A.phi", "B.phi", "C.phi", "D.phi")
+
+
+def test_newton_steps_of_ones_own_lead_to_the_pose_of_the_sweep():
+    """Gauss-Newton steps with `closure`, the crank held, inside `jit`."""
+    mechanism = planar_fourbar()
+    motion = mechanism.sweep({"A": jnp.array([0.0, 0.4])})
+    swept = {name: rows[1] for name, rows in motion.coordinates.items()}
+    assert np.linalg.norm(mechanism.closure(swept).residual) < 1e-13
+
+    @jax.jit
+    def step(free):
+        found = mechanism.closure({"A": 0.4, "B": free[0], "C": free[1], "D": free[2]})
+        return free - jnp.linalg.lstsq(found.jacobian[:, 1:], found.residual)[0]
+
+    free = jnp.zeros(3)
+    for _ in range(8):
+        free = step(free)
+    assert np.allclose(free, [swept[name][0] for name in "BCD"], atol=1e-12)
+
+
+def test_wrong_coordinates_are_named():
+    with pytest.raises(ValueError, match=r"no joint 'E'"):
+        planar_fourbar().closure({"E": 0.1})
+    with pytest.raises(ValueError, match=r"joint 'A' \(revolute\) has 1 coordinates.*got \(0.1, 0.2\)"):
+        planar_fourbar().closure({"A": (0.1, 0.2)})
+    with pytest.raises(ValueError, match=r"coordinates are given by name"):
+        planar_fourbar().closure([0.1, 0.2])
