@@ -1,16 +1,20 @@
-"""Make pages of the notebooks, which lie beside this folder, as they are stored: nothing is run.
+"""What pages hold that is not written by hand: the notebooks as they are stored, and the constants of the code.
 
-Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows.
+Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows; nothing is run.
+A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings.
 """
 
+import ast
 import base64
 import json
+import re
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
-NOTEBOOKS = Path(__file__).parent.parent / "notebooks"
+ROOT = Path(__file__).parent.parent
+NOTEBOOKS = ROOT / "notebooks"
 FENCE = "`````"
 """Longer than any fence inside a cell or an output."""
 PICTURES = {"image/png": "png", "image/gif": "gif"}
@@ -26,6 +30,35 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path in sorted(NOTEBOOKS.glob("pictures/*.png")):
         files.append(File.generated(config, f"notebooks/pictures/{path.name}", abs_src_path=str(path)))
     return files
+
+
+def on_page_markdown(markdown: str, **_) -> str:
+    """Put the constants in the place of the comments that ask for them."""
+    return re.sub(r"<!-- constants of (.*?) -->", lambda match: constants_of(match[1].split()), markdown)
+
+
+def constants_of(folders: list[str]) -> str:
+    """Tables of the constants in some folders, one a module."""
+    tables = []
+    for path in (path for folder in folders for path in sorted((ROOT / folder).rglob("*.py"))):
+        if rows := constants(path):
+            cells = "\n".join(f"| `{name}` | `{value}` | {text} |" for name, value, text in rows)
+            tables.append(f"**`{path.relative_to(ROOT).as_posix()}`**\n\n| constant | value | why |\n|---|---|---|\n{cells}")
+    return "\n\n".join(tables)
+
+
+def constants(path: Path) -> list[tuple[str, str, str]]:
+    """Name, value and docstring of the constants of a module that are numbers; without a docstring it is empty."""
+    found = []
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    for statement, following in zip(body, [*body[1:], None], strict=True):
+        if not isinstance(statement, ast.Assign) or not isinstance(statement.targets[0], ast.Name | ast.Tuple):
+            continue
+        name, value = ast.unparse(statement.targets[0]), ast.unparse(statement.value)
+        if re.fullmatch(r"\(?_?[A-Z][A-Z0-9_, ]*\)?", name) and not re.search(r"[\[{'\"]", value):
+            documented = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
+            found.append((name, value, " ".join(str(following.value.value).split()) if documented else ""))
+    return found
 
 
 def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
