@@ -4,14 +4,18 @@ Each notebook becomes a page in Markdown, and each picture among its outputs a f
 A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings.
 """
 
+from __future__ import annotations
+
 import ast
 import base64
 import json
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from mkdocs.config.defaults import MkDocsConfig
-from mkdocs.structure.files import File, Files
+if TYPE_CHECKING:
+    from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.files import Files
 
 ROOT = Path(__file__).parent.parent
 NOTEBOOKS = ROOT / "notebooks"
@@ -22,6 +26,8 @@ PICTURES = {"image/png": "png", "image/gif": "gif"}
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages of the notebooks, and the pictures beside them."""
+    from mkdocs.structure.files import File  # here: tests that read constants need no mkdocs
+
     for path in sorted(NOTEBOOKS.glob("*.ipynb")):
         page, pictures = notebook_page(path)
         files.append(File.generated(config, f"notebooks/{path.stem}.md", content=page))
@@ -57,7 +63,8 @@ def constants(path: Path) -> list[tuple[str, str, str]]:
         name, value = ast.unparse(statement.targets[0]), ast.unparse(statement.value)
         if re.fullmatch(r"\(?_?[A-Z][A-Z0-9_, ]*\)?", name) and not re.search(r"[\[{'\"]", value):
             documented = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
-            found.append((name, value, " ".join(str(following.value.value).split()) if documented else ""))
+            text = " ".join(str(following.value.value).split()) if documented else ""
+            found.append((name, value, text.replace("|", "\\|")))
     return found
 
 

@@ -11,7 +11,6 @@ MODULES = sorted(path for folder in FOLDERS for path in (ROOT / "jaxkin" / folde
 
 @pytest.fixture(scope="module")
 def hooks():
-    pytest.importorskip("mkdocs", reason="the site is built by the group `docs`")
     spec = importlib.util.spec_from_file_location("site_hooks", ROOT / "docs" / "site_hooks.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

@@ -54,9 +54,12 @@ def found(dotted: str) -> bool:
 
 
 def of_the_site(page, link: str) -> bool:
-    """Whether a link leads to a page that is made of a notebook."""
+    """Whether a link leads to a page that is made of a notebook, or to a picture beside it."""
     place = (page.parent / link).resolve()
-    return place.parent == ROOT / "docs" / "notebooks" and (ROOT / "notebooks" / f"{place.stem}.ipynb").exists()
+    if not place.is_relative_to(ROOT / "docs" / "notebooks"):
+        return False
+    source = ROOT / place.relative_to(ROOT / "docs")
+    return source.exists() or source.with_suffix(".ipynb").exists()
 
 
 def test_every_page_is_in_the_navigation():
