@@ -44,7 +44,7 @@ def least_residual(
     joints, ideal = lax.stop_gradient((joints, ideal))
     geometry, lengths = scaled(system, joints)
     cutoff = jnp.minimum(SPREAD * _play(joints, ideal, jnp.max(lengths)), LARGEST_DOUBT)
-    state = as_state(system, joints.before, joints.after, begun)
+    state = as_state(system, joints.frames_1, joints.frames_2, begun)
     state = state._replace(x=state.x / lengths)
 
     def step(_, state):
@@ -54,7 +54,7 @@ def least_residual(
         return retract(system, state, -delta)
 
     state = lax.fori_loop(0, STEPS, step, state)
-    found = read_off(system, joints.before, joints.after, state.x * lengths, ball_turns(system, geometry, state))
+    found = read_off(system, joints.frames_1, joints.frames_2, state.x * lengths, ball_turns(system, geometry, state))
     gap = closure(system, geometry, state).gap
     misfit = (status == Status.CLOSED.value) & (gap > largest)
     status = jnp.where(misfit, Status.MISFIT.value, status)
@@ -65,6 +65,6 @@ def _play(joints: Joints, ideal: Joints, length: Array) -> Array:
     """The largest difference of the frames, lengths over the characteristic one."""
     differences = [
         (jnp.asarray(one) - jnp.asarray(other)) / jnp.array([1.0, 1.0, 1.0, length])
-        for one, other in zip((*joints.before, *joints.after), (*ideal.before, *ideal.after), strict=True)
+        for one, other in zip((*joints.frames_1, *joints.frames_2), (*ideal.frames_1, *ideal.frames_2), strict=True)
     ]
     return jnp.max(jnp.stack([jnp.max(jnp.abs(difference)) for difference in differences]))
