@@ -1,7 +1,8 @@
 """What pages hold that is not written by hand: the notebooks as they are stored, and the constants of the code.
 
 Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows; nothing is run.
-A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings.
+A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings,
+and "exports that no other page has" by the references of what else can be imported from jaxkin.
 """
 
 from __future__ import annotations
@@ -39,8 +40,18 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, **_) -> str:
-    """Put the constants in the place of the comments that ask for them."""
+    """Put constants and references in the place of the comments that ask for them."""
+    markdown = markdown.replace("<!-- exports that no other page has -->", "\n\n".join(other_exports()))
     return re.sub(r"<!-- constants of (.*?) -->", lambda match: constants_of(match[1].split()), markdown)
+
+
+def other_exports() -> list[str]:
+    """References of the names that `jaxkin` exports and no page of the API has."""
+    pages = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md"))
+    listed = set(re.findall(r"^::: jaxkin\.(\w+)", pages, re.M))
+    text = (ROOT / "jaxkin" / "__init__.py").read_text(encoding="utf-8")
+    exports = [alias.asname for node in ast.parse(text).body if isinstance(node, ast.ImportFrom) for alias in node.names]
+    return [f"::: jaxkin.{name}" for name in exports if name and not name.startswith("_") and name not in listed]
 
 
 def constants_of(folders: list[str]) -> str:
