@@ -50,8 +50,9 @@ def other_exports() -> list[str]:
     pages = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md"))
     listed = set(re.findall(r"^::: jaxkin\.(\w+)", pages, re.M))
     text = (ROOT / "jaxkin" / "__init__.py").read_text(encoding="utf-8")
-    exports = [alias.asname for node in ast.parse(text).body if isinstance(node, ast.ImportFrom) for alias in node.names]
-    return [f"::: jaxkin.{name}" for name in exports if name and not name.startswith("_") and name not in listed]
+    imports = [node for node in ast.parse(text).body if isinstance(node, ast.ImportFrom)]
+    exports = [alias.asname or alias.name for node in imports for alias in node.names]
+    return [f"::: jaxkin.{name}" for name in exports if not name.startswith("_") and name not in listed]
 
 
 def constants_of(folders: list[str]) -> str:
@@ -60,7 +61,8 @@ def constants_of(folders: list[str]) -> str:
     for path in (path for folder in folders for path in sorted((ROOT / folder).rglob("*.py"))):
         if rows := constants(path):
             cells = "\n".join(f"| `{name}` | `{value}` | {text} |" for name, value, text in rows)
-            tables.append(f"**`{path.relative_to(ROOT).as_posix()}`**\n\n| constant | value | why |\n|---|---|---|\n{cells}")
+            heading = f"**`{path.relative_to(ROOT).as_posix()}`**"
+            tables.append(f"{heading}\n\n| constant | value | why |\n|---|---|---|\n{cells}")
     return "\n\n".join(tables)
 
 

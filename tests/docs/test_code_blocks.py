@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 import trimesh
 import typer
-from docs.pages import PAGES, blocks, name
 
 import jaxkin as jk
+from documents import PAGES, blocks, name
 
 LONG = {"docs/index.md", "docs/how-to/design.md", "docs/how-to/derivatives.md", "docs/how-to/sweep.md"}
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
@@ -48,7 +48,8 @@ def test_the_blocks_of_a_page_run(page, files, tmp_path, monkeypatch):
     names: dict[str, object] = {"__name__": "__main__"}
     for number, block in enumerate(blocks(page)):
         if block.language == "python":
-            text = "\n" * (block.line - 1) + textwrap.dedent(block.text)  # so that a traceback names the line of the page
+            # empty lines before it, so that a traceback names the line of the page
+            text = "\n" * (block.line - 1) + textwrap.dedent(block.text)
             exec(compile(text, str(page), "exec"), names)
         elif block.language == "toml":
             study = tmp_path / f"study{number}.toml"
@@ -76,7 +77,7 @@ def parse(words: list[str]) -> None:
 
 
 def test_a_command_that_does_not_exist_is_found():
-    with pytest.raises(Exception, match="No such (option|command)"):
+    with pytest.raises(Exception, match=r"No such (option|command)"):
         parse(["sweep", "--no-such-option"])
-    with pytest.raises(Exception, match="No such (option|command)"):
+    with pytest.raises(Exception, match=r"No such (option|command)"):
         parse(["no-such-command"])

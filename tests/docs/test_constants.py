@@ -3,7 +3,8 @@
 import importlib.util
 
 import pytest
-from docs.pages import ROOT
+
+from documents import ROOT
 
 FOLDERS = ("linkage", "mechanism", "mobility", "solve")
 MODULES = sorted(path for folder in FOLDERS for path in (ROOT / "jaxkin" / folder).rglob("*.py"))

@@ -4,7 +4,8 @@ import importlib
 import re
 
 import pytest
-from docs.pages import PAGES, ROOT, name
+
+from documents import PAGES, ROOT, name
 
 FILE = re.compile(r"`((?:jaxkin|tests|benchmarks|notebooks|docs|\.ci)/[\w./*-]*)`")
 DOTTED = re.compile(r"`(jaxkin(?:\.\w+)+)(?:\([^`]*\))?`")
