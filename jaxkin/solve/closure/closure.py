@@ -30,7 +30,7 @@ class Closure(NamedTuple):
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
     """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: half the square of the residual nearby."""
-    gap: Float[Array, " poses"]
+    residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry
-from jaxkin.solve.closure.rod_spin import rested, without_spin
+from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, remove_spin_from_state
 from jaxkin.solve.closure.spatial import Spatial, cut_turns
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
@@ -25,14 +25,14 @@ Frames = tuple[Float[Array, "_ 4 4"], ...]
 def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
     """The turns of all balls by number: those at which loops are cut turn as these want it, rods do not spin."""
     turns = _all_turns(system, geometry, state)
-    return without_spin(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
+    return remove_spin_from_rotations(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
 
 
-def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
+def remove_passive_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
     """The state with no spin left in any rod: a smooth function of the input, as that of the solver is not."""
     if not isinstance(geometry, Spatial) or not system.spinning:
         return state
-    return rested(system, geometry.lines, _all_turns(system, geometry, state), state)
+    return remove_spin_from_state(system, geometry.lines, _all_turns(system, geometry, state), state)
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
@@ -41,7 +41,7 @@ def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
     return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
 
 
-def read_off(
+def joint_coordinates(
     system: LoopSystem, before: Frames, after: Frames, x: Coordinates, turns: dict[int, Rotations]
 ) -> Coordinates:
     """Displacements of all joints from those that are not of balls, and turns of balls; lengths as in the frames."""
@@ -67,7 +67,7 @@ def read_off(
     return x
 
 
-def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
+def unwrap_ball_angles(system: LoopSystem, x: Coordinates) -> Coordinates:
     """Displacements without leaps in the angles of balls from pose to pose."""
     which = np.flatnonzero(turning(system))
     return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x

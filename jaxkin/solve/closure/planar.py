@@ -23,9 +23,11 @@ from jaxkin.solve.closure.spatial import Spatial
 from jaxkin.solve.system.chain_tables import steps
 from jaxkin.solve.system.loop_system import LoopSystem
 
-MANY, FEW = 512, 32
-"""From so many poses on sums written out of up to so many terms, which vector units run through, are faster than a
-product of matrices; for fewer poses they are not worth the time that they take to compile."""
+MIN_UNROLLED_SUM_POSES = 512
+"""Poses from which on the sum over the terms is written out, for the vector units to run through, where it is faster
+than a product of matrices; for fewer poses it is not worth the time that it takes to compile."""
+MAX_UNROLLED_SUM_TERMS = 32
+"""Terms of a sum that is written out, at most: compile time grows with their number."""
 
 
 class Planar(NamedTuple):
@@ -74,7 +76,10 @@ def planar_closure(
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
     """Where the loops end in the plane, over the characteristic length: `Planar.moved` times its terms (Eq. 10)."""
-    if terms[0].shape[-1] < MANY or sum(some.shape[0] * some.shape[1] for some in terms) > FEW:
+    if (
+        terms[0].shape[-1] < MIN_UNROLLED_SUM_POSES
+        or sum(some.shape[0] * some.shape[1] for some in terms) > MAX_UNROLLED_SUM_TERMS
+    ):
         return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
     single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
     return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))

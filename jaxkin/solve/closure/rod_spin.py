@@ -56,7 +56,9 @@ def _spins(
     return ends, jnp.concatenate([cos[None], sin * n])
 
 
-def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
+def remove_spin_from_rotations(
+    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+) -> dict[int, Rotations]:
     """The turns of all balls, by number, with every rod spun to where its balls turn least."""
     turns = dict(turns)
     if not system.spins:
@@ -69,7 +71,7 @@ def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations
     return turns
 
 
-def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
+def remove_spin_from_state(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
     """The state with every rod spun so, of which there is one at least. `turns` are those of all its balls."""
     quaternions = dict(zip(system.turned_balls, state.turns, strict=True))
     ends, spins = _spins(system, lines, turns)

@@ -20,7 +20,7 @@ from jaxkin.solve.system.loop_system import LoopSystem
 
 
 @partial(jax.jit, static_argnums=(0, 1))
-def least_singular_value(
+def smallest_singular_value(
     system: LoopSystem, rank: int, joints: Joints, displacements: Float[Array, "columns poses"]
 ) -> Float[Array, " poses"]:
     """The singular value of that rank (from 1) of the Jacobian with respect to the free coordinates.

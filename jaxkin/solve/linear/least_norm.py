@@ -17,13 +17,20 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.system.equation_blocks import EquationBlock
 
-FEW, UNROLLED, MANY, MULTIPLIED, HALVED, LARGE = 3, 9, 1024, 9, 12, 40
+(
+    MAX_ALWAYS_UNROLLED_ROWS,
+    MAX_UNROLLED_ROWS,
+    MIN_UNROLLED_POSES,
+    MIN_MATMUL_ROWS,
+    MAX_UNHALVED_ROWS,
+    MIN_CHOLESKY_ROWS,
+) = 3, 9, 1024, 9, 12, 40
 """Up to so many rows, and from so many poses on, straight-line code over the poses is faster than a loop; for
 fewer poses it is not worth the time that it takes to compile, but for so few rows as one planar loop has. From so many
 rows on J J^T is a product of matrices pose by pose, a third of the time of sums; systems of more rows than these are
 eliminated half after half; from so many on a library is faster, which takes longer to import than smaller systems to
 sweep."""
-PICKED = 0.75
+MAX_SELECTED_FRACTION = 0.75
 """If no more of the columns are used they are picked: to carry a few zeros along costs less."""
 
 Matrix = Float[Array, "rows columns poses"]
@@ -31,7 +38,7 @@ Vector = Float[Array, "rows poses"]
 Damping = Float[Array, " poses"] | float
 
 
-def least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
+def solve_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
     """The x of least norm that minimises |J x - r|^2 + damping s |x|^2, for every pose: (columns, poses).
 
     Dampings are in terms of `s`, the mean square of the rows of J. All columns but those `used` are zero. No
@@ -42,7 +49,7 @@ def least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence
     return _put_back(x, used, jacobian.shape[1])
 
 
-def refined_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
+def solve_least_norm_refined(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
     """The same with derivatives, the bias of the damping taken out by one step of iterative refinement."""
     own = _picked(jacobian, used)
     factored = _factored(own, damping)
@@ -67,36 +74,38 @@ def refined_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: 
 
 def _picked(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked poses"]:
     """The columns used, or all if hardly any is not."""
-    return jacobian[:, np.array(used, np.int32)] if len(used) < PICKED * jacobian.shape[1] else jacobian
+    return jacobian[:, np.array(used, np.int32)] if len(used) < MAX_SELECTED_FRACTION * jacobian.shape[1] else jacobian
 
 
 def _put_back(x: Array, used: Sequence[int], columns: int) -> Array:
     """A solution for what `_picked` picked as one for all columns."""
-    return x if len(x) == columns else placed(x, used, columns)
+    return x if len(x) == columns else scatter_rows(x, used, columns)
 
 
 def solve_blocks(
-    jacobian: Matrix, right: Vector, floor: float, blocks: Sequence[EquationBlock], *, regular: bool = False
+    jacobian: Matrix, right: Vector, damping: float, blocks: Sequence[EquationBlock], *, regular: bool = False
 ) -> Array:
     """The x with J x = r, block after block, for every pose: (columns, poses). No derivatives.
 
     Of each block that of least norm, damped by so much of its mean square. Where all is `regular` blocks of
     three equations in as many unknowns are solved by Cramer's rule, which costs less.
     """
-    return _in_turn(jacobian, right[:, None], floor, blocks, regular)[:, 0]
+    return _in_turn(jacobian, right[:, None], damping, blocks, regular)[:, 0]
 
 
-def inverse(jacobian: Matrix, floor: float, blocks: Sequence[EquationBlock]) -> Float[Array, "poses columns rows"]:
+def inverse_jacobian(
+    jacobian: Matrix, damping: float, blocks: Sequence[EquationBlock]
+) -> Float[Array, "poses columns rows"]:
     """What `solve_blocks` multiplies right-hand sides by where all is regular."""
     rows, _, poses = jacobian.shape
     unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
-    return jnp.moveaxis(_in_turn(jacobian, unit, floor, blocks, True), -1, 0)
+    return jnp.moveaxis(_in_turn(jacobian, unit, damping, blocks, True), -1, 0)
 
 
 def _in_turn(
     jacobian: Matrix,
     right: Float[Array, "rows sides poses"],
-    floor: float,
+    damping: float,
     blocks: Sequence[EquationBlock],
     regular: bool,
 ) -> Array:
@@ -111,13 +120,13 @@ def _in_turn(
         if regular and own.shape[:2] == (3, 3):
             here = _cramer(own, rest)
         else:
-            here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, floor)(rest))
+            here = jnp.einsum("rcp,rkp->ckp", own, _factored(own, damping)(rest))
         found = jnp.concatenate([found, here])
         known += block.columns
-    return placed(found, known, jacobian.shape[1])
+    return scatter_rows(found, known, jacobian.shape[1])
 
 
-def placed(found: Float[Array, "some *entries"], which: Sequence[int] | np.ndarray, number: int) -> Array:
+def scatter_rows(found: Float[Array, "some *entries"], which: Sequence[int] | np.ndarray, number: int) -> Array:
     """Rows put into their places among zeros: picked, since XLA writes scattered rows one after another."""
     place = np.full(number, len(which))
     place[list(which)] = np.arange(len(which))
@@ -141,9 +150,9 @@ def _mean(squares: Vector) -> Float[Array, " poses"]:
 def _factored(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
     """The solution of (J J^T + damping s) y = r, for right-hand sides of (rows, poses) or (rows, sides, poses)."""
     rows, _, poses = jacobian.shape
-    if rows <= FEW or (rows <= UNROLLED and poses >= MANY):
+    if rows <= MAX_ALWAYS_UNROLLED_ROWS or (rows <= MAX_UNROLLED_ROWS and poses >= MIN_UNROLLED_POSES):
         return _unrolled(jacobian, damping)
-    return (_looped if rows < LARGE else _by_library)(jacobian, damping)
+    return (_looped if rows < MIN_CHOLESKY_ROWS else _by_library)(jacobian, damping)
 
 
 def _unrolled(jacobian: Matrix, damping: Damping):
@@ -188,7 +197,7 @@ def _looped(jacobian: Matrix, damping: Damping):
 def _eliminated(matrix: Float[Array, "rows more poses"]) -> Float[Array, "rows sides poses"]:
     """The solutions of square systems, given with their right-hand sides behind them; of large ones half after half."""
     n = len(matrix)
-    if n > HALVED:
+    if n > MAX_UNHALVED_ROWS:
         half = n // 2
         upper = _eliminated(matrix[:half])
         lower = _eliminated(matrix[half:, half:] - _product(matrix[half:, :half], upper))
@@ -209,7 +218,7 @@ def _product(a: Float[Array, "rows inner poses"], b: Float[Array, "inner columns
 
 def _gram(jacobian: Matrix) -> Float[Array, "rows rows poses"]:
     """J J^T."""
-    if len(jacobian) < MULTIPLIED:
+    if len(jacobian) < MIN_MATMUL_ROWS:
         return jnp.sum(jacobian[:, None] * jacobian[None], axis=2)
     rows = jnp.moveaxis(jacobian, -1, 0)
     return jnp.moveaxis(rows @ rows.mT, 0, -1)
