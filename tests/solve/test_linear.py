@@ -4,7 +4,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear.least_norm import inverse_jacobian, solve_blocks, solve_least_norm, solve_least_norm_refined
+from jaxkin.solve.linear.blocks import inverse_jacobian, solve_blocks
+from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
 from reference.matrices import block_triangular
 
 

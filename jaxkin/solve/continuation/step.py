@@ -42,7 +42,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
 )
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import solve_blocks
+from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks

@@ -15,7 +15,8 @@ from jaxtyping import Array, Float
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS, solve_blocks
+from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -47,9 +48,9 @@ def newton(
 ) -> tuple[State, Closure, Float[Array, " poses"]]:
     """Take Newton steps until the residual norms of all poses are at most `target_residual`, or `MAX_NEWTON_STEPS`.
 
-    Each step solves J delta = -r (Eq. 10, linearised) block after block, and is x <- x + delta. Returns the states, their
-    closure and their residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated
-    where convergence is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
+    Each step solves J delta = -r (Eq. 10, linearised) block after block. Returns the states, their closure and their
+    residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where convergence
+    is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
     """
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
@@ -82,7 +83,7 @@ def newton(
             extrapolated = jnp.where(
                 (ratio < MAX_QUADRATIC_RATIO) & (at.count > 0), ratio**2 * evaluation.residual_norm, jnp.inf
             )
-        # a closed pose takes no further step: near a singular pose it would lead away, and poses must not depend on others
+        # a closed pose takes no further step: near a singular pose it would lead away; poses must not depend on others
         delta = jnp.where(evaluation.residual_norm > target_residual, -delta, 0.0)
         return _Iterate(at.count + 1, at.trial, evaluation, extrapolated, retract(system, at.trial, delta))
 
