@@ -74,7 +74,7 @@ def gradient() -> None:
     """Gradient of a path error over 360 poses with respect to all four bars."""
     mechanism, start = mechanisms.planar_fourbar(1.0), 1.0
     inputs = jnp.linspace(0.0, 2 * jnp.pi, 360)
-    pins = [mechanism.joints[name].before[0][:2, 3] for name in "BC"]
+    pins = [mechanism.joints[name].frames_1[0][:2, 3] for name in "BC"]
     unit = (pins[1] - pins[0]) / 120.0
     local = jnp.array(
         [unit @ (POINT[:2] - pins[0]), unit[0] * (POINT[1] - pins[0][1]) - unit[1] * (POINT[0] - pins[0][0])]

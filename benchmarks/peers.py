@@ -168,7 +168,7 @@ def pylinkage(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:
 def _hinge_poses(problem: Problem) -> Array:
     if problem.from_hinges is None:
         raise Missing("not written down for it here")
-    return np.stack([np.asarray(problem.mechanism().joints[name].before[0]) for name in "ABCD"])
+    return np.stack([np.asarray(problem.mechanism().joints[name].frames_1[0]) for name in "ABCD"])
 
 
 def pinocchio(problem: Problem, u: Array) -> tuple[Run, Callable[[], Array]]:

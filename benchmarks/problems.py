@@ -191,7 +191,7 @@ def bennett() -> Problem:
 
 def stewart() -> Problem:
     mechanism = catalogue.hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    home = np.array([mechanism.joints[f"top {i}"].frames_1[0][:3, 3] for i in range(6)])
     base, size = parallel.hexapod().base, 100.0
     rest = np.linalg.norm(home - base, axis=1)
     middle = home.mean(axis=0)

@@ -66,5 +66,5 @@ def hexapod_curve(poses: int):
     from reference import catalogue, parallel
 
     mechanism = catalogue.hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    home = np.array([mechanism.joints[f"top {i}"].frames_1[0][:3, 3] for i in range(6)])
     return parallel.curve(parallel.hexapod().base, home, poses)

@@ -36,7 +36,7 @@ def expected(name, turn):
 
 def axis_sign(mechanism, joint, direction):
     """+1 where the joint's axis points along a direction of the drawing, -1 against it: files have it either way."""
-    return np.sign(float(np.asarray(mechanism.joints[joint].before)[0][:3, 2] @ direction))
+    return np.sign(float(np.asarray(mechanism.joints[joint].frames_1)[0][:3, 2] @ direction))
 
 
 LONG = pytest.mark.long
@@ -104,9 +104,9 @@ def test_a_gradient_through_the_whole_path():
         joints = list(mechanism.all_joints)
         index = [joint.name for joint in joints].index("crank-coupler")
         pin = joints[index]
-        after = jnp.asarray(pin.after)
+        after = jnp.asarray(pin.frames_2)
         after = after.at[0, :3, 3].add(after[0, :3, :2] @ shift)
-        joints[index] = jk.Joint(pin.name, pin.parts, pin.kind, pin.movements, pin.before, after, pin.pitch)
+        joints[index] = jk.Joint(pin.name, pin.parts, pin.kind, pin.movements, pin.frames_1, after, pin.pitch)
         moved = jk.Mechanism(Linkage.of(joints, mechanism.structure))
         rocker = moved.sweep({"ground-crank": angles}).coordinates["ground-rocker"][:, 0]
         return jnp.max(rocker) - jnp.min(rocker)

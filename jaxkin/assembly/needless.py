@@ -20,7 +20,7 @@ from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.linkage.linkage import SpinningPart
 from jaxkin.mobility.twists import Twists, middle, twists
 from jaxkin.topology.components import connected
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -45,8 +45,8 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
     alone, held = spins(mechanism)
     held = {part: spin for part, spin in held.items() if part not in kept}
     found, needed = dict(alone), []
-    for block in mechanism.structure.blocks if held else ():
-        judged = _Judged.of(mechanism, block, held)
+    for loop_group in mechanism.structure.loop_groups if held else ():
+        judged = _Judged.of(mechanism, loop_group, held)
         if judged is None:
             continue
         taken = judged.with_carriers()
@@ -78,10 +78,10 @@ class _Judged(NamedTuple):
     """The order in which neighbours are taken as carriers: fixed ones first, then larger ones."""
 
     @staticmethod
-    def of(mechanism: Mechanism, block: Block, held: Mapping[str, Spin]) -> _Judged | None:
+    def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _Judged | None:
         """Those of some parts all of whose joints are within the element; None where there are none."""
         solids = {part.name: part for part in mechanism.solids}
-        joints = [mechanism.all_joints[k] for k in block.joints]
+        joints = [mechanism.all_joints[k] for k in loop_group.joints]
         here = {joint.name for joint in joints}
         elsewhere = {part for each in mechanism.all_joints if each.name not in here for part in each.parts}
         ends = dict.fromkeys(part for joint in joints for part in joint.parts)

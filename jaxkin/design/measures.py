@@ -51,7 +51,7 @@ def length_now(mechanism: Mechanism, key: tuple[str, ...]):
 def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:
     """Where the origin of a joint is in every pose."""
     joint = motion.mechanism.joints[known_joint(motion, name)]
-    return motion.points(joint.parts[0], jnp.asarray(joint.before)[0, :3, 3])
+    return motion.points(joint.parts[0], jnp.asarray(joint.frames_1)[0, :3, 3])
 
 
 def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:

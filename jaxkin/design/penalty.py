@@ -31,14 +31,14 @@ def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
         values = jnp.where(jnp.isfinite(entry.values), entry.values, 0.0)
         held[entry.joint] = held[entry.joint].at[:, entry.coordinate].set(values)
     square = jnp.zeros(len(motion))
-    for block in mechanism.structure.blocks:
-        joints = [mechanism.all_joints[joint] for joint in block.joints]
-        origins = jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints])
+    for loop_group in mechanism.structure.loop_groups:
+        joints = [mechanism.all_joints[joint] for joint in loop_group.joints]
+        origins = jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
         centre = origins.mean(axis=0)
         spread = jnp.mean(jnp.sum((origins - centre) ** 2, axis=1))
         size = jnp.sqrt(jnp.where(spread > 0, spread, 1.0))
-        motions = {joint: joint_motion(mechanism.all_joints[joint], held[joint]) for joint in block.joints}
-        for loop in block.loops:
+        motions = {joint: joint_motion(mechanism.all_joints[joint], held[joint]) for joint in loop_group.joints}
+        for loop in loop_group.loops:
             along = [motions[joint] if sign > 0 else inverse(motions[joint]) for joint, sign in loop]
             end = reduce(product, along)
             turned = end[:, :3] - jnp.eye(3)[..., None]

@@ -149,7 +149,9 @@ class Optimum:
         arrays: dict[str, Any] = {"text": np.array(json.dumps(text))}
         arrays |= {"history": self.history, "losses": self.losses, "violations": self.violations}
         for number, joint in enumerate(joints):
-            arrays |= {f"{number} {leaf}": np.asarray(getattr(joint, leaf)) for leaf in ("before", "after", "pitch")}
+            arrays |= {
+                f"{number} {leaf}": np.asarray(getattr(joint, leaf)) for leaf in ("frames_1", "frames_2", "pitch")
+            }
         arrays |= {f"drive {name}": value for name, value in self.drive.items()}
         arrays |= {f"extra {name}": value for name, value in self.extras.items()}
         with whole(target) as draft, open(draft, "wb") as file:
@@ -171,7 +173,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
                 tuple(parts),
                 kind,
                 tuple(movements),
-                *(arrays[f"{i} {leaf}"] for leaf in ("before", "after", "pitch")),
+                *(arrays[f"{i} {leaf}"] for leaf in ("frames_1", "frames_2", "pitch")),
             )
             for i, (name, parts, kind, movements) in enumerate(text["joints"])
         )
@@ -223,7 +225,7 @@ def _steepest(motion: Motion) -> float:
     """Largest change of any joint from closed pose to closed pose over that of the drive."""
     joints = motion.mechanism.all_joints
     pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
-    origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in joints])
+    origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in joints])
     size = float(np.sqrt(np.mean(np.sum((origins - origins.mean(axis=0)) ** 2, axis=1)))) or 1.0
     closed = np.asarray(motion.closed)
     steepest, both = 0.0, closed[1:] & closed[:-1] & (pace > 0)

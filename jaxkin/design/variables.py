@@ -122,7 +122,7 @@ def variables(
     for key, bounds in points.items():
         column, side = locate(mechanism.linkage, key)
         joint = mechanism.all_joints[column]
-        now = np.asarray((joint.after[-1] if side == "after" else joint.before[0])[:3, 3], float)
+        now = np.asarray((joint.frames_2[-1] if side == "frames_2" else joint.frames_1[0])[:3, 3], float)
         entries.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
     for key, given in drive.items():
         if isinstance(given, Free):

@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
-Side = Literal["before", "after"]
+Side = Literal["frames_1", "frames_2"]
 Kind = Literal["point", "axis", "plane"]
 Quantity = Literal["distance", "radius", "angle", "offset", "pitch"]
 Key = tuple[str, ...]
@@ -77,8 +77,8 @@ def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
         rows = [row_of[part] for part in joint.parts]
         if rows[0] == rows[1] or joint.movements == ("I",):
             continue
-        found[rows[0]].append(_feature(column, joint, "before", 0))
-        found[rows[1]].append(_feature(column, joint, "after", len(joint.movements) - 1))
+        found[rows[0]].append(_feature(column, joint, "frames_1", 0))
+        found[rows[1]].append(_feature(column, joint, "frames_2", len(joint.movements) - 1))
     return {row: tuple(features) for row, features in found.items()}
 
 
@@ -101,7 +101,7 @@ def length_table(linkage: Linkage) -> dict[Key, Length]:
             filled = joint.kind == "contact j" and joint.movements[0] == "T_z"  # the ball's centre is on the axis
             if name is None or i + 1 >= len(joint.movements) or filled:
                 continue
-            body = (_feature(column, joint, "after", i), _feature(column, joint, "before", i + 1))
+            body = (_feature(column, joint, "frames_2", i), _feature(column, joint, "frames_1", i + 1))
             quantity: Quantity = "distance" if name == "distance" else "radius"
             table[joint.name, name] = Length(body, 0, 1, quantity)
         if "T_screw" in joint.movements:
@@ -111,7 +111,7 @@ def length_table(linkage: Linkage) -> dict[Key, Length]:
 
 def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
     if joint.kind == "universal":  # Ry(phi) Rx(theta): part 1 holds the y axis of the cross, part 2 its x axis
-        return Feature(column, side, frame, "axis", 1 if side == "before" else 0, True)
+        return Feature(column, side, frame, "axis", 1 if side == "frames_1" else 0, True)
     kind, axis, marked = _FEATURES[joint.movements[frame]]
     return Feature(column, side, frame, kind, axis, marked)
 

@@ -50,12 +50,12 @@ def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
         raise ValueError(
             f"joint {joint.name!r} ({joint.kind}) has {len(joint.movements)} frames: say on which part, as {choices}"
         )
-    for each in ("before", "after") if side is None else (side,):
+    for each in ("frames_1", "frames_2") if side is None else (side,):
         poses = list(getattr(joint, each))
-        end = 0 if each == "before" else -1
+        end = 0 if each == "frames_1" else -1
         poses[end] = change(poses[end], given)
         stacked = (jnp if traced(poses) else np).stack(poses)
-        joint = replace(joint, before=stacked) if each == "before" else replace(joint, after=stacked)
+        joint = replace(joint, frames_1=stacked) if each == "frames_1" else replace(joint, frames_2=stacked)
     joints: list[Joint] = list(linkage.joints)
     joints[column] = joint
     return linkage.with_joints(joints)
@@ -73,7 +73,7 @@ def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
         return column, None
     if part not in parts:
         raise ValueError(f"joint {name!r} is between {parts[0]!r} and {parts[1]!r}, not on {part!r}")
-    return column, "before" if part == parts[0] else "after"
+    return column, "frames_1" if part == parts[0] else "frames_2"
 
 
 def _pose(place: Place, pose):

@@ -92,7 +92,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
             # seen as the status NONFINITE of every pose: never as a wrong length
             spoilt = jnp.where(misfit <= MISFIT, 0.0, jnp.nan)
             joints = [
-                replace(joint, before=joint.before + spoilt)
+                replace(joint, frames_1=joint.frames_1 + spoilt)
                 if row in [linkage.structure.row_of[part] for part in joint.parts]
                 else joint
                 for joint in changed.joints
@@ -151,13 +151,13 @@ def rearranged(linkage: Linkage, changes: Mapping[Any, Any]) -> tuple[Linkage, d
 
 def _row(linkage: Linkage, body: tuple[Feature, ...]) -> str:
     joint = linkage.joints[body[0].joint]
-    return linkage.structure.row_of[joint.parts[0 if body[0].side == "before" else 1]]
+    return linkage.structure.row_of[joint.parts[0 if body[0].side == "frames_1" else 1]]
 
 
 def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint:
     """The joint with some of its frames replaced, by (side, index)."""
     sides = {}
-    for side in ("before", "after"):
+    for side in ("frames_1", "frames_2"):
         given = getattr(joint, side)
         new = [frames.get((side, i), given[i]) for i in range(len(joint.movements))]
         sides[side] = (jnp if traced(new, given) else np).stack(new)

@@ -168,22 +168,24 @@ class _ExactPoses:
     """Exact poses at some places of a motion, and the errors of other motions there."""
 
     def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
-        self.chosen, self.blocks = chosen, []
+        self.chosen, self.loop_groups = chosen, []
         driven = [coordinate(mechanism.linkage, name) for name in motion.inputs]
-        for block in mechanism.structure.blocks:
-            columns = [(joint, k) for joint in block.joints for k in range(mechanism.all_joints[joint].freedoms)]
+        for loop_group in mechanism.structure.loop_groups:
+            columns = [(joint, k) for joint in loop_group.joints for k in range(mechanism.all_joints[joint].freedoms)]
             free = [number for number, column in enumerate(columns) if column not in driven]
             if len(free) == len(columns):
                 continue
-            loops = Extended(mechanism, block, free)
-            rows = self._rows(motion, block.joints)
+            loops = Extended(mechanism, loop_group, free)
+            rows = self._rows(motion, loop_group.joints)
             poses = [loops.closed(row)[0] for row in rows]
-            self.blocks.append((block.joints, loops, poses, [np.eye(len(row)) - loops.idle(row) for row in poses]))
+            self.loop_groups.append(
+                (loop_group.joints, loops, poses, [np.eye(len(row)) - loops.idle(row) for row in poses])
+            )
 
     def error(self, motion: Motion) -> float:
         """Largest error of the chosen poses that are closed, in radians and characteristic lengths."""
         closed, largest = np.asarray(motion.closed)[self.chosen], 0.0
-        for joints, loops, poses, seen in self.blocks:
+        for joints, loops, poses, seen in self.loop_groups:
             for row, pose, kept, is_closed in zip(self._rows(motion, joints), poses, seen, closed, strict=True):
                 if is_closed:
                     off = (row - pose) / loops.loops.units

@@ -15,7 +15,7 @@ from jaxtyping import Float
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.host_closure import ClosedLoops
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -35,7 +35,7 @@ Row = Float[np.ndarray, " columns"]
 class Extended:
     """The loops of a structure element in fifty digits. Raises ImportError where mpmath is not installed."""
 
-    def __init__(self, mechanism: Mechanism, block: Block, free: Sequence[int]) -> None:
+    def __init__(self, mechanism: Mechanism, loop_group: LoopGroup, free: Sequence[int]) -> None:
         try:
             from mpmath.ctx_mp import MPContext
         except ImportError:
@@ -44,9 +44,9 @@ class Extended:
             ) from None
         self.mp: Any = MPContext()
         self.mp.dps = DIGITS
-        self.block, self.free = block, list(free)
-        self.joints = {index: mechanism.all_joints[index] for index in block.joints}
-        self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, block)
+        self.loop_group, self.free = loop_group, list(free)
+        self.joints = {index: mechanism.all_joints[index] for index in loop_group.joints}
+        self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, loop_group)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.
@@ -79,7 +79,7 @@ class Extended:
         return np.linalg.pinv(self._jacobian(q), rcond=RANK) @ misfit
 
     def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
-        jacobian = np.zeros((6 * len(self.block.loops), len(q)))
+        jacobian = np.zeros((6 * len(self.loop_group.loops), len(q)))
         jacobian[:, self.free] = self.loops.jacobian(q / self.loops.units)[:, self.free]
         return jacobian / self.loops.units
 
@@ -88,7 +88,7 @@ class Extended:
         steps = {index: self._displacement(joint, q[self.loops.slices[index]]) for index, joint in self.joints.items()}
         found, places = [], {}
         centre = self.mp.matrix([float(value) for value in self.loops.centre])
-        for loop in self.block.loops:
+        for loop in self.loop_group.loops:
             ends = self.loops.ends
             start = pose = places.setdefault(ends[loop[0][0]][0 if loop[0][1] > 0 else 1], self.mp.eye(4))
             for joint, sign in loop:
@@ -101,14 +101,14 @@ class Extended:
         return found
 
     def _displacement(self, joint: Joint, q: list) -> Any:
-        """Displacement J of part 2 relative to part 1: the product of `before T after^-1` (Table 2)."""
+        """Displacement J of part 2 relative to part 1: the product of `frames_1 T frames_2^-1` (Table 2)."""
         pose, first = self.mp.eye(4), 0
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
-            pose = pose * self._matrix(joint.before[frame])
+            pose = pose * self._matrix(joint.frames_1[frame])
             for element in movement.elements:
                 pose = pose * self._elementary(element, q[first + element.coordinate], float(joint.pitch))
-            pose = pose * self._inverse(self._matrix(joint.after[frame]))
+            pose = pose * self._inverse(self._matrix(joint.frames_2[frame]))
             first += len(movement.coordinates)
         return pose
 

@@ -19,7 +19,7 @@ from jaxkin.geometry.trig import cos_sin
 
 
 @dataclass(frozen=True)
-class Element:
+class ElementaryMotion:
     """An elementary movement along or about one axis of the local frame."""
 
     kind: Literal["translate", "rotate", "screw"]
@@ -35,24 +35,24 @@ class Movement:
     """An allowable movement: the names of its coordinates and its elementary movements, leftmost factor first."""
 
     coordinates: tuple[str, ...]
-    elements: tuple[Element, ...]
+    elements: tuple[ElementaryMotion, ...]
     ball: bool = False
     """True where the elements are the angles of a ball: solved without angles, since they lock at phi = 90 deg."""
 
 
-def _translate(axis: int, coordinate: int) -> Element:
-    return Element("translate", axis, coordinate)
+def _translate(axis: int, coordinate: int) -> ElementaryMotion:
+    return ElementaryMotion("translate", axis, coordinate)
 
 
-def _rotate(axis: int, coordinate: int) -> Element:
-    return Element("rotate", axis, coordinate)
+def _rotate(axis: int, coordinate: int) -> ElementaryMotion:
+    return ElementaryMotion("rotate", axis, coordinate)
 
 
 MOVEMENTS: dict[str, Movement] = {
     "I": Movement((), ()),
     "T_z": Movement(("z",), (_translate(2, 0),)),
     "T_phi": Movement(("phi",), (_rotate(2, 0),)),
-    "T_screw": Movement(("phi",), (Element("screw", 2, 0),)),
+    "T_screw": Movement(("phi",), (ElementaryMotion("screw", 2, 0),)),
     "T_z_phi": Movement(("z", "phi"), (_translate(2, 0), _rotate(2, 1))),
     "T_xy_phi": Movement(("x", "y", "phi"), (_translate(0, 0), _translate(1, 1), _rotate(2, 2))),
     "T_theta_phi": Movement(("theta", "phi"), (_rotate(1, 1), _rotate(0, 0))),
@@ -78,7 +78,9 @@ def displaced(
     return frame
 
 
-def _displaced(frame: Rigid, element: Element, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float) -> Rigid:
+def _displaced(
+    frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
+) -> Rigid:
     i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
     columns = [frame[:, column] for column in range(4)]
     if element.kind != "rotate":

@@ -145,23 +145,23 @@ def _contact_joint(contact: Contact, name: str, pair: tuple[str, str]) -> Joint:
 
 def _aligned(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, ...], float, float]:
     """The joints aligned with each other: combining finds axes that belong to no single contact."""
-    known = [joint for joint in joints if not traced(joint) and np.array_equal(joint.before, joint.after)]
+    known = [joint for joint in joints if not traced(joint) and np.array_equal(joint.frames_1, joint.frames_2)]
     names = [movement for joint in known for movement in joint.movements]
     frames, angle, length = align(
-        names, np.concatenate([joint.before for joint in known] or [np.empty((0, 4, 4))]), noise
+        names, np.concatenate([joint.frames_1 for joint in known] or [np.empty((0, 4, 4))]), noise
     )
     rest = iter(frames)
     aligned = {}
     for each in known:
         poses = np.array([next(rest) for _ in each.movements])
-        aligned[each.name] = replace(each, before=poses, after=poses)
+        aligned[each.name] = replace(each, frames_1=poses, frames_2=poses)
     return tuple(aligned.get(each.name, each) for each in joints), angle, length
 
 
 def _joint_forwards(joint: Joint) -> Joint:
     """The joint with the z axes of its frames pointing forwards."""
-    poses = np.array([forwards(pose) for pose in joint.before])
-    return replace(joint, before=poses, after=poses)
+    poses = np.array([forwards(pose) for pose in joint.frames_1])
+    return replace(joint, frames_1=poses, frames_2=poses)
 
 
 def forwards(pose: Pose) -> Pose:

@@ -1,7 +1,8 @@
 """A joint: a chain of the paper's movements between two parts (Table 2).
 
 The displacement of part 2 relative to part 1, in world coordinates, is the product over the frames of the chain of
-`before[i] T_i after[i]^-1`. At the assembled pose `before == after` and the joint is the paper's `M_i^-1 T_i M_i`.
+`frames_1[i] T_i frames_2[i]^-1`. At the assembled pose `frames_1 == frames_2`, and the joint is the paper's
+`M_i^-1 T_i M_i`.
 The two copies of a frame move with different parts, so that link lengths can change independently.
 """
 
@@ -32,10 +33,10 @@ class Joint:
     """"revolute", "prismatic", ..., or "contact b" for a contact state of the paper."""
     movements: tuple[str, ...]
     """Keys of `MOVEMENTS`, one a frame."""
-    before: Float[Array, "*batch frames 4 4"]
+    frames_1: Float[Array, "*batch frames 4 4"]
     """Pose of each frame on the side of part 1, in world coordinates of the assembled pose."""
-    after: Float[Array, "*batch frames 4 4"]
-    """Pose of each frame on the side of part 2; equal to `before` unless lengths were changed."""
+    frames_2: Float[Array, "*batch frames 4 4"]
+    """Pose of each frame on the side of part 2; equal to `frames_1` unless lengths were changed."""
     pitch: Float[Array, "*batch"]
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
 
@@ -68,7 +69,7 @@ class Joint:
 
 
 jax.tree_util.register_dataclass(
-    Joint, data_fields=["before", "after", "pitch"], meta_fields=["name", "parts", "kind", "movements"]
+    Joint, data_fields=["frames_1", "frames_2", "pitch"], meta_fields=["name", "parts", "kind", "movements"]
 )
 
 

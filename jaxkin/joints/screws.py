@@ -24,17 +24,17 @@ def chain(
     frames: Frames,
     q: Float[np.ndarray, "freedoms"],
     pitch: float = 0.0,
-    after: Frames | None = None,
+    frames_2: Frames | None = None,
 ) -> tuple[Pose, Screws]:
     """The displacement of part 2 relative to part 1 in world coordinates, and the screws of the freedoms there.
 
     `q` holds the coordinates of the movements in turn. A column of the screws is the rate of the displacement for one
     coordinate; its product with the displacement is the derivative. `pitch` is the advance of a screw in a turn;
-    `after` are the frames on the side of part 2 where they are not those of part 1.
+    `frames_2` are the frames on the side of part 2 where they are not those of part 1.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
-    for movement, frame, leave in zip(movements, frames, frames if after is None else after, strict=True):
+    for movement, frame, leave in zip(movements, frames, frames if frames_2 is None else frames_2, strict=True):
         pose = pose @ frame
         for element in MOVEMENTS[movement].elements:
             k = first + element.coordinate
@@ -55,8 +55,8 @@ def chain(
 def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
     """The displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses at once."""
     found, first = np.eye(4)[:3, :, None], 0
-    for movement, before, after in zip(joint.movements, joint.before, joint.after, strict=True):
-        found = np.einsum("ikn,kj->ijn", found, np.asarray(before, float))
+    for movement, frame_1, frame_2 in zip(joint.movements, joint.frames_1, joint.frames_2, strict=True):
+        found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
         for element in MOVEMENTS[movement].elements:
             value = q[:, first + element.coordinate]
             columns = [found[:, column] for column in range(4)]
@@ -68,7 +68,7 @@ def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float
                 cos, sin = np.cos(value), np.sin(value)
                 columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
-        found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(after, float)))
+        found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
         first += len(MOVEMENTS[movement].coordinates)
     return np.broadcast_to(found, (3, 4, len(q)))
 

@@ -80,7 +80,7 @@ def _residual(
     for joint in joints:
         motions.append(joint_motion(joint, q[None, first : first + joint.freedoms]))
         first += joint.freedoms
-    origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.before)[:, :3, 3] for joint in joints]))
+    origins = lax.stop_gradient(jnp.concatenate([jnp.asarray(joint.frames_1)[:, :3, 3] for joint in joints]))
     centre = jnp.mean(origins, axis=0)
     radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
     length = jnp.where(radius > 0, radius, 1.0)

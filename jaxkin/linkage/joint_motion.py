@@ -42,14 +42,14 @@ def _transforms(
 
 
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
-    """Displacement J of part 2 relative to part 1, in world coordinates: the product of `before T after^-1` (Table 2).
+    """Displacement J of part 2 relative to part 1, the product of `frames_1 T frames_2^-1` (Table 2), in the world.
 
     Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
     """
     found, first = None, 0
     for frame, movement in enumerate(joint.movements):
         count = len(MOVEMENTS[movement].coordinates)
-        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.before, joint.after))
+        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.frames_1, joint.frames_2))
         begin = before if found is None else product(found, before)
         moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
         found = product(moved, inverse(after))

@@ -47,7 +47,7 @@ class Linkage:
     def of(joints: Sequence[Joint], structure: Structure) -> Linkage:
         """The linkage of some joints, its loop classes found from their numbers; general ones where JAX traces these,
         or where they are of many mechanisms."""
-        classes = loop_classes(joints, structure) or (LoopClass(),) * len(structure.blocks)
+        classes = loop_classes(joints, structure) or (LoopClass(),) * len(structure.loop_groups)
         return Linkage(tuple(joints), structure, classes)
 
     def with_joints(self, joints: Sequence[Joint], ideal: Sequence[Joint] = ()) -> Linkage:

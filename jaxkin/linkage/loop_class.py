@@ -32,21 +32,21 @@ class LoopClass(NamedTuple):
 
 def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopClass, ...] | None:
     """The class of each loop group; None where the frames are traced, or those of many mechanisms."""
-    if not all(isinstance(joint.before, np.ndarray | jax.Array) for joint in joints):
+    if not all(isinstance(joint.frames_1, np.ndarray | jax.Array) for joint in joints):
         return None
     if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
         joints = jax.lax.stop_gradient(tuple(joints))
-    if any(traced(joint) or joint.before.ndim != 3 for joint in joints):
+    if any(traced(joint) or joint.frames_1.ndim != 3 for joint in joints):
         return None
     row_of = structure.row_of
     fixed = row_of[structure.fixed[0]]
     bodies = {part: fixed if part in structure.fixed else row for part, row in row_of.items()}
     found = []
-    for block in structure.blocks:
-        inside = [joints[joint] for joint in block.joints]
+    for loop_group in structure.loop_groups:
+        inside = [joints[joint] for joint in loop_group.joints]
         schoenflies = tuple(
             number
-            for number, loop in enumerate(block.loops)
+            for number, loop in enumerate(loop_group.loops)
             if turn_about_one_direction([joints[joint] for joint, _ in loop])
         )
         found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))

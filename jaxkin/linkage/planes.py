@@ -37,8 +37,8 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
             inside.append(column)
         elif np.any(np.linalg.norm(np.cross(axes, normal), axis=-1) > PARALLEL):
             return None
-    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
-    shifts = [(np.asarray(joint.before) - np.asarray(joint.after))[:, :3, 3] @ normal for joint in joints]
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
+    shifts = [(np.asarray(joint.frames_1) - np.asarray(joint.frames_2))[:, :3, 3] @ normal for joint in joints]
     if np.max(np.abs(np.concatenate(shifts))) > PARALLEL * np.ptp(origins, axis=0).max(initial=0.0):
         return None
     return tuple(sorted(inside))
@@ -60,7 +60,7 @@ def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
     sliding: Axes = []
     column = 0
     for joint in joints:
-        sides = np.asarray(joint.before, float), np.asarray(joint.after, float)
+        sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
             if movement.ball or any(element.kind == "screw" for element in movement.elements):

@@ -39,7 +39,7 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tupl
             continue
         one, other = held
         ends = [{body_of[part] for part in joints[index].parts} - bodies for index in (one, other)]
-        line = np.asarray(joints[other].before[0], float)[:3, 3] - np.asarray(joints[one].before[0], float)[:3, 3]
+        line = np.asarray(joints[other].frames_1[0], float)[:3, 3] - np.asarray(joints[one].frames_1[0], float)[:3, 3]
         along = [index for index in slides if ends_of[index][0] in bodies]
         if ends[0] == ends[1] or not _all_along(line, [joints[index] for index in along]):
             continue
@@ -51,5 +51,5 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tupl
 def _all_along(line: np.ndarray, slides: Sequence[Joint]) -> bool:
     """Whether the line has a direction, and the joints slide along it."""
     length = float(np.linalg.norm(line))
-    axes = [np.asarray(joint.before[0], float)[:3, 2] for joint in slides]
+    axes = [np.asarray(joint.frames_1[0], float)[:3, 2] for joint in slides]
     return length > 0 and all(np.linalg.norm(np.cross(axis, line)) <= PARALLEL * length for axis in axes)

@@ -24,7 +24,7 @@ from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
 from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 
 class GivenLoops(NamedTuple):
@@ -38,7 +38,7 @@ class GivenLoops(NamedTuple):
 class DrivenElement(NamedTuple):
     """A structure element that is to be solved."""
 
-    block: Block
+    loop_group: LoopGroup
     """Its joints and loops in the structure."""
     system: LoopSystem
     """What is solved; the groups of its `order` are the steps of the plan."""
@@ -101,11 +101,11 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
     on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there
     judged = not traced(on_host) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(on_host))
     elements = []
-    for number, block in enumerate(linkage.structure.blocks):
+    for number, loop_group in enumerate(linkage.structure.loop_groups):
         inside = sorted(
-            (block.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in block.joints
+            (loop_group.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in loop_group.joints
         )
-        if not inside and not _edited([linkage.solved_joints[joint] for joint in block.joints]):
+        if not inside and not _edited([linkage.solved_joints[joint] for joint in loop_group.joints]):
             continue
         inputs = tuple(i for _, _, i in inside)
         elements.append(
@@ -120,46 +120,48 @@ def _element(
     linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
 ) -> DrivenElement:
     """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
-    block, loop_class = linkage.structure.blocks[number], linkage.classes[number]
+    loop_group, loop_class = linkage.structure.loop_groups[number], linkage.classes[number]
     # of a single loop there is one order only, and the freedoms take a millisecond to find
-    freedoms = loop_freedoms(on_host)[number] if on_host is not None and len(block.loops) > 1 else None
+    freedoms = loop_freedoms(on_host)[number] if on_host is not None and len(loop_group.loops) > 1 else None
     by_counting = freedoms is None or not freedoms.closes
     if freedoms is None or by_counting:
-        groups = _counted_groups(linkage, block, driven, loop_class)
+        groups = _counted_groups(linkage, loop_group, driven, loop_class)
     else:
-        groups = ranked_groups(linkage, block, driven, loop_class, freedoms)
+        groups = ranked_groups(linkage, loop_group, driven, loop_class, freedoms)
     loops = [group.loops for group in groups]
-    system, columns = block_system(on_host or linkage, block, driven, loop_class, loops)
+    system, columns = block_system(on_host or linkage, loop_group, driven, loop_class, loops)
     given = None
     if linkage.ideal:
-        every = block_system(linkage, block, driven, LoopClass())
-        given = GivenLoops(*every, block_joints(linkage.joints, block))
-    joints = block_joints(linkage.solved_joints, block)
-    return DrivenElement(block, system, columns, groups, by_counting, inputs, joints, given)
+        every = block_system(linkage, loop_group, driven, LoopClass())
+        given = GivenLoops(*every, block_joints(linkage.joints, loop_group))
+    joints = block_joints(linkage.solved_joints, loop_group)
+    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, given)
 
 
 def ranked_groups(
-    linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
+    linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
 ) -> tuple[Group, ...]:
     """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
-    columns = solved_coordinates(linkage, block, driven, loop_class).columns
+    columns = solved_coordinates(linkage, loop_group, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
     given = [columns.index(place) for place in driven]
-    groups = solve_order(freedoms.ends, block.loops, columns, screws, given, freedoms.noise)
+    groups = solve_order(freedoms.ends, loop_group.loops, columns, screws, given, freedoms.noise)
     return keep_freedoms_together(groups, columns, screws, freedoms.noise)
 
 
-def _counted_groups(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> tuple[Group, ...]:
+def _counted_groups(
+    linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
+) -> tuple[Group, ...]:
     """The groups of loops of a structure element where nothing but the class of the loops is known."""
-    solved = solved_coordinates(linkage, block, driven, loop_class)
-    unknown = {joint: list[int]() for joint in block.joints}
+    solved = solved_coordinates(linkage, loop_group, driven, loop_class)
+    unknown = {joint: list[int]() for joint in loop_group.joints}
     for column, (joint, k) in enumerate(solved.columns):
         if (joint, k) not in driven:
             unknown[joint].append(column)
-    equations = [IN_PLANE if solved.planar else None for _ in block.loops]
-    return order_by_counting(block.loops, unknown, equations)
+    equations = [IN_PLANE if solved.planar else None for _ in loop_group.loops]
+    return order_by_counting(loop_group.loops, unknown, equations)
 
 
 def _edited(joints: list[Joint]) -> bool:
     """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
-    return traced(joints) or any(not np.array_equal(joint.before, joint.after) for joint in joints)
+    return traced(joints) or any(not np.array_equal(joint.frames_1, joint.frames_2) for joint in joints)

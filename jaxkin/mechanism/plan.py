@@ -15,7 +15,7 @@ from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.plan_steps import Step, element_steps
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
-from jaxkin.topology.elements import Element
+from jaxkin.topology.elements import StructureElement
 from jaxkin.topology.moving import moving
 
 if TYPE_CHECKING:
@@ -80,9 +80,9 @@ def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps:
     elif not found.infeasible and any(step.free for step in steps):
         notes.append("what is left free is idle: it moves as little as it can")
     for element in found.elements:
-        if element.by_counting and len(element.block.loops) > 1:
+        if element.by_counting and len(element.loop_group.loops) > 1:
             why = "its joint frames are traced" if traced(linkage) else "its loops do not close"
-            parts = _parts(linkage, element.block.joints)
+            parts = _parts(linkage, element.loop_group.joints)
             notes.append(f"the loops of {listed(parts)} are put in order by counting unknowns, since {why}")
     return notes
 
@@ -92,11 +92,11 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}
-    solved = [element.block for element in found.elements]
+    solved = [element.loop_group for element in found.elements]
     texts = []
-    blocks = iter(structure.blocks)
+    loop_groups = iter(structure.loop_groups)
     for element in structure.elements:
-        if element.loops and next(blocks) not in solved:
+        if element.loops and next(loop_groups) not in solved:
             texts.append(
                 f"{_loops(element)} of {listed(element.parts)}: none of its joints is driven, it keeps its shape"
             )
@@ -119,7 +119,7 @@ def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
         own = set(element.columns)
         resting = [
             f"{joint.name}.{name}"
-            for index, joint in ((index, linkage.joints[index]) for index in element.block.joints)
+            for index, joint in ((index, linkage.joints[index]) for index in element.loop_group.joints)
             for k, name in enumerate(joint.coordinates)
             if (index, k) not in own
         ]
@@ -128,7 +128,7 @@ def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
         checked = sum(len(group.loops) for group in element.groups if not group.unknowns)
         if checked:
             what = "the loop" if checked == 1 else f"{checked} loops"
-            parts = listed(_parts(linkage, element.block.joints))
+            parts = listed(_parts(linkage, element.loop_group.joints))
             texts.append(f"{what} of {parts} in which all coordinates are given: the status says whether it closes")
     return texts
 
@@ -140,5 +140,5 @@ def _parts(linkage: Linkage, joints: Iterable[int]) -> list[str]:
     return [part for part in linkage.structure.parts if part in held]
 
 
-def _loops(element: Element) -> str:
+def _loops(element: StructureElement) -> str:
     return "the loop" if len(element.loops) == 1 else f"the {len(element.loops)} loops"

@@ -82,16 +82,16 @@ def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[
 
 
 def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
-    return loop_freedoms(linkage)[linkage.structure.blocks.index(element.block)]
+    return loop_freedoms(linkage)[linkage.structure.loop_groups.index(element.loop_group)]
 
 
 def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
     """The groups of an element with their ranks, which are not found beforehand for a single loop."""
-    if freedoms is None or not freedoms.closes or len(element.block.loops) > 1:
+    if freedoms is None or not freedoms.closes or len(element.loop_group.loops) > 1:
         return element.groups
     driven = tuple(element.columns[column] for column in element.system.driven)
-    loop_class = linkage.classes[linkage.structure.blocks.index(element.block)]
-    return ranked_groups(linkage, element.block, driven, loop_class, freedoms) or element.groups
+    loop_class = linkage.classes[linkage.structure.loop_groups.index(element.loop_group)]
+    return ranked_groups(linkage, element.loop_group, driven, loop_class, freedoms) or element.groups
 
 
 def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]) -> set[int]:
@@ -129,7 +129,7 @@ def _step(
         equations=len(block.rows),
         redundant=len(block.rows) - rank,
         free=len(block.columns) - rank,
-        follow=tuple(joints[element.block.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
+        follow=tuple(joints[element.loop_group.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
         after=after,
         merged=group.merged,
     )
@@ -159,7 +159,7 @@ def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
         unknown = set(element.system.span(place)) - set(element.system.driven)
         columns = unknown or set(element.system.span(place))
         first = element.system.span(place).start
-        letters[element.block.joints[place]] = letter(movements, {column - first for column in columns})
+        letters[element.loop_group.joints[place]] = letter(movements, {column - first for column in columns})
     return loop_name(group, letters, kinds[0])
 
 

@@ -31,7 +31,7 @@ from jaxkin.mobility.open_loops import Opening, tell_opening
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
-    from jaxkin.topology.structure import Block
+    from jaxkin.topology.structure import LoopGroup
 
 _TOLD = 1e-6
 """Moves are told of parts that move by more than this part of what the most moved one does: not by rounding."""
@@ -109,14 +109,14 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
     held = {coordinate(mechanism.linkage, key) for key in hold}
     given = replace(mechanism.linkage, ideal=())
-    blocks = [_closed(given, block, held, noise) for block in given.structure.blocks]
+    blocks = [_closed(given, loop_group, held, noise) for loop_group in given.structure.loop_groups]
     before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
     rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
     if still_open := [block for block in blocks if not block.is_closed]:
         worst = max(still_open, key=lambda block: block.after)
         left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    if all(np.array_equal(joint.before, joint.after) for joint in given.joints):
+    if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [block for block in blocks if block.q.any()]
     others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
@@ -161,15 +161,15 @@ class _Block:
     """Within the rounding of the numbers."""
 
 
-def _closed(linkage: Linkage, block: Block, fixed: Container[tuple[int, int]], noise: float) -> _Block:
+def _closed(linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float) -> _Block:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops(linkage.joints, linkage.structure, block)
+    loops = ClosedLoops(linkage.joints, linkage.structure, loop_group)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
     if loops.coincide or before <= loops.noise.closed:
         return _Block(loops, q, held, before, before, True)
     q, found = loops.closed(q, held)
-    size = extent([linkage.joints[index] for index in block.joints])
+    size = extent([linkage.joints[index] for index in loop_group.joints])
     enough = max(noise * size / loops.length, loops.noise.closed)
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
@@ -193,7 +193,7 @@ def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) ->
 
 
 def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
-    before, after = (np.asarray(side, float) for side in (joint.before, joint.after))
+    before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
     return chain(joint.movements, before, q, float(joint.pitch), after)[0]
 
 
@@ -205,7 +205,7 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
     """
     frames, start = [], 0
     for number, name in enumerate(joint.movements):
-        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.before, joint.after))
+        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.frames_1, joint.frames_2))
         own = q[start : start + freedoms([name])]
         start += len(own)
         most = own.copy()
@@ -213,15 +213,15 @@ def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
         frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
         place = place @ chain([name], before, own, float(joint.pitch), after)[0]
-    stacked = np.array(frames, np.asarray(joint.before).dtype)
-    return replace(joint, before=stacked, after=stacked)
+    stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
+    return replace(joint, frames_1=stacked, frames_2=stacked)
 
 
 def _move(linkage: Linkage, part: str, place: Pose) -> Move:
     sides = [
         np.asarray(side, float)[frame, :3, 3]
         for joint in linkage.joints
-        for own, side, frame in zip(joint.parts, (joint.before, joint.after), (0, -1), strict=True)
+        for own, side, frame in zip(joint.parts, (joint.frames_1, joint.frames_2), (0, -1), strict=True)
         if own == part
     ]
     origins = np.array(sides).reshape(-1, 3)

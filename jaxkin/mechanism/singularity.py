@@ -26,13 +26,13 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     linkage = motion.mechanism.linkage
     driven = [coordinate(linkage, name) for name in motion.inputs]
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
-    for number, (block, loop_class) in enumerate(zip(linkage.structure.blocks, linkage.classes, strict=True)):
-        inside = tuple(entry for entry in driven if entry[0] in block.joints)
-        system, columns = block_system(linkage, block, inside, loop_class)
+    for number, (loop_group, loop_class) in enumerate(zip(linkage.structure.loop_groups, linkage.classes, strict=True)):
+        inside = tuple(entry for entry in driven if entry[0] in loop_group.joints)
+        system, columns = block_system(linkage, loop_group, inside, loop_class)
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             least = jnp.minimum(
-                least, smallest_singular_value(system, rank, block_joints(linkage.solved_joints, block), rows)
+                least, smallest_singular_value(system, rank, block_joints(linkage.solved_joints, loop_group), rows)
             )
     return least
 

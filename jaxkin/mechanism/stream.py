@@ -64,7 +64,7 @@ class Stream:
         self.poses = len(next(iter(self.inputs.values())))
         self.chunk = min(chunk, max(self.poses, 1))
         self._sweep = partial(sweep, mechanism, options=options)
-        origins = np.concatenate([np.asarray(joint.before)[:, :3, 3] for joint in mechanism.all_joints])
+        origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in mechanism.all_joints])
         self._centre, self._size = origins.mean(axis=0), float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0
 
     def __len__(self) -> int:

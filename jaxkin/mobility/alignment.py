@@ -23,7 +23,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.consistency import STILL, beside, rounding
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.nearest_mobile import nearest_mobile
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 SIX_DIGITS = 5e-6
 """Radians, or lengths over the extent of the joints: the largest error of a number that is rounded to six digits."""
@@ -89,9 +89,9 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
         return Aligned(linkage, ())
     exact, ideal, play = list(linkage.joints), list(linkage.joints), noise
-    for block in linkage.structure.blocks:
-        level, joints = _consistent(linkage, block, noise)
-        for number, joint in zip(block.joints, joints, strict=True):
+    for loop_group in linkage.structure.loop_groups:
+        level, joints = _consistent(linkage, loop_group, noise)
+        for number, joint in zip(loop_group.joints, joints, strict=True):
             ideal[number] = joint
             if level <= noise:
                 exact[number] = joint
@@ -111,13 +111,13 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
     return Aligned(linkage.with_joints(exact, ideal), tuple(notes))
 
 
-def _consistent(linkage: Linkage, block: Block, noise: float) -> tuple[float, list[Joint]]:
+def _consistent(linkage: Linkage, loop_group: LoopGroup, noise: float) -> tuple[float, list[Joint]]:
     """The joints with which the loops close throughout, and the noise that they were aligned for; 0 for none at all.
 
     Loops that move at all have the freedoms of their own numbers: more play is looked for in those only that do not.
     """
-    given = [linkage.joints[number] for number in block.joints]
-    loops = _closed_loops(linkage, block, given)
+    given = [linkage.joints[number] for number in loop_group.joints]
+    loops = _closed_loops(linkage, loop_group, given)
     for level in (noise, *(play for play in PLAY if play > noise)):
         found = beside(loops, level)
         if found is None:
@@ -126,58 +126,58 @@ def _consistent(linkage: Linkage, block: Block, noise: float) -> tuple[float, li
             if found.moved >= STILL:
                 return 0.0, given
             continue
-        if joints := _made_exact(linkage, block, level):
+        if joints := _made_exact(linkage, loop_group, level):
             return level, joints
     return 0.0, given
 
 
-def _made_exact(linkage: Linkage, block: Block, level: float) -> list[Joint] | None:
-    """The joints of a block moved by at most `level` so that its loops close throughout; None where that fails."""
-    given = [linkage.joints[number] for number in block.joints]
+def _made_exact(linkage: Linkage, loop_group: LoopGroup, level: float) -> list[Joint] | None:
+    """The joints of a loop group moved by at most `level` so that its loops close throughout; None where that fails."""
+    given = [linkage.joints[number] for number in loop_group.joints]
     related = _related(given, _noise(given, level))
-    for joints in (related, _mobile(linkage, block, related, level), _mobile(linkage, block, given, level)):
-        if joints and _closes_throughout(linkage, block, joints, level):
+    for joints in (related, _mobile(linkage, loop_group, related, level), _mobile(linkage, loop_group, given, level)):
+        if joints and _closes_throughout(linkage, loop_group, joints, level):
             return joints
     return None
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:
-    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.before, joint.after))
+    farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.frames_1, joint.frames_2))
     return Noise(level, level * extent(joints) + _SINGLE * farthest)
 
 
 def extent(joints: Sequence[Joint]) -> float:
     """The diagonal of the box around the origins of all frames."""
-    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.before, joint.after)])
+    origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     return float(np.linalg.norm(np.ptp(origins, axis=0)))
 
 
 def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
     """The joints with directions and places related as they are but for the noise."""
-    sides = [side for joint in joints for side in (joint.before, joint.after)]
+    sides = [side for joint in joints for side in (joint.frames_1, joint.frames_2)]
     names = [name for joint in joints for _ in range(2) for name in joint.movements]
     frames = align(names, np.concatenate(sides), noise)[0]
     rest = iter(np.split(frames, np.cumsum([len(side) for side in sides])[:-1]))
-    return [replace(joint, before=next(rest), after=next(rest)) for joint in joints]
+    return [replace(joint, frames_1=next(rest), frames_2=next(rest)) for joint in joints]
 
 
-def _mobile(linkage: Linkage, block: Block, joints: Sequence[Joint], level: float) -> list[Joint] | None:
+def _mobile(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> list[Joint] | None:
     """The joints with the nearest frames with which the loops move; None where they are farther than `level`."""
-    if not all(np.array_equal(joint.before, joint.after) for joint in joints):
+    if not all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints):
         return None
-    loops = _closed_loops(linkage, block, joints)
+    loops = _closed_loops(linkage, loop_group, joints)
     if not nearest_mobile(loops, level):
         return None
     found = []
-    for number, joint in zip(block.joints, joints, strict=True):
+    for number, joint in zip(loop_group.joints, joints, strict=True):
         frames = loops.chains[number][1].copy()
         frames[:, :3, 3] = loops.centre + loops.length * frames[:, :3, 3]
-        found.append(replace(joint, before=frames, after=frames))
+        found.append(replace(joint, frames_1=frames, frames_2=frames))
     return found
 
 
-def _closes_throughout(linkage: Linkage, block: Block, joints: Sequence[Joint], level: float) -> bool:
-    loops = _closed_loops(linkage, block, joints)
+def _closes_throughout(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> bool:
+    loops = _closed_loops(linkage, loop_group, joints)
     for seed in range(3):
         found = beside(loops, level, seed)
         if found is None or np.linalg.norm(found.residual) > rounding(loops) or found.moved < STILL:
@@ -185,12 +185,12 @@ def _closes_throughout(linkage: Linkage, block: Block, joints: Sequence[Joint], 
     return True
 
 
-def _closed_loops(linkage: Linkage, block: Block, joints: Sequence[Joint]) -> ClosedLoops:
+def _closed_loops(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint]) -> ClosedLoops:
     """The loops of a loop group with these joints, all others as they are given."""
     every = list(linkage.joints)
-    for number, joint in zip(block.joints, joints, strict=True):
+    for number, joint in zip(loop_group.joints, joints, strict=True):
         every[number] = joint
-    return ClosedLoops(every, linkage.structure, block)
+    return ClosedLoops(every, linkage.structure, loop_group)
 
 
 def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | None:
@@ -199,7 +199,7 @@ def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | 
         return None
     angles, lengths = np.zeros(len(given)), np.zeros(len(given))
     for number, (one, other) in enumerate(zip(given, found, strict=True)):
-        for side in ("before", "after") if one is not other else ():
+        for side in ("frames_1", "frames_2") if one is not other else ():
             change = np.asarray(getattr(other, side)) - np.asarray(getattr(one, side))
             angles[number] = max(angles[number], np.linalg.norm(change[:, :3, 2], axis=1).max(initial=0.0))
             lengths[number] = max(lengths[number], np.linalg.norm(change[:, :3, 3], axis=1).max(initial=0.0))

@@ -96,7 +96,7 @@ def _rates_of_places(
 ) -> Float[np.ndarray, "entries columns"]:
     """Derivatives of these entries with respect to the coordinates, along the loops by which `travel` found them."""
     twists: dict[str, Screws] = {}
-    for loop in loops.block.loops:
+    for loop in loops.loop_group.loops:
         first, sign = loop[0]
         twist = twists.setdefault(loops.ends[first][0 if sign > 0 else 1], np.zeros_like(screws))
         for joint, sign in loop:

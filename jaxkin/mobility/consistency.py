@@ -44,7 +44,7 @@ def cutoff(noise: float) -> float:
 def rounding(loops: ClosedLoops) -> float:
     """The residual of closed loops that rounding leaves: of the products of the joints, and of far origins."""
     eps = float(np.finfo(float).eps)
-    return eps * (10.0 * np.sqrt(len(loops.block.loops)) + 16.0 * float(np.abs(loops.centre).max()) / loops.length)
+    return eps * (10.0 * np.sqrt(len(loops.loop_group.loops)) + 16.0 * float(np.abs(loops.centre).max()) / loops.length)
 
 
 def freedoms(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Float[np.ndarray, "free columns"]:

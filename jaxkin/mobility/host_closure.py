@@ -13,7 +13,7 @@ from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
-from jaxkin.topology.structure import Block, Structure
+from jaxkin.topology.structure import LoopGroup, Structure
 
 _ITERATIONS = 200
 """Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
@@ -62,16 +62,16 @@ class Travel(NamedTuple):
 class ClosedLoops:
     """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
 
-    def __init__(self, every: Sequence[Joint], structure: Structure, block: Block) -> None:
-        """`every` are the joints whose loops are solved, all of the linkage; `block` is the loop group."""
-        joints = {index: every[index] for index in block.joints}
-        self.block = block
+    def __init__(self, every: Sequence[Joint], structure: Structure, loop_group: LoopGroup) -> None:
+        """`every` are the joints whose loops are solved, all of the linkage; `loop_group` says which loops."""
+        joints = {index: every[index] for index in loop_group.joints}
+        self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
         single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
         self.noise = SINGLE if single else DOUBLE
         row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
-        origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints.values()])
+        origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints.values()])
         centre = self.centre = origins.mean(axis=0)
         length = self.length = float(np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())) or 1.0
 
@@ -81,14 +81,14 @@ class ClosedLoops:
             return frames
 
         self.chains = {
-            index: (joint.movements, scaled(joint.before), scaled(joint.after), float(joint.pitch) / length)
+            index: (joint.movements, scaled(joint.frames_1), scaled(joint.frames_2), float(joint.pitch) / length)
             for index, joint in joints.items()
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
         names = [name for joint in joints.values() for name in joint.coordinates]
         self.units = np.array([length if name.split(".")[-1] in ("x", "y", "z") else 1.0 for name in names])
         """Of each column: what its scaled coordinate is multiplied by."""
-        self.coincide = all(np.array_equal(joint.before, joint.after) for joint in joints.values())
+        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values())
         """Whether all joints have one frame on both of their parts: then the assembled pose is closed as it is given,
         though frames that are rigid to some digits only leave a residual of their own."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
@@ -132,11 +132,11 @@ class ClosedLoops:
         places: dict[str, Pose] = {}
         starts: list[Pose] = []
         left_open: list[Pose] = []
-        residual = np.zeros((len(self.block.loops), 6))
-        jacobian = np.zeros((len(self.block.loops), 6, len(q)))
+        residual = np.zeros((len(self.loop_group.loops), 6))
+        jacobian = np.zeros((len(self.loop_group.loops), 6, len(q)))
         screws = np.zeros((6, len(q)))
         for row, (misfit, twists) in enumerate(zip(residual, jacobian, strict=True)):
-            loop = self.block.loops[row]
+            loop = self.loop_group.loops[row]
             # a loop starts at a part that the loops before it hold (Section 4.2)
             start = pose = places.setdefault(self.ends[loop[0][0]][0 if loop[0][1] > 0 else 1], np.eye(4))
             starts.append(start)

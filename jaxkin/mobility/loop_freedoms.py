@@ -20,7 +20,7 @@ from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.first_order import loop_jacobian, null_space
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel, least_norm
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 _STEP = 0.05
 """How far the second look is taken from the assembled pose, in radians or characteristic lengths: far enough to leave a
@@ -33,9 +33,9 @@ class LoopFreedoms:
     Lengths are over the characteristic length.
     """
 
-    def __init__(self, linkage: Linkage, block: Block) -> None:
-        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, block)
-        self.block = block
+    def __init__(self, linkage: Linkage, loop_group: LoopGroup) -> None:
+        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
+        self.loop_group = loop_group
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the element's joints in turn."""
         self.noise = self._loops.noise
@@ -46,7 +46,7 @@ class LoopFreedoms:
         column_of = {place: column for column, place in enumerate(self.columns)}
         self.driven_together = {
             column_of[index, k]: tuple(column_of[index, other] for other in group)
-            for index in block.joints
+            for index in loop_group.joints
             for group in linkage.solved_joints[index].driven_together
             for k in group
         }
@@ -82,19 +82,19 @@ class LoopFreedoms:
     def _generic(self) -> tuple[Row, Screws]:
         """Coordinates and screws at a pose that is not special."""
         home, screws = self._home[0], self.assembled
-        jacobian = loop_jacobian(self.block.loops, self.columns, screws)
+        jacobian = loop_jacobian(self.loop_group.loops, self.columns, screws)
         generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction in which nothing is special
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         beside = found.screws
-        rank = null_space(loop_jacobian(self.block.loops, self.columns, beside), self.noise)[0]
+        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.noise)[0]
         is_generic = found.gap < self.noise.closed and rank >= len(self.columns) - len(self.at_rest)
         return (there, beside) if is_generic else (home, screws)
 
     @cached_property
     def jacobian(self) -> Float[np.ndarray, "equations columns"]:
         """Closure Jacobian, six rows a loop in world coordinates (derivative of Eq. 10)."""
-        return loop_jacobian(self.block.loops, self.columns, self.screws)
+        return loop_jacobian(self.loop_group.loops, self.columns, self.screws)
 
     @cached_property
     def rank(self) -> int:
@@ -109,7 +109,7 @@ class LoopFreedoms:
     @cached_property
     def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
         """The same at the assembled pose, where there may be more of them."""
-        return null_space(loop_jacobian(self.block.loops, self.columns, self.assembled), self.noise)[1]
+        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.noise)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """The smallest displacement subgroup that holds these joints."""
@@ -123,5 +123,5 @@ class LoopFreedoms:
 
 @once_for_each
 def loop_freedoms(linkage: Linkage) -> tuple[LoopFreedoms, ...]:
-    """The freedoms of the structure elements with loops, in the order of `structure.blocks`."""
-    return tuple(LoopFreedoms(linkage, block) for block in linkage.structure.blocks)
+    """The freedoms of the structure elements with loops, in the order of `structure.loop_groups`."""
+    return tuple(LoopFreedoms(linkage, loop_group) for loop_group in linkage.structure.loop_groups)

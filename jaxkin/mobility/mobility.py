@@ -87,22 +87,22 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     given pose is open: see `Mechanism.close`.
     """
     check_closed(linkage, unit, "mobility", "mobility()")
-    blocks = loop_freedoms(linkage)
+    every = loop_freedoms(linkage)
     spins = {part.name: part.freedoms for part in linkage.spinning}
-    in_loops = {joint for block in linkage.structure.blocks for joint in block.joints}
+    in_loops = {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
     outside = [
         f"{joint.name}.{coordinate}"
         for index, joint in enumerate(linkage.joints)
         if index not in in_loops and not spins.keys() & set(joint.parts)
         for coordinate in joint.coordinates
     ]
-    kinds = tuple(found.subgroup(dict(loop)) for found in blocks for loop in found.block.loops)
+    kinds = tuple(found.subgroup(dict(loop)) for found in every for loop in found.loop_group.loops)
     at_ends = sum(joint.freedoms for index, joint in enumerate(linkage.joints) if index not in in_loops)
     coordinates = sum(joint.freedoms for joint in linkage.joints)
     return Mobility(
-        freedoms=at_ends + sum(len(found.motions) for found in blocks),
-        idle_motions=tuple(motion for found in blocks for motion in IdleMotions(linkage, found, spins).motions),
-        redundant=sum(EQUATIONS * len(found.block.loops) - found.rank for found in blocks),
+        freedoms=at_ends + sum(len(found.motions) for found in every),
+        idle_motions=tuple(motion for found in every for motion in IdleMotions(linkage, found, spins).motions),
+        redundant=sum(EQUATIONS * len(found.loop_group.loops) - found.rank for found in every),
         spinning=tuple(spins),
         spins=sum(spins.values()),
         counted=coordinates - EQUATIONS * len(kinds),
@@ -110,7 +110,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
         subgroups=kinds,
         drivable=(
             *outside,
-            *(name for found in blocks for name in names(linkage, found, drivable(linkage, found, [], spins))),
+            *(name for found in every for name in names(linkage, found, drivable(linkage, found, [], spins))),
         ),
     )
 

@@ -104,8 +104,8 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
             stop = start + count([name])
             steps[joint].append(chain([name], before[number : number + 1], own[start:stop], pitch)[0])
             start = stop
-    jacobian = np.zeros((len(loops.block.loops), 6, 6 * len(frames)))
-    for rows, loop, pose in zip(jacobian, loops.block.loops, loops.travel(q).starts, strict=True):
+    jacobian = np.zeros((len(loops.loop_group.loops), 6, 6 * len(frames)))
+    for rows, loop, pose in zip(jacobian, loops.loop_group.loops, loops.travel(q).starts, strict=True):
         for joint, sign in loop:
             numbered = list(enumerate(steps[joint]))
             for number, step in numbered if sign > 0 else [(n, inverse(step)) for n, step in reversed(numbered)]:

@@ -45,8 +45,8 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     if traced(linkage):
         return None
     worst: Opening | None = None
-    for block in linkage.structure.blocks:
-        loops = ClosedLoops(linkage.solved_joints, linkage.structure, block)
+    for loop_group in linkage.structure.loop_groups:
+        loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
         at_rest = np.zeros(len(loops.columns))
         if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.noise.closed:
             continue
@@ -68,7 +68,7 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
     """The loop of a structure element that is open the most at these scaled coordinates, and its worst joint."""
     found = loops.travel(q)
     number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
-    loop, left = loops.block.loops[number], found.left_open[number]
+    loop, left = loops.loop_group.loops[number], found.left_open[number]
     joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
     place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
     joints = [linkage.joints[index] for index, _ in loop]

@@ -106,14 +106,14 @@ def twists(joints: Sequence[Joint], body_of: Mapping[str, str], still: str) -> T
 
 def middle(joints: Sequence[Joint]) -> tuple[Vector, float]:
     """The middle of the origins of some joints and their extent, or 1 where they have none beyond rounding."""
-    origins = np.concatenate([np.asarray(joint.before, float)[:, :3, 3] for joint in joints] or [np.zeros((1, 3))])
+    origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints] or [np.zeros((1, 3))])
     extent = float(np.linalg.norm(np.ptp(origins, axis=0)))
     return origins.mean(axis=0), extent if extent > 1e-12 * float(np.abs(origins).max()) else 1.0
 
 
 def constraints(joint: Joint, centre: Vector, size: float) -> Float[np.ndarray, "constraints 6"]:
     """Orthonormal rows that forbid twists of part 2 relative to part 1; lengths from `centre` over `size`."""
-    frames = np.array(joint.before, float)
+    frames = np.array(joint.frames_1, float)
     frames[:, :3, 3] = (frames[:, :3, 3] - centre) / size
     screws = chain(joint.movements, frames, np.zeros(joint.freedoms), float(joint.pitch) / size)[1]
     return complement(screws)

@@ -19,20 +19,20 @@ _EFFORT = 1000
 large ones, so that none takes long."""
 
 
-def directed_circuits(graph: Graph, block: tuple[int, ...], upper: int) -> tuple[Circuit, ...]:
-    """A basis of the loops through the joints of a block, all in one direction, short, the shortest first.
+def directed_circuits(graph: Graph, loop_group: tuple[int, ...], upper: int) -> tuple[Circuit, ...]:
+    """A basis of the loops through the joints of a loop group, all in one direction, short, the shortest first.
 
-    As for the chords of Eq. (3), the last joint is travelled from part 1 to part 2. `upper` is a row of the block.
+    As for the chords of Eq. (3), the last joint is travelled from part 1 to part 2. `upper` is a row of the loop group.
     """
     around: dict[int, list[tuple[Step, int]]] = {}
-    for joint in block:
+    for joint in loop_group:
         row1, row2 = graph.ends[joint]
         around.setdefault(row1, []).append((Step(joint, 1), row2))
         around.setdefault(row2, []).append((Step(joint, -1), row1))
     others = sorted(around.keys() - {upper})
-    starts = [upper, *others][: max(1, _EFFORT // len(block))]
+    starts = [upper, *others][: max(1, _EFFORT // len(loop_group))]
     circuits = min((_ears(graph, around, start) for start in starts), key=lambda found: sum(map(len, found)))
-    if any(Step(block[-1], -1) in circuit for circuit in circuits):
+    if any(Step(loop_group[-1], -1) in circuit for circuit in circuits):
         circuits = list(map(turned, circuits))
     return tuple(sorted(circuits, key=lambda circuit: (len(circuit), sorted(circuit))))
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from jaxkin.topology.elements import Element
+from jaxkin.topology.elements import StructureElement
 from jaxkin.topology.loops import Loop
 
 
-def describe(elements: Sequence[Element], loops: Sequence[Loop]) -> str:
+def describe(elements: Sequence[StructureElement], loops: Sequence[Loop]) -> str:
     """The tree of Fig. 4, a line an element, each indented below the one it hangs on, with its loops under it."""
     below: dict[int | None, list[int]] = {}
     for number, element in enumerate(elements):
@@ -24,7 +24,7 @@ def describe(elements: Sequence[Element], loops: Sequence[Loop]) -> str:
     return "\n".join(lines)
 
 
-def _line(element: Element) -> str:
+def _line(element: StructureElement) -> str:
     what = element.kind if element.kind == "part" else f"{element.kind} of"
     if element.above is None:
         tie = "fixed"

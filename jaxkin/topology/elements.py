@@ -11,7 +11,7 @@ from jaxkin.topology.graph import Graph, Step
 
 
 @dataclass(frozen=True)
-class Element:
+class StructureElement:
     """A structure element node of the tree: one closed loop, several that share joints, or a part."""
 
     kind: Literal["single loop", "multiple loop", "part"]
@@ -57,16 +57,16 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
     where none does (the fixed parts, or the part below a joint, in several loops), the part is an element of its own
     and they hang on it. So the tree does not depend on the order of parts and joints.
     """
-    blocks = graph.blocks()
-    blocks_at: dict[int, list[tuple[int, ...]]] = defaultdict(list)
-    for block in blocks:
-        for row in {row for joint in block for row in graph.ends[joint]}:
-            blocks_at[row].append(block)
-    in_loops = {joint for block in blocks for joint in block}
+    loop_groups = graph.loop_groups
+    groups_at: dict[int, list[tuple[int, ...]]] = defaultdict(list)
+    for loop_group in loop_groups:
+        for row in {row for joint in loop_group for row in graph.ends[joint]}:
+            groups_at[row].append(loop_group)
+    in_loops = {joint for loop_group in loop_groups for joint in loop_group}
 
     def below_joint(row: int, step: Step | None, above: int | None, depth: int) -> Node:
-        block = blocks_at[row][0] if len(blocks_at[row]) == 1 else ()
-        return _node(graph, row, block, step, above, depth)
+        loop_group = groups_at[row][0] if len(groups_at[row]) == 1 else ()
+        return _node(graph, row, loop_group, step, above, depth)
 
     nodes = [below_joint(root, None, None, 0)]
     placed = set(nodes[0].joints)
@@ -77,9 +77,9 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
         lower: list[int] = []
         for row in node.rows:
             new = [
-                _node(graph, row, block, None, number, node.depth + 1)
-                for block in blocks_at[row]
-                if block[0] not in placed
+                _node(graph, row, loop_group, None, number, node.depth + 1)
+                for loop_group in groups_at[row]
+                if loop_group[0] not in placed
             ]
             new += [
                 below_joint(other, step, number, node.depth + 1)
@@ -97,13 +97,13 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
     return tuple(nodes)
 
 
-def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> tuple[Element, ...]:
+def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
     """The elements by the names of rows and joints; loops are numbered element by element."""
-    elements: list[Element] = []
+    elements: list[StructureElement] = []
     first = 0
     for node in nodes:
         elements.append(
-            Element(
+            StructureElement(
                 kind="part" if node.loops == 0 else "single loop" if node.loops == 1 else "multiple loop",
                 parts=tuple(rows[row] for row in node.rows),
                 loops=tuple(range(first, first + node.loops)),
@@ -117,6 +117,8 @@ def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> 
     return tuple(elements)
 
 
-def _node(graph: Graph, row: int, block: tuple[int, ...], step: Step | None, above: int | None, depth: int) -> Node:
-    others = {other for joint in block for other in graph.ends[joint]} - {row}
-    return Node(block, (row, *sorted(others)), step, above, depth)
+def _node(
+    graph: Graph, row: int, loop_group: tuple[int, ...], step: Step | None, above: int | None, depth: int
+) -> Node:
+    others = {other for joint in loop_group for other in graph.ends[joint]} - {row}
+    return Node(loop_group, (row, *sorted(others)), step, above, depth)

@@ -46,12 +46,15 @@ class Graph:
         """The row that a step leads to."""
         return self.ends[step.joint][1 if step.sign > 0 else 0]
 
-    def blocks(self) -> tuple[tuple[int, ...], ...]:
+    @cached_property
+    def loop_groups(self) -> tuple[tuple[int, ...], ...]:
         """Joints of each single or multiple closed loop, in rising order: loops that share joints, over any chain.
 
         These are the biconnected components without the bridges. Loops that share a part but no joint are separate.
         """
         looped = [
-            block for block in biconnected(self.rows, self.ends) if len(block) > 1 or len(set(self.ends[block[0]])) == 1
+            joints
+            for joints in biconnected(self.rows, self.ends)
+            if len(joints) > 1 or len(set(self.ends[joints[0]])) == 1
         ]
         return tuple(map(tuple, sorted(looped)))

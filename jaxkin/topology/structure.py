@@ -13,7 +13,7 @@ from jaxtyping import Int
 
 from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
 from jaxkin.topology.describe import describe
-from jaxkin.topology.elements import Element, Node, element_tree, named
+from jaxkin.topology.elements import Node, StructureElement, element_tree, named
 from jaxkin.topology.graph import Circuit, Graph
 from jaxkin.topology.loops import Loop, loop_data
 
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Block:
-    """A structure element with loops as the solver needs it."""
+class LoopGroup:
+    """Loops that share joints, solved together: a structure element with loops as the solver needs it."""
 
     joints: tuple[int, ...]
     """Columns of its joints, rising."""
@@ -84,15 +84,15 @@ class Structure:
         return tuple(self._loop(circuit) for circuits in self._circuits for circuit in circuits)
 
     @cached_property
-    def elements(self) -> tuple[Element, ...]:
+    def elements(self) -> tuple[StructureElement, ...]:
         """The tree of Fig. 4, level by level from the element that holds the fixed parts."""
         return named(self._nodes, self.parts, self.joints)
 
     @cached_property
-    def blocks(self) -> tuple[Block, ...]:
+    def loop_groups(self) -> tuple[LoopGroup, ...]:
         """The elements with loops, in the order of `elements`."""
         return tuple(
-            Block(node.joints, loops) for node, loops in zip(self._nodes, self._circuits, strict=True) if loops
+            LoopGroup(node.joints, loops) for node, loops in zip(self._nodes, self._circuits, strict=True) if loops
         )
 
     @cached_property

@@ -48,7 +48,7 @@ def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) ->
     for index, joint in enumerate(mechanism.all_joints):
         if joint.movements == ("I",):
             continue
-        pose = np.asarray(joint.before, float)[0]
+        pose = np.asarray(joint.frames_1, float)[0]
         half = 0.0 if joint.movements[0] == "T_theta_phi_psi" else 0.09 * size
         ends = _pixels(sheet, pose[:3, 3] + np.outer([-half, half], pose[:3, 2]), corner)
         sheet.axes.plot(*ends.T, color="white", linewidth=3.0, zorder=5)

@@ -101,7 +101,7 @@ def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
     A fixed joint is nowhere in particular: it goes to the middle of the other joints of its parts, if they have any.
     """
     frames = {
-        name: (np.array(joint.before[0], float), np.array(joint.after[-1], float))
+        name: (np.array(joint.frames_1[0], float), np.array(joint.frames_2[-1], float))
         for name, joint in mechanism.joints.items()
     }
     somewhere = {name: joint for name, joint in mechanism.joints.items() if joint.movements != ("I",)}
@@ -121,7 +121,7 @@ def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:
     axes = [
         np.asarray(frame, float)[:3, element.axis]
         for joint in mechanism.joints.values()
-        for movement, frame in zip(joint.movements, joint.before, strict=True)
+        for movement, frame in zip(joint.movements, joint.frames_1, strict=True)
         for element in MOVEMENTS[movement].elements
         if element.kind != "translate"
     ]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from jaxkin.topology.elements import Element
+from jaxkin.topology.elements import StructureElement
 from jaxkin.topology.structure import Structure
 from jaxkin.view.graph import LETTERS, STILL, write
 from jaxkin.view.illustration import INK
@@ -74,7 +74,7 @@ def draw_tree(axes: Axes, structure: Structure, places: Sequence[Box], palette: 
         _element(axes, box, number, element, palette)
 
 
-def _holder(structure: Structure, element: Element) -> str:
+def _holder(structure: Structure, element: StructureElement) -> str:
     """The part of the element above that an element hangs on."""
     if element.joint is None:
         return element.upper
@@ -86,14 +86,14 @@ def _name_width(name: str) -> float:
     return 0.2 + 0.075 * min(len(name), LETTERS)
 
 
-def _width(element: Element) -> float:
+def _width(element: StructureElement) -> float:
     lower = sum(_name_width(part) + 0.06 for part in element.lower)
     if not element.loops:
         return _name_width(element.upper)
     return 0.2 + max(_name_width(element.upper), 0.85, 0.2 * min(len(element.loops), LOOPS), lower)
 
 
-def _height(element: Element) -> float:
+def _height(element: StructureElement) -> float:
     return HIGH if not element.loops else 2.9 * HIGH + (HIGH + 0.06 if element.lower else 0.0)
 
 
@@ -104,7 +104,7 @@ def _lower(box: Box, part: str) -> float:
     return box.x - sum(widths) / 2 + sum(widths[:k]) + widths[k] / 2
 
 
-def _tie(axes: Axes, start: Place, box: Box, element: Element) -> None:
+def _tie(axes: Axes, start: Place, box: Box, element: StructureElement) -> None:
     """The line from the part above, with the joint node on it; the name of the part where they share one."""
     middle = (box.x, box.y + 0.24)
     axes.plot([start[0], middle[0], box.x], [start[1], middle[1], box.y], color=INK, linewidth=0.9, zorder=1)
@@ -112,12 +112,12 @@ def _tie(axes: Axes, start: Place, box: Box, element: Element) -> None:
     write(axes, middle, _tied(element), size=7, bbox=style | {"linewidth": 0.8}, zorder=3)
 
 
-def _tied(element: Element) -> str:
+def _tied(element: StructureElement) -> str:
     """By what an element hangs on the one above."""
     return element.joint or f"at {element.upper}"
 
 
-def _element(axes: Axes, box: Box, number: int, element: Element, palette: Sequence[Color]) -> None:
+def _element(axes: Axes, box: Box, number: int, element: StructureElement, palette: Sequence[Color]) -> None:
     """An element with its loops, its upper adjacent part above them and the lower adjacent ones below."""
     root = element.above is None
     write(axes, (box.x - box.width / 2 - 0.05, box.y - 0.11), f"N{number + 1}", size=6, color=GREY, ha="right")

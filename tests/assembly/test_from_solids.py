@@ -97,7 +97,7 @@ def test_ignored_contacts_leave_what_the_others_allow(fourbar):
 @pytest.mark.long
 def test_a_joint_by_hand_replaces_the_contacts(fourbar, motion):
     hinge = motion.mechanism.joints["ground-crank"]
-    place = {"point": hinge.before[0, :3, 3], "axis": hinge.before[0, :3, 2]}
+    place = {"point": hinge.frames_1[0, :3, 3], "axis": hinge.frames_1[0, :3, 2]}
     mechanism = fourbar.mechanism(fixed=["ground"], joints=[jk.revolute("motor", "ground", "crank", **place)])
     assert mechanism.joints_between("ground", "crank") == ("motor",)
     assert "joint 'motor', given by hand, replaces the 2 contacts (a), (e) between its parts" in mechanism.notes

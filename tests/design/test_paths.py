@@ -62,7 +62,7 @@ def test_published_errors_by_the_mechanism(name):
     """The variables of the problem mean what they mean in the literature."""
     given, printed = PATHS[name].arguments(), PRINTED[name]
     mechanism = given["mechanism"].with_lengths(dict(zip(BARS, printed[:4], strict=True)))
-    pins = [mechanism.joints["B"].after[0][:2, 3], mechanism.joints["C"].before[0][:2, 3]]
+    pins = [mechanism.joints["B"].frames_2[0][:2, 3], mechanism.joints["C"].frames_1[0][:2, 3]]
     unit = (pins[1] - pins[0]) / np.linalg.norm(pins[1] - pins[0])
     extras = {"P": pins[0] + printed[4] * unit + printed[5] * np.array([-unit[1], unit[0]]), "place": printed[6:9]}
     motion = mechanism.sweep({"A": angles(name)})

@@ -39,7 +39,7 @@ def test_function_generator():
     inputs = np.radians(60.0 + 60.0 * (x - 1.0) / 3.0)
     outputs = np.radians(60.0 + 90.0 * (x**1.5 - 1.0) / 7.0)
     start = fourbar(1.0, 0.6, 0.9, 0.8)
-    pin = start.joints["C"].before[0][:2, 3]
+    pin = start.joints["C"].frames_1[0][:2, 3]
     rest = np.arctan2(pin[1], pin[0] - 1.0)  # of the rocker; the crank's is none
     best = jk.optimize(
         design.function("D", outputs - rest, relative=False),

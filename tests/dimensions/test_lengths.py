@@ -142,7 +142,7 @@ def test_a_side_of_a_triangle_leaves_the_other_two(key):
     moved = {
         joint
         for joint in mechanism.joints
-        for side in ("before", "after")
+        for side in ("frames_1", "frames_2")
         if not np.array_equal(getattr(mechanism.joints[joint], side), getattr(changed.joints[joint], side))
     }
     assert moved == {key[2]}  # the second one named moves, all others stay
@@ -183,9 +183,9 @@ def test_coincident_joints_of_a_part_move_together():
         ],
     )
     changed = mechanism.with_lengths({("bar", "A", "B"): 10.0})
-    np.testing.assert_allclose(changed.joints["B"].before[0][:3, 3], (6.0, 8.0, 0.0), atol=1e-13)
-    np.testing.assert_allclose(changed.joints["C"].before[0][:3, 3], (6.0, 8.0, 0.0), atol=1e-13)
-    np.testing.assert_allclose(changed.joints["B"].after[0][:3, 3], (3.0, 4.0, 0.0))
+    np.testing.assert_allclose(changed.joints["B"].frames_1[0][:3, 3], (6.0, 8.0, 0.0), atol=1e-13)
+    np.testing.assert_allclose(changed.joints["C"].frames_1[0][:3, 3], (6.0, 8.0, 0.0), atol=1e-13)
+    np.testing.assert_allclose(changed.joints["B"].frames_2[0][:3, 3], (3.0, 4.0, 0.0))
     apart = mechanism.with_lengths({("bar", "B", "C"): 1.0})  # coaxial: along x of the first one's frame
     assert apart.lengths["bar", "B", "C"] == pytest.approx(1.0)
     assert apart.lengths["bar", "A", "C"] == pytest.approx(5.0)
@@ -220,10 +220,10 @@ def test_lengths_inside_jit_vmap_and_grad():
     key = ("coupler", "B", "C")
 
     def place(side):
-        return mechanism.with_lengths({key: side}).joints["C"].before[0, :2, 3]
+        return mechanism.with_lengths({key: side}).joints["C"].frames_1[0, :2, 3]
 
     be, ce = mechanism.lengths["coupler", "B", "E"], mechanism.lengths["coupler", "C", "E"]
-    b, e, c = (np.asarray(mechanism.joints[name].before[0, :2, 3]) for name in "BEC")
+    b, e, c = (np.asarray(mechanism.joints[name].frames_1[0, :2, 3]) for name in "BEC")
     along = (e - b) / be
     across = np.array([-along[1], along[0]]) * np.sign(along[0] * (c - b)[1] - along[1] * (c - b)[0])
 
@@ -235,7 +235,7 @@ def test_lengths_inside_jit_vmap_and_grad():
     np.testing.assert_allclose(jax.jit(jax.vmap(place))(sides), jax.vmap(closed)(sides), atol=1e-12)
     for slope in (jax.jacfwd, jax.jacrev, lambda f: jax.jacfwd(jax.jacrev(f))):
         np.testing.assert_allclose(jax.jit(slope(place))(118.0), slope(closed)(118.0), rtol=1e-9)
-    spoilt = jax.jit(lambda side: mechanism.with_lengths({key: side}).joints["C"].before)(400.0)
+    spoilt = jax.jit(lambda side: mechanism.with_lengths({key: side}).joints["C"].frames_1)(400.0)
     assert np.all(np.isnan(spoilt))  # the triangle cannot be: no number is better than a wrong one
 
 

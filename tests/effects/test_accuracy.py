@@ -24,7 +24,7 @@ def exact_fourbar(mp, theta):
 def test_extended_precision_finds_the_closed_form():
     """From a pose that is off by 1e-3 to the closed form in fifty digits; the frames hold rounding of 1e-16."""
     mechanism = planar_fourbar(1.0)
-    loops = Extended(mechanism, mechanism.structure.blocks[0], [1, 2, 3])
+    loops = Extended(mechanism, mechanism.structure.loop_groups[0], [1, 2, 3])
     start = planar.fourbar(np.array([1.0]))
     for turn in (0.3, 2.0, 5.0):
         expected = exact_fourbar(loops.mp, 1 + loops.mp.mpf(turn)) - exact_fourbar(loops.mp, loops.mp.mpf(1))

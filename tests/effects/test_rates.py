@@ -60,7 +60,7 @@ def test_cardan_shaft_speeds_up_and_slows_down():
 def test_a_rigid_rod_keeps_its_length():
     """The velocities of the ends of a rod have equal components along it, and differ by omega cross r."""
     motion = rssr_linkage().sweep({"A": np.linspace(0.0, 1.0, 7)})
-    ends = [np.asarray(motion.mechanism.joints[name].before[0][:3, 3]) for name in "BC"]
+    ends = [np.asarray(motion.mechanism.joints[name].frames_1[0][:3, 3]) for name in "BC"]
     rates = velocities(motion, {"A": np.linspace(1.0, 3.0, 7)})
     along = motion.points("rod", ends[1]) - motion.points("rod", ends[0])
     apart = rates.points("rod", ends[1]) - rates.points("rod", ends[0])

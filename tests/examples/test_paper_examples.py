@@ -68,7 +68,7 @@ def test_loops_and_freedoms_of_figure_3(fixed, loops, freedoms):
     found = mechanism("eighteen_bars", fixed)
     assert [len(element.loops) for element in found.structure.elements if element.loops] == loops
     assert found.mobility().freedoms == freedoms
-    in_loops = {found.structure.joints[joint] for block in found.structure.blocks for joint in block.joints}
+    in_loops = {found.structure.joints[joint] for block in found.structure.loop_groups for joint in block.joints}
     assert set(found.mobility().idle) == {f"{name}.z" for name in in_loops}  # bars float along their pins
 
 
@@ -97,7 +97,7 @@ def drawing_axis(example, axis):
 
 def sign(found, joint, direction):
     """+1 where the joint's axis points along a direction of the drawing, -1 against it: files have it either way."""
-    return np.sign(float(np.asarray(found.joints[joint].before)[0][:3, 2] @ direction))
+    return np.sign(float(np.asarray(found.joints[joint].frames_1)[0][:3, 2] @ direction))
 
 
 @pytest.mark.parametrize("combine", [True, pytest.param(False, marks=pytest.mark.long)])

@@ -46,7 +46,7 @@ def test_the_same_joints_and_the_same_motion(name, tmp_path):
     assert str(found.mobility()) == str(wanted.mobility())
     length = size(step.parts)
     for joint in wanted.all_joints:
-        np.testing.assert_allclose(found.joints[joint.name].before[..., :3, 2], joint.before[..., :3, 2], atol=1e-5)
+        np.testing.assert_allclose(found.joints[joint.name].frames_1[..., :3, 2], joint.frames_1[..., :3, 2], atol=1e-5)
     driven = wanted.joints_between(*example.drive)[0]
     coordinate = {"prismatic": "z", "cylindrical": "z"}.get(wanted.joints[driven].kind, "phi")
     coordinate = "phi" if name == "eighteen_bars" else coordinate

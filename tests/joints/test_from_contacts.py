@@ -24,8 +24,8 @@ def test_contacts_of_two_parts_become_one_joint():
     found = joints_from_contacts(hinge(), PARTS)
     (joint,) = found.joints
     assert (joint.name, joint.parts, joint.kind, joint.coordinates) == ("ground-crank", PARTS[:2], "revolute", ("phi",))
-    assert np.array_equal(joint.before, joint.after)
-    assert joint.before.dtype == np.float64
+    assert np.array_equal(joint.frames_1, joint.frames_2)
+    assert joint.frames_1.dtype == np.float64
     assert found.notes == ()
 
 
@@ -93,7 +93,7 @@ def test_no_contacts():
 def test_axes_point_forwards(axis):
     for combine in (True, False):
         for joint in joints_from_contacts(hinge(axis=axis), PARTS, combine=combine).joints:
-            for pose in joint.before:
+            for pose in joint.frames_1:
                 z = pose[:3, 2]
                 assert next(c for c in z[::-1] if abs(c) > 1e-6) > 0
                 np.testing.assert_allclose(np.cross(z, axis), 0.0, atol=1e-15)
@@ -105,20 +105,20 @@ def test_hinge_turns_the_same_way_with_and_without_combining(seed):
     """Closing the loop of the separate contacts (Eq. 1) gives back the angle of the hinge, sign and all."""
     contacts = placed(hinge(), np.random.default_rng(seed))
     (joint,) = joints_from_contacts(contacts, PARTS).joints
-    displaced = chain(joint.movements, joint.before, np.array([0.4]))[0]
+    displaced = chain(joint.movements, joint.frames_1, np.array([0.4]))[0]
     face_joint, pin_joint = joints_from_contacts(contacts, PARTS, combine=False).joints
     for single, angle in ((face_joint, 2), (pin_joint, 1)):
-        local = inverse(single.before[0]) @ displaced @ single.before[0]
+        local = inverse(single.frames_1[0]) @ displaced @ single.frames_1[0]
         q = np.zeros(freedoms(single.movements))
         q[angle] = np.arctan2(local[1, 0], local[0, 0])
         q[:angle] = local[:angle, 3] if angle == 2 else local[2, 3]
-        np.testing.assert_allclose(chain(single.movements, single.before, q)[0], displaced, atol=3e-13)
+        np.testing.assert_allclose(chain(single.movements, single.frames_1, q)[0], displaced, atol=3e-13)
         assert q[angle] == pytest.approx(0.4, abs=1e-14)
 
 
 def test_origin_is_at_the_contact():
     (joint,) = joints_from_contacts([pin((7, -4, 11), Z, parts=PARTS[:2])], PARTS).joints
-    np.testing.assert_allclose(joint.before[0, :3, 3], [7, -4, 11], atol=1e-14)
+    np.testing.assert_allclose(joint.frames_1[0, :3, 3], [7, -4, 11], atol=1e-14)
 
 
 def test_axes_that_belong_to_no_single_contact_are_aligned_too():
@@ -131,13 +131,13 @@ def test_axes_that_belong_to_no_single_contact_are_aligned_too():
     contacts = placed(contacts, np.random.default_rng(2), noise=2e-7)
     first, second = joints_from_contacts(contacts, PARTS).joints
     assert first.kind == second.kind == "prismatic"
-    assert np.array_equal(first.before[0, :3, 2], second.before[0, :3, 2])
+    assert np.array_equal(first.frames_1[0, :3, 2], second.frames_1[0, :3, 2])
 
 
 def test_asymmetric_contact_moves_surface_2_of_its_part_2():
     rolling = placed([roller((0, 0, 0), Y, Z, parts=CRANK_FIRST)], np.random.default_rng(1))[0]
     (joint,) = joints_from_contacts([rolling], PARTS).joints
-    there = chain(joint.movements, joint.before, np.array([3.0, -2.0, 0.3, 0.5]))[0]
+    there = chain(joint.movements, joint.frames_1, np.array([3.0, -2.0, 0.3, 0.5]))[0]
     cylinder, plane = rolling.surfaces[1].moved(there), rolling.surfaces[0]
     assert isinstance(cylinder, Cylinder) and isinstance(plane, Plane)
     assert plane.distance(cylinder.point) == pytest.approx(cylinder.radius, abs=1e-12)
@@ -180,7 +180,7 @@ def test_shipped_assemblies(shipped):
 def test_axes_of_shipped_assemblies_are_exact(shipped, combine):
     _, parts, contacts = shipped
     joints = joints_from_contacts(contacts, parts, combine=combine).joints
-    z = np.concatenate([joint.before[:, :3, 2] for joint in joints])
+    z = np.concatenate([joint.frames_1[:, :3, 2] for joint in joints])
     sines = np.linalg.norm(np.cross(z[:, None], z[None]), axis=-1)
     # these mechanisms are planar: all their axes lie across or along one direction, or one of two across each other
     parallel = sines < 1e-3
@@ -212,4 +212,4 @@ def test_unit_of_the_file_changes_no_joint(shipped):
     there = joints_from_contacts([moved(contact, poses, 1e3) for contact in contacts], parts).joints
     for a, b in zip(here, there, strict=True):
         assert (a.name, a.kind, a.movements) == (b.name, b.kind, b.movements)
-        np.testing.assert_allclose(a.before[:, :3, 2], b.before[:, :3, 2], atol=1e-14)
+        np.testing.assert_allclose(a.frames_1[:, :3, 2], b.frames_1[:, :3, 2], atol=1e-14)

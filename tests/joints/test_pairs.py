@@ -54,7 +54,7 @@ def test_a_fixed_joint_carries_its_part():
 
 def test_traced_numbers_build_the_same_joint():
     def frame(point, axis):
-        return jk.revolute("j", "base", "part", point=point, axis=axis).before
+        return jk.revolute("j", "base", "part", point=point, axis=axis).frames_1
 
     point, axis = jnp.array([1.0, 2.0, 3.0]), jnp.array([0.3, -0.5, 0.2])
     np.testing.assert_allclose(jax.jit(frame)(point, axis), frame(point, axis), atol=1e-15)

@@ -32,7 +32,7 @@ def test_a_four_bars_loop_is_open_by_the_chord_of_its_crank():
     """The crank alone is turned by t: all behind it turns with it about the first hinge."""
     mechanism, t = planar_fourbar(), 0.2
     found = mechanism.closure({"A": t})
-    origins = np.array([joint.before[0, :3, 3] for joint in mechanism.all_joints])
+    origins = np.array([joint.frames_1[0, :3, 3] for joint in mechanism.all_joints])
     centre = origins.mean(axis=0)
     length = np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())
     chord = 2 * np.sin(t / 2) * np.linalg.norm(centre - origins[0])

@@ -41,7 +41,7 @@ def test_an_open_pose_is_told_and_closed(name):
     found = mechanism.close()
     assert found.closed and found.residual < 1e-12 < found.residual_before
     assert opening(found.mechanism.linkage) is None
-    assert all(np.array_equal(joint.before, joint.after) for joint in found.mechanism.all_joints)
+    assert all(np.array_equal(joint.frames_1, joint.frames_2) for joint in found.mechanism.all_joints)
     assert found.mechanism.mobility().freedoms == mechanism_as_drawn(name).mobility().freedoms
     assert_same_lengths(found.mechanism, mechanism)
 
@@ -56,7 +56,7 @@ def test_a_closed_mechanism_stays_where_it_is():
     assert found.closed and not any(move.length or move.angle for move in found.moves.values())
     assert "closed as given" in str(found)
     assert all(
-        np.array_equal(one.before, other.before)
+        np.array_equal(one.frames_1, other.frames_1)
         for one, other in zip(found.mechanism.all_joints, planar_fourbar().all_joints, strict=True)
     )
 
@@ -65,7 +65,7 @@ def test_the_pose_is_the_one_that_sweeps_begin_from():
     """A drive of zero, the trick of before, with the input that `close` found; then the same motion, counted anew."""
     mechanism = OPEN["four-bar, a gap of 4 mm"]()
     closed = mechanism.close().mechanism
-    begin = angle_between(mechanism.joints["A"].before[0], closed.joints["B"], mechanism.joints["B"])
+    begin = angle_between(mechanism.joints["A"].frames_1[0], closed.joints["B"], mechanism.joints["B"])
     angles = np.linspace(-0.4, 0.4, 5)
     again = mechanism.sweep({"A": begin + angles})
     motion = closed.sweep({"A": angles})
@@ -77,7 +77,7 @@ def test_the_pose_is_the_one_that_sweeps_begin_from():
 def angle_between(frame: Array, now, then) -> float:
     """By how much the pin of the crank has been turned about the crank's axis."""
     x, y = (frame[:3, k] for k in (0, 1))
-    there, here = (joint.before[0, :3, 3] - frame[:3, 3] for joint in (now, then))
+    there, here = (joint.frames_1[0, :3, 3] - frame[:3, 3] for joint in (now, then))
     turned = np.arctan2(there @ y, there @ x) - np.arctan2(here @ y, here @ x)
     return float(np.remainder(turned + np.pi, 2 * np.pi) - np.pi)
 
@@ -91,7 +91,7 @@ def test_what_is_found_depends_on_neither_place_nor_unit(scale):
     moved = []
     for joint in mechanism.all_joints:
         sides = []
-        for side in (joint.before, joint.after):
+        for side in (joint.frames_1, joint.frames_2):
             frames = pose @ side
             frames[:, :3, 3] *= scale
             sides.append(frames)
@@ -126,7 +126,7 @@ def test_other_assembly_modes_are_tried():
     for tilt in (0.05, -0.05):
         found = drawn_flat(tilt).close()
         assert found.closed and found.others and "led to another assembly mode" in str(found)
-        crank, pin = (found.mechanism.joints[name].before[0, :3, 3] for name in "BC")
+        crank, pin = (found.mechanism.joints[name].frames_1[0, :3, 3] for name in "BC")
         angle = np.arctan2(crank[1], crank[0])
         modes = [fourbar(np.array([angle]), side=side).rocker_pin[0] for side in (1, -1)]
         here = [np.linalg.norm(pin[:2] - mode) for mode in modes]
@@ -180,7 +180,7 @@ def test_what_cannot_be_closed_says_which_loop():
 def test_joints_with_several_axes_go_along():
     """A universal joint: the axis on part 1 stays there, the one on part 2 with part 2."""
     exact, lean = cardan_shafts(), (0.1, 0.2, 0.0)
-    place = exact.joints["out"].before[0, :3, 3]  # leans about the centre of the cross, as the shaft does
+    place = exact.joints["out"].frames_1[0, :3, 3]  # leans about the centre of the cross, as the shaft does
     found = pushed(exact, ("output", "out"), Rotation.from_rotvec(lean).apply(place) - place, lean).close()
     assert found.closed and found.moves["output"].angle > 0.1
     motion = found.mechanism.sweep({"in": np.linspace(-0.5, 0.5, 5)})

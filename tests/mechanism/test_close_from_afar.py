@@ -68,7 +68,7 @@ def test_loops_open_by_half_a_turn_close(angle):
             for joint in rssr_linkage().all_joints
         ]
         weld = np.eye(4)[None]
-        weld[0, :3, 3] = halves[1].before[0, :3, 3]
+        weld[0, :3, 3] = halves[1].frames_1[0, :3, 3]
         turned = weld.copy()
         turned[0, :3, :3] = Rotation.from_rotvec(angle * axis).as_matrix()
         halves.append(Joint("weld", ("half", "rod"), "fixed", ("I",), weld, turned, np.array(0.0)))
@@ -87,10 +87,10 @@ def test_numbers_that_were_rounded_close_to_their_rounding(digits):
     pose[:3, :3], pose[:3, 3] = Rotation.from_rotvec([0.3, -1.0, 0.7]).as_matrix(), (40.0, -70.0, 25.0)
     joints = []
     for joint in pushed(planar_fourbar(), ("rocker", "C"), (3.0, -2.5, 0.0)).all_joints:
-        before, after = (pose @ side for side in (joint.before, joint.after))
+        before, after = (pose @ side for side in (joint.frames_1, joint.frames_2))
         for side in (before, after):
             side[:, :3, 3] = np.round(side[:, :3, 3], digits)
-        joints.append(replace(joint, before=before, after=after))
+        joints.append(replace(joint, frames_1=before, frames_2=after))
     mechanism = Mechanism.build(fixed=["ground"], joints=joints)
     found = mechanism.close()
     assert found.closed and 0 < found.residual < 10.0**-digits
@@ -101,7 +101,7 @@ def test_numbers_that_were_rounded_close_to_their_rounding(digits):
 def test_frames_that_coincide_are_closed_whatever_their_digits():
     """Contact frames may be rigid to six digits only: what they leave is no gap."""
     joints = [
-        replace(joint, before=joint.before + rough, after=joint.before + rough)
+        replace(joint, frames_1=joint.frames_1 + rough, frames_2=joint.frames_1 + rough)
         for joint in planar_fourbar().all_joints
         for rough in [1e-7 * np.sin(np.arange(16.0)).reshape(1, 4, 4) * [[1], [1], [1], [0]]]
     ]
@@ -120,7 +120,7 @@ def test_solids_go_along():
         name = old.parts[0]
         there, here = (
             apply(inverse(frames[0]), part.triangles)
-            for frames, part in ((new.before, solids[name]), (old.before, drawn[name]))
+            for frames, part in ((new.frames_1, solids[name]), (old.frames_1, drawn[name]))
         )
         # about the axis of the joint: heights and distances
         np.testing.assert_allclose(there[..., 2], here[..., 2], atol=1e-9)
@@ -128,7 +128,7 @@ def test_solids_go_along():
         for contact in found.mechanism.contacts[new.name]:
             for surface in contact.surfaces:
                 if surface.kind == "cylinder":  # both are about the axis of the hinge still
-                    off = np.cross(new.before[0, :3, 3] - surface.point, surface.axis)
+                    off = np.cross(new.frames_1[0, :3, 3] - surface.point, surface.axis)
                     assert np.linalg.norm(off) < 1e-4
     assert not found.mechanism.sweep({found.mechanism.all_joints[0].name: [0.0, 0.1]}).lost_contacts
 

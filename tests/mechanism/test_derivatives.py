@@ -46,9 +46,9 @@ def test_reverse_mode_with_respect_to_every_frame_of_a_mechanism():
         return jnp.sum(mechanism.sweep({"A": INPUTS}).coordinates["D"][:, 0] ** 2)
 
     gradient = jax.grad(loss)(mechanism)
-    pins = [np.asarray(mechanism.joints[name].before[0][:3, 3]) for name in "BC"]
+    pins = [np.asarray(mechanism.joints[name].frames_1[0][:3, 3]) for name in "BC"]
     along = (pins[1] - pins[0]) / np.linalg.norm(pins[1] - pins[0])
-    found = -np.asarray(gradient.joints["B"].after[0][:3, 3]) @ along
+    found = -np.asarray(gradient.joints["B"].frames_2[0][:3, 3]) @ along
 
     def closed(coupler):
         # displacements are counted from the assembled pose, in which the joints' coordinates are zero
@@ -62,7 +62,7 @@ def test_reverse_mode_with_respect_to_every_frame_of_a_mechanism():
 def test_gradient_of_a_built_mechanism_inside_jit():
     """Numbers that are traced go through `build`: the derivative with respect to a point of a joint."""
     base = planar_fourbar(START)
-    point = jnp.asarray(base.joints["C"].before[0][:3, 3])
+    point = jnp.asarray(base.joints["C"].frames_1[0][:3, 3])
 
     def loss(x):
         from jaxkin.joints.pairs import revolute

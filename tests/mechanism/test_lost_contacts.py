@@ -139,7 +139,7 @@ def test_an_eye_leaves_its_fork(tmp_path):
     (name,) = mechanism.joints
     joint = mechanism.joints[name]
     assert joint.kind == "planar"
-    x = joint.before[0, :3, :3].T @ [1.0, 0, 0]
+    x = joint.frames_1[0, :3, :3].T @ [1.0, 0, 0]
     shift = np.linspace(0, 60, 121)
     drive = {f"{name}.{axis}": x[k] * shift for k, axis in enumerate("xy")}
     motion = mechanism.sweep(drive | {f"{name}.phi": 0 * shift})
@@ -166,7 +166,7 @@ def test_the_slider_of_the_slider_crank_leaves_its_rails():
     b = size["crank"] * np.array([np.cos(size["angle"]), np.sin(size["angle"])])
     middle = b[0] + np.sqrt(size["rod"] ** 2 - (b[1] - size["offset"]) ** 2)
     mechanism = jk.load(path("slider_crank")).mechanism(fixed=["ground"], ignore=[["rod", "slider"]])
-    axis = mechanism.joints["ground-slider"].before[0, :3, 2] @ EXAMPLES["slider_crank"].placement[:3, 0]
+    axis = mechanism.joints["ground-slider"].frames_1[0, :3, 2] @ EXAMPLES["slider_crank"].placement[:3, 0]
     x = middle + RANGE
     motion = mechanism.sweep({"ground-slider": np.sign(axis) * RANGE})
     flanks = np.maximum(np.maximum(x - 15 - 182, 54 - x - 15), 0)

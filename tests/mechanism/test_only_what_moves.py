@@ -45,7 +45,7 @@ def with_idle_loops(count: int) -> Mechanism:
     for number in range(count):
         for joint in planar_fourbar(crank=30.0).all_joints:
             parts = ["ground" if part == "ground" else f"{part} {number}" for part in joint.parts]
-            joints.append(revolute(f"{joint.name} {number}", *parts, point=joint.before[0][:3, 3], axis=(0, 0, 1)))
+            joints.append(revolute(f"{joint.name} {number}", *parts, point=joint.frames_1[0][:3, 3], axis=(0, 0, 1)))
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 

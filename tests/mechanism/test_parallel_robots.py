@@ -18,7 +18,7 @@ LEGS = [f"leg {i}" for i in range(6)]
 @pytest.mark.parametrize("shuffled", [False, True])
 def test_a_hexapod_follows_its_legs(shuffled):
     mechanism = hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    home = np.array([mechanism.joints[f"top {i}"].frames_1[0][:3, 3] for i in range(6)])
     moved, legs = parallel.curve(parallel.hexapod().base, home, 60)
     which = np.random.default_rng(5).permutation(60) if shuffled else np.arange(60)
     motion = mechanism.sweep(dict(zip(LEGS, legs[which].T, strict=True)))
@@ -32,7 +32,7 @@ def test_a_hexapod_follows_its_legs(shuffled):
 def test_many_poses_of_a_hexapod():
     """So many that neighbours share an inverse; there and back along the curve."""
     mechanism = hexapod()
-    home = np.array([mechanism.joints[f"top {i}"].before[0][:3, 3] for i in range(6)])
+    home = np.array([mechanism.joints[f"top {i}"].frames_1[0][:3, 3] for i in range(6)])
     moved, legs = (part.reshape(MANY, *part.shape[2:]) for part in _twice(home))
     motion = mechanism.sweep(dict(zip(LEGS, legs.T, strict=True)))
     assert np.all(motion.closed)

@@ -163,12 +163,12 @@ def test_rates_found_group_by_group_close_all_loops(seed, dyads, welded):
         given = [column for column, (joint, _) in enumerate(loops.columns) if mechanism.all_joints[joint].name == "J0"]
         if np.linalg.norm(loops.motions[:, given]) < 1e-3:
             given = []  # a rigid piece, or a crank at a dead centre
-        groups = solve_order(loops.ends, loops.block.loops, loops.columns, loops.screws, given, DOUBLE)
+        groups = solve_order(loops.ends, loops.loop_group.loops, loops.columns, loops.screws, given, DOUBLE)
         unknowns = [column for group in groups for column in group.unknowns]
         assert sorted(unknowns + given) == list(range(len(loops.columns)))
         assert all(number < index for index, group in enumerate(groups) for number in group.after)
         circuits = [loop for group in groups for loop in group.loops]
-        assert len(circuits) == len(loops.block.loops)
+        assert len(circuits) == len(loops.loop_group.loops)
         cycles = loop_jacobian(circuits, loops.columns, np.ones((6, len(loops.columns))))
         assert np.linalg.matrix_rank(cycles) == len(circuits)  # independent circuits
         rates = np.zeros(len(loops.columns))

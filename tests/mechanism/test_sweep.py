@@ -160,7 +160,10 @@ def test_only_loops_that_are_driven_are_solved():
     driven, other = planar_fourbar(1.0), planar_fourbar(2.0)
     renamed = [
         revolute(
-            f"{j.name}2", *(p if p == "ground" else f"{p}2" for p in j.parts), point=j.before[0][:3, 3], axis=(0, 0, 1)
+            f"{j.name}2",
+            *(p if p == "ground" else f"{p}2" for p in j.parts),
+            point=j.frames_1[0][:3, 3],
+            axis=(0, 0, 1),
         )
         for j in other.all_joints
     ]

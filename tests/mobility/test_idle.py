@@ -35,7 +35,7 @@ def as_hinges(mechanism: Mechanism, axes=BALLS[1], names=()) -> Mechanism:
     joints = []
     for joint in mechanism.all_joints:
         is_written = joint.kind == "spherical" and (not names or joint.name in names)
-        point = np.asarray(joint.before)[0, :3, 3]
+        point = np.asarray(joint.frames_1)[0, :3, 3]
         joints += hinges(joint.name, *joint.parts, point=point, axes=axes) if is_written else [joint]
     return Mechanism.build(fixed=list(mechanism.fixed), joints=joints)
 
@@ -48,10 +48,10 @@ def placed(mechanism: Mechanism, seed: int) -> Mechanism:
     joints = []
     for index in random.permutation(len(mechanism.all_joints)):
         joint = mechanism.all_joints[index]
-        sides = pose @ np.asarray(joint.before), pose @ np.asarray(joint.after)
+        sides = pose @ np.asarray(joint.frames_1), pose @ np.asarray(joint.frames_2)
         for side in sides:
             side[:, :3, 3] *= scale
-        joints.append(replace(joint, before=sides[0], after=sides[1]))
+        joints.append(replace(joint, frames_1=sides[0], frames_2=sides[1]))
     return Mechanism.build(fixed=list(mechanism.fixed), joints=joints)
 
 
@@ -155,7 +155,7 @@ def rod_with(*joints: Joint) -> Mechanism:
 
 def test_what_takes_another_part_along_is_not_idle():
     """A tool hinged to the rod goes round with it; a sleeve on the rod's line may stay, and a weld makes one body."""
-    ends = [np.asarray(rssr_linkage().joints[name].before)[0, :3, 3] for name in "BC"]
+    ends = [np.asarray(rssr_linkage().joints[name].frames_1)[0, :3, 3] for name in "BC"]
     tool = rod_with(revolute("tool", "rod", "tool", point=ends[0] + [5.0, 0, 0], axis=X))
     assert (tool.mobility().freedoms, tool.mobility().idle_motions) == (3, ())
     sleeve = rod_with(revolute("sleeve", "rod", "sleeve", point=ends[0], axis=ends[1] - ends[0]))
@@ -185,7 +185,7 @@ def test_what_the_idle_coordinates_show_in_is_driven_only_if_nothing_else_will_d
 def hinge_pin(pin=cylindrical) -> Mechanism:
     """A four-bar with a loose pin at B, in a hole of the crank and one of the coupler."""
     bars = {joint.name: joint for joint in planar_fourbar().all_joints}
-    place = np.asarray(bars["B"].before)[0, :3, 3]
+    place = np.asarray(bars["B"].frames_1)[0, :3, 3]
     holes = [pin("B1", "crank", "pin", point=place, axis=Z), pin("B2", "pin", "coupler", point=place, axis=Z)]
     return Mechanism.build(fixed=["ground"], joints=[bars["A"], *holes, bars["C"], bars["D"]])
 

@@ -17,7 +17,7 @@ def with_legs(make) -> Mechanism:
     joints = {joint.name: joint for joint in catalogue.hexapod().all_joints}
     made = []
     for i in range(6):
-        ends = [np.asarray(joints[f"{end} {i}"].before)[0, :3, 3] for end in ("base", "top")]
+        ends = [np.asarray(joints[f"{end} {i}"].frames_1)[0, :3, 3] for end in ("base", "top")]
         made += make(str(i), *ends)
     return Mechanism.build(fixed=["ground"], joints=made)
 

@@ -96,10 +96,10 @@ def test_mobility_does_not_depend_on_the_unit_nor_on_where_it_stands(scale):
     pose[:3, 3] = 300.0, -200.0, 500.0
     for name in ("Bennett", "Jansen", "Delta"):
         mechanism, *_ = CATALOGUE[name]
-        frames = [np.array(pose @ joint.before) for joint in mechanism.all_joints]
+        frames = [np.array(pose @ joint.frames_1) for joint in mechanism.all_joints]
         for frame in frames:
             frame[:, :3, 3] *= scale
-        joints = [replace(j, before=f, after=f) for j, f in zip(mechanism.all_joints, frames, strict=True)]
+        joints = [replace(j, frames_1=f, frames_2=f) for j, f in zip(mechanism.all_joints, frames, strict=True)]
         assert mechanism.with_linkage(mechanism.linkage.with_joints(joints)).mobility() == mechanism.mobility()
 
 
@@ -124,7 +124,7 @@ def reordered(mechanism: Mechanism, seed: int) -> tuple[Mechanism, dict[str, str
     joints = []
     for joint in mechanism.all_joints:
         ends = tuple(parts[part] for part in joint.parts)
-        new = Joint(f"new {joint.name}", ends, joint.kind, joint.movements, joint.before, joint.after, joint.pitch)
+        new = Joint(f"new {joint.name}", ends, joint.kind, joint.movements, joint.frames_1, joint.frames_2, joint.pitch)
         joints.append(replace(new, parts=ends[::-1]) if turned[joint.name] else new)
     random.shuffle(joints)
     return Mechanism.build(fixed=[parts[part] for part in mechanism.fixed], joints=joints), parts, turned

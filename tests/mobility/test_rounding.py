@@ -25,8 +25,8 @@ TURN = np.linspace(0.0, 2 * np.pi, 50)
 
 def moved_by(mechanism: Mechanism, joints) -> float:
     """The largest change of a frame, lengths over the extent."""
-    extent = np.ptp(np.concatenate([joint.before[:, :3, 3] for joint in joints])) or 1.0
-    changes = [new.before - old.before for new, old in zip(mechanism.all_joints, joints, strict=True)]
+    extent = np.ptp(np.concatenate([joint.frames_1[:, :3, 3] for joint in joints])) or 1.0
+    changes = [new.frames_1 - old.frames_1 for new, old in zip(mechanism.all_joints, joints, strict=True)]
     return max(float(np.abs(change / [1.0, 1.0, 1.0, extent]).max()) for change in changes)
 
 
@@ -74,9 +74,9 @@ def test_a_spherical_wrist_of_two_interlocking_loops_keeps_its_three_freedoms():
     rng = np.random.default_rng(0)
     joints = []
     for joint in spherical_wrist().all_joints:
-        frames = joint.before.copy()
+        frames = joint.frames_1.copy()
         frames[0, :3, 3] += rng.uniform(-9e-8, 9e-8, 3)
-        joints.append(replace(joint, before=frames, after=frames))
+        joints.append(replace(joint, frames_1=frames, frames_2=frames))
     assert numbers(Mechanism.build(fixed=["ground"], joints=joints)) == numbers(spherical_wrist())
 
 
@@ -118,7 +118,7 @@ def test_rounded_mechanisms_move_as_exact_ones(name, trials):
         joints = rounded(joints, 6 + 3 * (trial % 3)) if trial % 2 else tilted(joints, error, rng)
         mechanism = Mechanism.build(fixed=list(exact.fixed), joints=joints)
         assert numbers(mechanism) == numbers(exact), (trial, mechanism.notes)
-        size = np.ptp(np.concatenate([joint.before[:, :3, 3] for joint in joints])) or 1.0
+        size = np.ptp(np.concatenate([joint.frames_1[:, :3, 3] for joint in joints])) or 1.0
         drive = {
             each: np.sin((1 + 0.1 * number) * np.linspace(-1, 1, 13)) * (0.02 * size if each[-1] in "xyz" else 0.4)
             for number, each in enumerate(drivable)
@@ -141,7 +141,7 @@ def distance(one: Motion, other: Motion, size: float) -> Array:
             gap = np.asarray(one.coordinates[joint.name] - other.coordinates[joint.name])[:, column]
             worst = np.maximum(worst, np.abs(gap) / (size if coordinate[0] in "xyz" else 1.0))
         if joint.kind == "spherical":
-            centre = joint.before[0, :3, 3]
+            centre = joint.frames_1[0, :3, 3]
             for part in joint.parts:
                 gap = np.asarray(one.points(part, centre) - other.points(part, centre))
                 worst = np.maximum(worst, np.linalg.norm(gap, axis=1) / size)
@@ -199,11 +199,11 @@ def test_no_pose_beside_has_a_smaller_residual(tilt):
 
 def closure(mechanism: Mechanism, angles: Array) -> float:
     """Eq. 12 of the four-bar from products of matrices: A B C D^-1 should be the identity; lengths over the size."""
-    product, origins = np.eye(4), np.concatenate([joint.before[:, :3, 3] for joint in mechanism.all_joints])
+    product, origins = np.eye(4), np.concatenate([joint.frames_1[:, :3, 3] for joint in mechanism.all_joints])
     centre = origins.mean(axis=0)
     size = np.sqrt(((origins - centre) ** 2).sum(axis=1).mean())
     for joint, angle, sign in zip(mechanism.all_joints, angles, (1, 1, 1, -1), strict=True):
-        frame, turn = joint.before[0].copy(), np.eye(4)
+        frame, turn = joint.frames_1[0].copy(), np.eye(4)
         frame[:3, 3] = (frame[:3, 3] - centre) / size
         c, s = np.cos(sign * angle), np.sin(sign * angle)
         turn[:2, :2] = [[c, -s], [s, c]]
@@ -252,7 +252,7 @@ def test_a_misfit_with_slides_along_the_axes():
 
 
 def test_frames_placed_anew_are_aligned_too():
-    mechanism, tilted_axis = fourbar(0.0), fourbar(1e-7, align=0).joints["C"].before[0]
+    mechanism, tilted_axis = fourbar(0.0), fourbar(1e-7, align=0).joints["C"].frames_1[0]
     assert np.all(mechanism.with_frames({"C": tilted_axis}).sweep({"A": TURN}).closed)
     assert mechanism.with_frames({"C": tilted_axis}, align=0).linkage.ideal
     one_side = mechanism.with_frames({("rocker", "C"): tilted_axis})
@@ -261,7 +261,7 @@ def test_frames_placed_anew_are_aligned_too():
 
 def test_traced_frames_are_taken_as_they_are():
     def rocker(tilt):
-        frame = jnp.asarray(mechanism.joints["C"].before[0]).at[0, 2].add(tilt)
+        frame = jnp.asarray(mechanism.joints["C"].frames_1[0]).at[0, 2].add(tilt)
         return mechanism.with_frames({"C": frame}).sweep({"A": jnp.array([0.5])}).coordinates["D"][0, 0]
 
     mechanism = fourbar(0.0)

@@ -15,7 +15,7 @@ def pushed(mechanism: Mechanism, place: tuple[str, str], shift, turn=(0.0, 0.0, 
     """A joint moved on one of its parts only: the given pose is open by as much."""
     name = place[1]
     joint = mechanism.joints[name]
-    pose = np.array((joint.before if joint.parts[0] == place[0] else joint.after)[0])
+    pose = np.array((joint.frames_1 if joint.parts[0] == place[0] else joint.frames_2)[0])
     pose[:3, :3] = Rotation.from_rotvec(turn).as_matrix() @ pose[:3, :3]
     pose[:3, 3] += shift
     return mechanism.with_frames({place: pose}, align=0)
@@ -24,14 +24,14 @@ def pushed(mechanism: Mechanism, place: tuple[str, str], shift, turn=(0.0, 0.0, 
 def zeroed_elsewhere(mechanism: Mechanism, angle: float, seed: int = 0) -> Mechanism:
     """The mechanism with displacements of all joints counted from other positions: the pose is open, and can close."""
     rng, joints = np.random.default_rng(seed), []
-    size = float(np.ptp(np.concatenate([joint.before[:, :3, 3] for joint in mechanism.all_joints]), axis=0).max())
+    size = float(np.ptp(np.concatenate([joint.frames_1[:, :3, 3] for joint in mechanism.all_joints]), axis=0).max())
     for joint in mechanism.all_joints:
         frames = []
-        for name, frame in zip(joint.movements, joint.after, strict=True):
+        for name, frame in zip(joint.movements, joint.frames_2, strict=True):
             scales = [0.3 * size if is_length(each) else 1.0 for each in MOVEMENTS[name].coordinates]
             q = angle * np.array(scales) * rng.uniform(-1.0, 1.0, len(scales))
             frames.append(chain([name], frame[None], q, float(joint.pitch))[0] @ frame)
-        joints.append(replace(joint, after=np.array(frames)))
+        joints.append(replace(joint, frames_2=np.array(frames)))
     return replace(mechanism, linkage=mechanism.linkage.with_joints(joints))
 
 

@@ -109,7 +109,7 @@ EVERY: dict[str, Callable[[], Mechanism]] = {
 
 def placed(joints: Sequence[Joint], rng: np.random.Generator) -> tuple[Joint, ...]:
     """The joints turned, moved and scaled at random: by up to their extent, and by up to a thousand."""
-    origins = np.concatenate([joint.before[:, :3, 3] for joint in joints])
+    origins = np.concatenate([joint.frames_1[:, :3, 3] for joint in joints])
     pose, scale = np.eye(4), 10.0 ** rng.uniform(-3, 3)
     pose[:3, :3] = Rotation.random(random_state=rng).as_matrix()
     pose[:3, 3] = rng.uniform(-1, 1, 3) * np.ptp(origins)
@@ -120,14 +120,16 @@ def placed(joints: Sequence[Joint], rng: np.random.Generator) -> tuple[Joint, ..
         return frames
 
     return tuple(
-        replace(joint, before=moved(joint.before), after=moved(joint.after), pitch=np.asarray(scale * joint.pitch))
+        replace(
+            joint, frames_1=moved(joint.frames_1), frames_2=moved(joint.frames_2), pitch=np.asarray(scale * joint.pitch)
+        )
         for joint in joints
     )
 
 
 def rounded(joints: Sequence[Joint], digits: int) -> tuple[Joint, ...]:
     """The joints with all numbers of their points and axes rounded to decimals of the largest coordinate."""
-    size = max(float(np.abs(joint.before[:, :3, 3]).max()) for joint in joints) or 1.0
+    size = max(float(np.abs(joint.frames_1[:, :3, 3]).max()) for joint in joints) or 1.0
 
     def number(values: Array, of: float) -> Array:
         return np.round(values / of, digits) * of
@@ -152,6 +154,6 @@ def tilted(joints: Sequence[Joint], angle: float, rng: np.random.Generator) -> t
 def _with_frames(joints: Sequence[Joint], moved: Callable[[Array], Array]) -> tuple[Joint, ...]:
     found = []
     for joint in joints:
-        frames = np.array([moved(np.asarray(pose)) for pose in joint.before])
-        found.append(replace(joint, before=frames, after=frames))
+        frames = np.array([moved(np.asarray(pose)) for pose in joint.frames_1])
+        found.append(replace(joint, frames_1=frames, frames_2=frames))
     return tuple(found)

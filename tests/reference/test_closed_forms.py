@@ -187,7 +187,7 @@ def test_goldberg_closes():
     for phi in np.linspace(-0.5, 1.8, 12):
         now, product = overconstrained.goldberg(np.array(phi)), np.eye(4)
         for name, joint in joints.items():
-            turn, frame = now[name] - start[name], joint.before[0]
+            turn, frame = now[name] - start[name], joint.frames_1[0]
             # the ring runs RS, SP, PU, UT, TR: against the direction of U and T
             turned = denavit_hartenberg(-turn if name in "UT" else turn, 0.0, 0.0)
             product = product @ frame @ turned @ np.linalg.inv(frame)

@@ -22,7 +22,7 @@ from reference.mechanisms import ball_in_bore, rssr_linkage
 
 def systems(mechanism, drive, **changed):
     """The one structure element of a mechanism, cut and whole, and its joints."""
-    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
+    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
     cut, _ = block_system(mechanism.linkage, block, inside, form._replace(**changed))
     return cut, cut.uncut, block_joints(mechanism.all_joints, block)

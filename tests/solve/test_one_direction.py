@@ -29,7 +29,7 @@ def lifted():
 
 def systems(mechanism, driven):
     """The same loops with one equation of rotation where that is enough, and with three."""
-    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
+    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     names = [mechanism.all_joints[joint].name for joint in block.joints]
     places = tuple((block.joints[names.index(name)], k) for name, k in driven)
     joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block))

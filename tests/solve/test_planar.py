@@ -24,7 +24,7 @@ PLANAR = [planar_fourbar, slider_crank, jansen, oldham, scotch_yoke]
 
 def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
-    (block,), (form,) = mechanism.structure.blocks, mechanism.linkage.classes
+    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     for chosen in (form, LoopClass()):
         system, _ = block_system(mechanism.linkage, block, ((block.joints[0], 0),), chosen)
         yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block)))[0]
@@ -69,7 +69,7 @@ def test_a_tilted_hinge_makes_a_loop_spatial():
     assert plane_columns(joints) == (0, 1, 2, 3)
     tilt = np.eye(4)
     tilt[:3, :3] = rotation(np.array([1.0, 0.0, 0.0]), 1e-9)
-    joints[2] = replace(joints[2], before=joints[2].before @ tilt, after=joints[2].after @ tilt)
+    joints[2] = replace(joints[2], frames_1=joints[2].frames_1 @ tilt, frames_2=joints[2].frames_2 @ tilt)
     assert plane_columns(joints) is None
 
 
@@ -89,7 +89,7 @@ def test_a_hinge_tilted_inside_jit_is_not_taken_for_planar():
     def status(angle):
         cos, sin = jnp.cos(angle), jnp.sin(angle)
         tilt = jnp.eye(4).at[1:3, 1:3].set(jnp.array([[cos, -sin], [sin, cos]]))
-        moved = mechanism.with_frames({("coupler", "C"): mechanism.joints["C"].before[0] @ tilt})
+        moved = mechanism.with_frames({("coupler", "C"): mechanism.joints["C"].frames_1[0] @ tilt})
         return moved.sweep({"A": turn}).status
 
     assert np.all(np.asarray(status(0.0)) == Status.CLOSED)
@@ -101,7 +101,9 @@ def test_placed_anywhere_the_plane_is_found_and_the_motion_is_the_same():
     pose = np.eye(4)
     pose[:3, :3], pose[:3, 3] = rotation(unit(np.array([1.0, 2.0, -0.5])), 1.1), (300.0, -20.0, 70.0)
     mechanism = planar_fourbar(1.0)
-    joints = [replace(joint, before=pose @ joint.before, after=pose @ joint.after) for joint in mechanism.all_joints]
+    joints = [
+        replace(joint, frames_1=pose @ joint.frames_1, frames_2=pose @ joint.frames_2) for joint in mechanism.all_joints
+    ]
     placed = Mechanism.build(joints=joints, fixed=["ground"])
     assert placed.linkage.classes == mechanism.linkage.classes
     expected = mechanism.sweep({"A": turn}).coordinates["D"]

@@ -119,10 +119,10 @@ def check_elements(found: Structure) -> None:
     assert sorted(tied) == sorted(
         key for u, v in nx.bridges(simple) if graph.number_of_edges(u, v) == 1 for key in graph[u][v]
     )
-    looped = [joint for block in found.blocks for joint in block.joints]
+    looped = [joint for block in found.loop_groups for joint in block.joints]
     assert sorted([*tied, *(found.joints[joint] for joint in looped)]) == sorted(found.joints)
-    for one in found.blocks:
-        for other in found.blocks:
+    for one in found.loop_groups:
+        for other in found.loop_groups:
             assert one is other or not set(one.joints) & set(other.joints)
 
 
@@ -142,7 +142,7 @@ def test_loops_of_two_edge_connected_multigraphs(joints: Joints) -> None:
     check_loops(found)
     check_elements(found)
     check_tree(found)
-    assert sum(len(block.joints) for block in found.blocks) == len(joints)
+    assert sum(len(block.joints) for block in found.loop_groups) == len(joints)
 
 
 @settings(max_examples=40, deadline=None)

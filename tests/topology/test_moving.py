@@ -33,7 +33,7 @@ def example() -> Structure:
 )
 def test_what_a_drive_moves(driven: list[str], solved: list[str], parts: str) -> None:
     found = moving(example(), driven)
-    assert [example().joints[block.joints[0]] for block in found.blocks] == solved
+    assert [example().joints[block.joints[0]] for block in found.loop_groups] == solved
     assert set(found.parts) == set(parts.split())
 
 
@@ -45,7 +45,7 @@ def test_parts_that_are_said_to_rest_do(seed: int) -> None:
     driven = random.sample(found.joints, random.randrange(1, 4))
     share = moving(found, driven)
     values = {joint: random.random() if joint in driven else 0.0 for joint in found.joints}
-    for block in share.blocks:
+    for block in share.loop_groups:
         place = {part: random.random() for part in found.part_names}
         for column in block.joints:
             part1, part2 = found.joint_parts[column]

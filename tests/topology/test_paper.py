@@ -114,7 +114,7 @@ def test_tree_is_figure_4() -> None:
     ]
     assert found.elements[0].parts == ("p1&p9", "p2", "p3", "p4", "p5", "p6", "p7", "p8")
     assert found.elements[4].parts == ("p15", "p16", "p17", "p18")
-    assert [found.joints[joint] for joint in found.blocks[1].joints] == ["j17", "j18", "j19", "j20"]
+    assert [found.joints[joint] for joint in found.loop_groups[1].joints] == ["j17", "j18", "j19", "j20"]
 
 
 def test_parts_are_placed_in_the_order_of_section_5_2() -> None:

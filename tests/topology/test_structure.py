@@ -19,7 +19,7 @@ def test_fixed_parts_share_the_row_of_the_first() -> None:
 
 def test_open_chain_has_no_loops() -> None:
     found = structure(PARTS[:4], FOURBAR[:3], ["ground"])
-    assert found.loops == () and found.blocks == () and found.cycles.shape == (0, 3)
+    assert found.loops == () and found.loop_groups == () and found.cycles.shape == (0, 3)
     assert [(element.kind, element.upper, element.above) for element in found.elements] == [
         ("part", "ground", None),
         ("part", "crank", 0),

@@ -48,7 +48,7 @@ def leaving():
         fixed=["floor", "fence"], joints=[*found.joints, jk.fixed("tie", "floor", "fence")], unit="mm"
     )
     mechanism = replace(built, solids=solids, contacts=found.contacts)
-    sign = np.sign(found.joints[0].before[0, 0, 2])
+    sign = np.sign(found.joints[0].frames_1[0, 0, 2])
     return mechanism.sweep({"floor-ram": sign * np.arange(61.0)})
 
 

@@ -29,7 +29,7 @@ def smallest_singular_value(
     """
     system = system.uncut
     geometry, lengths = scaled(system, joints)
-    state = as_state(system, joints.before, joints.after, displacements)
+    state = as_state(system, joints.frames_1, joints.frames_2, displacements)
     state = state._replace(x=state.x / lengths)
     jacobian = free_jacobian(system, closure(system, geometry, state))
     return jnp.linalg.svd(jnp.moveaxis(jacobian, -1, 0), compute_uv=False)[:, rank - 1]

@@ -46,7 +46,7 @@ def least_residual(
     joints, ideal = lax.stop_gradient((joints, ideal))
     geometry, lengths = scaled(system, joints)
     cutoff = jnp.minimum(SPREAD * _play(joints, ideal, jnp.max(lengths)), LARGEST_DOUBT)
-    state = as_state(system, joints.before, joints.after, begun)
+    state = as_state(system, joints.frames_1, joints.frames_2, begun)
     state = state._replace(x=state.x / lengths)
 
     def step(_, state):
@@ -57,7 +57,7 @@ def least_residual(
 
     state = lax.fori_loop(0, LEAST_RESIDUAL_STEPS, step, state)
     found = joint_coordinates(
-        system, joints.before, joints.after, state.x * lengths, ball_turns(system, geometry, state)
+        system, joints.frames_1, joints.frames_2, state.x * lengths, ball_turns(system, geometry, state)
     )
     residual_norm = closure(system, geometry, state).residual_norm
     misfit = (status == Status.CLOSED.value) & (residual_norm > max_residual)
@@ -69,6 +69,6 @@ def _play(joints: Joints, ideal: Joints, length: Array) -> Array:
     """Measure the play: the largest difference of an entry of the frames, lengths over the characteristic length."""
     differences = [
         (jnp.asarray(one) - jnp.asarray(other)) / jnp.array([1.0, 1.0, 1.0, length])
-        for one, other in zip((*joints.before, *joints.after), (*ideal.before, *ideal.after), strict=True)
+        for one, other in zip((*joints.frames_1, *joints.frames_2), (*ideal.frames_1, *ideal.frames_2), strict=True)
     ]
     return jnp.max(jnp.stack([jnp.max(jnp.abs(difference)) for difference in differences]))

@@ -49,8 +49,8 @@ def newton(
     """Take Newton steps until the residual norms of all poses are at most `target_residual`, or `MAX_NEWTON_STEPS`.
 
     Each step solves J delta = -r (Eq. 10, linearised) block after block. Returns the states, their closure and their
-    residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where convergence
-    is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
+    residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where
+    convergence is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
     """
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)

@@ -43,8 +43,8 @@ BALL_GROUP = 256
 class Joints(NamedTuple):
     """The joints of a loop system, one entry a joint, as in `Joint`."""
 
-    before: tuple[Float[Array, "frames 4 4"], ...]
-    after: tuple[Float[Array, "frames 4 4"], ...]
+    frames_1: tuple[Float[Array, "frames 4 4"], ...]
+    frames_2: tuple[Float[Array, "frames 4 4"], ...]
     pitch: tuple[Float[Array, ""], ...]
 
 
@@ -104,7 +104,7 @@ def displacements(
         inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
         turns = ball_turns(system, geometry, state)
-        return joint_coordinates(system, joints.before, joints.after, state.x * lengths, turns)
+        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
     if not system.balls:

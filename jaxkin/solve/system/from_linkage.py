@@ -13,7 +13,7 @@ from jaxkin.linkage.loop_class import LoopClass, renumbered
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
-from jaxkin.topology.structure import Block
+from jaxkin.topology.structure import LoopGroup
 
 WITHOUT_NORMAL = {"T_z": "I", "T_z_phi": "T_phi"}
 """What is left of a movement whose translation along z is one along the normal of the plane."""
@@ -34,19 +34,21 @@ class SolvedCoordinates(NamedTuple):
     """Coordinates along the normal of the plane, which rest and are no columns."""
 
 
-def solved_coordinates(linkage: Linkage, block: Block, driven: Columns, loop_class: LoopClass) -> SolvedCoordinates:
+def solved_coordinates(
+    linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
+) -> SolvedCoordinates:
     """The coordinates that are solved or given in a structure element, of which `driven` are (joint, coordinate).
 
     A planar element is solved in its plane, unless something is driven along the normal: what would move along the
     normal rests.
     """
-    every = [(index, k) for index in block.joints for k in range(linkage.joints[index].freedoms)]
+    every = [(index, k) for index in loop_group.joints for k in range(linkage.joints[index].freedoms)]
     plane = {every[column] for column in loop_class.plane or ()}
     planar = loop_class.plane is not None and plane.issuperset(driven)
     if not planar:
         plane = set(every)
     movements = []
-    for index in block.joints:
+    for index in loop_group.joints:
         chain, first = [], 0
         for name in linkage.joints[index].movements:
             count = len(MOVEMENTS[name].coordinates)
@@ -60,7 +62,7 @@ def solved_coordinates(linkage: Linkage, block: Block, driven: Columns, loop_cla
 
 def block_system(
     linkage: Linkage,
-    block: Block,
+    loop_group: LoopGroup,
     driven: Columns,
     loop_class: LoopClass,
     groups: Sequence[Sequence[Circuit]] = (),
@@ -70,15 +72,15 @@ def block_system(
     `groups` are the loops that are solved together, in turn, of joints of the mechanism; by default all loops of the
     structure are solved together.
     """
-    columns, movements, planar, _ = solved_coordinates(linkage, block, driven, loop_class)
-    circuits = tuple(loop for group in groups for loop in group) or block.loops
+    columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
+    circuits = tuple(loop for group in groups for loop in group) or loop_group.loops
     loop_class = renumbered(
         loop_class._replace(plane=tuple(range(len(columns))) if planar else None),
-        block.loops,
+        loop_group.loops,
         circuits,
         linkage.solved_joints,
     )
-    number = {joint: place for place, joint in enumerate(block.joints)}
+    number = {joint: place for place, joint in enumerate(loop_group.joints)}
     loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
     ends = [0, *accumulate(map(len, groups))]
     order = tuple(tuple(range(first, last)) for first, last in pairwise(ends))
@@ -86,7 +88,7 @@ def block_system(
     return LoopSystem(movements, loops, given, loop_class, order), columns
 
 
-def block_joints(joints: Sequence[Joint], block: Block) -> Joints:
-    """Frames and pitches of the block's joints, of all joints of the mechanism."""
-    inside = [joints[joint] for joint in block.joints]
+def block_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
+    """Frames and pitches of the loop group's joints, of all joints of the mechanism."""
+    inside = [joints[joint] for joint in loop_group.joints]
     return Joints(*(tuple(getattr(joint, leaf) for joint in inside) for leaf in Joints._fields))
