@@ -24,6 +24,25 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
 
+@pytest.mark.parametrize("poses", [3, 1024])
+@pytest.mark.parametrize("rows", [2, 3, 4, 9, 10, 12, 13, 25, 39, 40])
+@pytest.mark.parametrize("lacking", [0, 1])
+def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, lacking):
+    """On both sides of each limit between the algorithms, of full rank and of one less."""
+    rng = np.random.default_rng(100 * rows + lacking)
+    columns, few = rows + 2, 3  # a few different systems, so that numpy is not what takes the time
+    values = np.linspace(1.0, 2.0, rows) * (np.arange(rows) >= lacking)
+    left, across = (np.linalg.qr(rng.normal(size=(few, n, n)))[0] for n in (rows, columns))
+    jacobian = (left * values) @ across[:, :rows]
+    right = np.einsum("pij,pj->pi", jacobian, rng.normal(size=(few, columns)))
+    expected = np.einsum("pij,pj->pi", np.linalg.pinv(jacobian, rcond=1e-10), right)
+    which = np.arange(poses) % few
+    batched, sides = jnp.asarray(np.moveaxis(jacobian[which], 0, -1)), jnp.asarray(right[which].T)
+    found = solve_least_norm(batched, sides, 1e-14, range(columns))
+    # damping of 1e-14 s, rounding of the rows and, without a rank, rounding of r over that damping: y is large, J^T y not
+    np.testing.assert_allclose(found.T, expected[which], atol=1e-11 if not lacking else 1e-6)
+
+
 def test_an_idle_coordinate_stays_exactly_at_rest():
     """The part of x in the null space of J is rounding of x itself, not rounding over damping."""
     rng = np.random.default_rng(0)
