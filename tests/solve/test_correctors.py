@@ -1,4 +1,4 @@
-"""Newton's step converges quadratically; the damped corrector finds closed poses of singular systems, or the nearest."""
+"""Newton's step converges quadratically; the damped corrector closes singular systems, or gets as near as it can."""
 
 from functools import partial
 

@@ -39,7 +39,7 @@ def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, l
     which = np.arange(poses) % few
     batched, sides = jnp.asarray(np.moveaxis(jacobian[which], 0, -1)), jnp.asarray(right[which].T)
     found = solve_least_norm(batched, sides, 1e-14, range(columns))
-    # damping of 1e-14 s, rounding of the rows and, without a rank, rounding of r over that damping: y is large, J^T y not
+    # a damping of 1e-14, and condition numbers of two; without full rank rounding of r over the damping, times J^T
     np.testing.assert_allclose(found.T, expected[which], atol=1e-11 if not lacking else 1e-6)
 
 

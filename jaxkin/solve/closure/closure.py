@@ -25,11 +25,11 @@ Given = Array | np.ndarray
 
 class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
-    """Of loops in space: the rotation of each that is not cut at a ball, then the translation of each, then for each rod
+    """Of loops in space: rotation of those that are not cut at a ball, translation of all but rods, and for each rod
     the difference of its length from that between its balls. Of planar loops: turn and two translations of each."""
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
-    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: near closure half the square of `residual`."""
+    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: nearby half the square of `residual`."""
     residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
 
@@ -46,11 +46,11 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
 def loop_geometry(
     system: LoopSystem, frames_1: tuple[Given, ...], frames_2: tuple[Given, ...], pitch: tuple[Given, ...]
 ) -> tuple[Geometry, Float[Array, ""]]:
-    """Compute the constants of the loops from the frames of the joints, one entry a joint; and the characteristic length.
+    """Compute the constants of the loops from the frames of the joints, and the characteristic length.
 
-    The origin is moved to the centroid of the frames on part 1, and lengths are divided by the root-mean-square distance
-    of these from it (the characteristic length), so that no result depends on unit or origin. Both are held constant in
-    derivatives, in which they cancel.
+    All arguments have one entry a joint. The origin is moved to the centroid of the frames on part 1, and lengths are
+    divided by the root-mean-square distance of these from it (the characteristic length), so that no result depends on
+    unit or origin. Both are held constant in derivatives, in which they cancel.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
     origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in frames_1]))

@@ -20,7 +20,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.spatial import Spatial
-from jaxkin.solve.system.chain_tables import steps
+from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
 MIN_UNROLLED_SUM_POSES = 512
@@ -37,7 +37,7 @@ class Planar(NamedTuple):
     """
 
     sense: Float[Array, "loops links"]
-    """Sign of the coordinate by which each link turns relative to the previous one: -1 or 1; 0 for a link that slides."""
+    """Sign of the coordinate by which a link turns relative to the previous one: -1 or 1; 0 for a link that slides."""
     moved: Float[Array, "loops 2 terms"]
     """Coefficients of the terms in the end point of the loop: the links from joint to joint in the assembled pose."""
     jacobian: Float[Array, "loops rows terms"]
@@ -51,7 +51,7 @@ class Planar(NamedTuple):
 def planar_closure(
     system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
 ) -> tuple[Array, Array, Array, Array]:
-    """Evaluate residual (turn and two translations a loop), Jacobian, and the squares of rotation and translation in Eq. 12.
+    """Evaluate residual (turn and two translations a loop), Jacobian, and squares of rotation and translation (Eq. 12).
 
     See `closure.Closure`.
     """
@@ -90,7 +90,7 @@ def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Floa
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     """Compute the constants in the plane of the first joint that turns from the constants in space."""
-    table, kept = steps(system), _kept(system)
+    table, kept = chain_tables(system), _kept(system)
     loops = np.arange(len(system.loops))
 
     def onward(pose: Array, between: Array) -> tuple[Array, Array]:
@@ -137,7 +137,7 @@ def _by_terms(
     coordinate: Float[Array, "loops links columns"],
     first: Float[Array, "2 loops"],
 ) -> tuple[Float[Array, "loops 2 terms"], Float[Array, "loops rows terms"]]:
-    """Compute `Planar.moved` and `.jacobian` from the links, the directions of slides, and the first point of each loop."""
+    """Compute `Planar.moved` and `.jacobian` from links, directions of slides, and the first point of each loop."""
 
     def rotating(vectors: Array) -> list[Array]:
         """Compute the coefficients of cosine and sine of the angle of each link in a vector that turns with it."""
@@ -185,7 +185,7 @@ class _Kept(NamedTuple):
 
 @lru_cache(maxsize=256)
 def _kept(system: LoopSystem) -> _Kept:
-    table = steps(system)
+    table = chain_tables(system)
     inside = table.column < system.columns
     chosen = [np.flatnonzero(column) for column in inside.T]
     length = max(map(len, chosen))

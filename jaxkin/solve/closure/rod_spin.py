@@ -22,7 +22,7 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Rotations, State, matrix, multiply
 
 Lines = Float[Array, "spins 2 3"]
-"""For each rod the unit vector from ball to ball, in the frames of both balls on the rod; its sign is that of the spin."""
+"""For each rod the unit vector from ball to ball, in the frames of both balls on the rod, signed as the spin."""
 
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
@@ -91,7 +91,7 @@ def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"])
     one, other = one / lengths(one), other / lengths(other)
     cos, cross = jnp.sum(one * other, axis=0), jnp.cross(one, other, axis=0)
     near = jnp.concatenate([1 + cos[None], cross])
-    # the least rotation into the opposite direction is not unique: beyond 90 deg turn by 180 deg about a normal first
+    # the least rotation to the opposite direction is not unique: beyond 90 deg turn by 180 deg about a normal first
     x, y, z = one
     below = 1 + jnp.abs(z)
     across = jnp.stack([1 - x * x / below, -x * y / below, jnp.where(z < 0, x, -x)])

@@ -4,10 +4,10 @@ Damped or truncated Gauss-Newton iterations stand in five places, since each nee
 
 | where | damping | why it is not one of the others |
 |---|---|---|
-| `correctors.newton` | none | the common case: a third of the cost of the damped corrector |
+| `correctors.newton` | none | the common case, at a fraction of the cost of the damped corrector |
 | `correctors.chord_newton` | none | many neighbours share one inverse: no Jacobian, no elimination per pose |
-| `correctors.levenberg_marquardt` | vanishes with the residual | safe from afar and at singular poses; one step control |
-| `correctors.least_residual` | singular values cut off at the play | inconsistent loops: a damped step would follow noise |
+| `correctors.levenberg_marquardt` | vanishes with the residual | safe from afar and at singular poses |
+| `correctors.least_residual` | cutoff at the play | loops do not close: a damped step would follow the play |
 | `mobility.host_closure` | as `levenberg_marquardt` | numpy, one pose: analyses before a sweep compile nothing |
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
 | `dimensions.rearrange` | its own | unknowns are positions of features, not coordinates of joints |
