@@ -118,7 +118,7 @@ def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 p
 def _of_rods(
     rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
 ) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
-    """Compute the difference in length of both chains between the balls of a rod, and its derivatives by the columns."""
+    """Compute the difference in length of both chains between the balls of a rod, and its derivatives."""
     apart = translation[:, rods]
     length = lengths(apart)
     along = jnp.moveaxis(apart / length, 0, 2)
@@ -213,7 +213,7 @@ def _product(a: Rotation, b: Rotation) -> Rotation:
 
 
 def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
-    """Compute the constants of the loops from the frames of the joints: those on part 1, those on part 2, and the identity."""
+    """Compute the constants of the loops from the frames of the joints: on part 1, on part 2, and the identity."""
     table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
