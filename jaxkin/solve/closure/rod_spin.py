@@ -87,7 +87,7 @@ def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
 
 
 def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"]) -> Float[Array, "3 3 *poses"]:
-    """Compute a rotation matrix, [column, row], that turns the direction `one` into `other`, with arbitrary spin about it."""
+    """Compute a rotation matrix [column, row] that turns the direction `one` into `other`, with any spin."""
     one, other = one / lengths(one), other / lengths(other)
     cos, cross = jnp.sum(one * other, axis=0), jnp.cross(one, other, axis=0)
     near = jnp.concatenate([1 + cos[None], cross])
