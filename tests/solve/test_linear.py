@@ -24,8 +24,7 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize("poses", [3, 1024])
-@pytest.mark.parametrize("rows", [2, 3, 4, 9, 10, 12, 13, 25, 39, 40])
+@pytest.mark.parametrize(("rows", "poses"), [(3, 3), (9, 3), (9, 1024), (12, 3), (13, 3), (39, 3), (40, 3)])
 @pytest.mark.parametrize("lacking", [0, 1])
 def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, lacking):
     """On both sides of each limit between the algorithms, of full rank and of one less."""
