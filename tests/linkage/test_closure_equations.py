@@ -64,5 +64,3 @@ def test_wrong_coordinates_are_named():
         planar_fourbar().closure({"E": 0.1})
     with pytest.raises(ValueError, match=r"joint 'A' \(revolute\) has 1 coordinates.*got \(0.1, 0.2\)"):
         planar_fourbar().closure({"A": (0.1, 0.2)})
-    with pytest.raises(ValueError, match=r"coordinates are given by name"):
-        planar_fourbar().closure([0.1, 0.2])

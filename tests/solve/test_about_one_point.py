@@ -78,7 +78,7 @@ def test_a_joint_moved_along_its_axis_on_one_part_is_not_of_the_class():
     """All axes still meet in one point of the assembled pose, but that of the crank is another one once it turns."""
     mechanism = spherical_linkage()
     first, *others = mechanism.all_joints
-    shifted = np.array(first.after)
+    shifted = np.array(first.frames_2)
     shifted[..., :3, 3] += 1e-3 * shifted[..., :3, 2]
     moved = mechanism.linkage.with_joints([replace(first, after=shifted), *others])
     assert moved.classes[0].spherical == ()
