@@ -27,9 +27,11 @@ from jaxkin.joints.pairs import universal as universal
 from jaxkin.mechanism.lost_contacts import LostContact as LostContact
 from jaxkin.mechanism.mechanism import Mechanism as Mechanism
 from jaxkin.mechanism.motion import Motion as Motion
+from jaxkin.mechanism.pose_error import PoseError as PoseError
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
 from jaxkin.mobility.open_loops import Opening as Opening
+from jaxkin.solve.options import SolverOptions as SolverOptions
 from jaxkin.solve.status import Status as Status
 from jaxkin.view import structure as _structure
 

@@ -20,6 +20,7 @@ from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
+from jaxkin.solve.options import SolverOptions, options_with
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -55,6 +56,7 @@ def optimize(
     target: float | None = None,
     penalty: float | None = None,
     progress: bool | None = None,
+    options: SolverOptions | None = None,
 ) -> Optimum:
     """The design of least loss.
 
@@ -82,7 +84,8 @@ def optimize(
 
     A start retires when it improves by less than `tolerance` relative over ten iterations, or at its pace will not
     reach the best one. The search ends when all have, when the best feasible loss is at or below `target`, or after
-    `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep.
+    `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep. `options` says how poses are found, as in
+    `Mechanism.sweep`; `method` and `tolerance` are those of the optimiser.
 
     Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
     """
@@ -94,7 +97,7 @@ def optimize(
         raise ValueError(f"starts and iterations must be at least 1, got {starts} and {iterations}")
     chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})
     squares = method == "least-squares" or (method is None and isinstance(loss, Objective))
-    problem = Problem(loss, squares, mechanism, chosen, tuple(constraints))
+    problem = Problem(loss, squares, mechanism, chosen, tuple(constraints), options_with(options))
     checked_shape(problem, jnp.asarray(chosen.start))
     began = time.perf_counter()
     first = _first(problem)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
@@ -18,6 +18,7 @@ from jaxkin.design.variables import Variables
 from jaxkin.dimensions.frames import with_points
 from jaxkin.dimensions.lengths import rearranged
 from jaxkin.mechanism.sweep import sweep
+from jaxkin.solve.options import SolverOptions
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -50,13 +51,16 @@ class Problem:
     mechanism: Mechanism
     variables: Variables
     constraints: Sequence[Constraint]
+    options: SolverOptions = field(default_factory=SolverOptions)
+    """How poses are found."""
 
     def motion(self, vector) -> tuple[Motion, dict[str, Any], dict[str, Any]]:
         """The motion of a design, its extra variables, and the misfits of its parts."""
         values = self.variables.values(vector)
         linkage, misfits = rearranged(self.mechanism.linkage, values.lengths)
         linkage = with_points(linkage, values.points)
-        return sweep(self.mechanism.with_linkage(linkage), values.inputs), values.extras, misfits
+        motion = sweep(self.mechanism.with_linkage(linkage), values.inputs, options=self.options)
+        return motion, values.extras, misfits
 
     def judge(self, vector) -> Judged:
         """Residuals and violations of a design, differentiable."""

@@ -215,7 +215,7 @@ def judged_range(motion: Motion) -> Moves:
         status, steepest = np.zeros(len(values), int), 0.0
         for first in range(0, len(values) - 1, size - 1):  # neighbours share a pose
             piece = slice(min(first, len(values) - size), first + size)
-            found = motion.mechanism.sweep({name: values[piece]})
+            found = motion.mechanism.sweep({name: values[piece]}, options=motion.options)
             status[piece], steepest = found.status, max(steepest, _steepest(found))
     counts = {each.name: int(np.sum(status == each)) for each in Status if np.any(status == each)}
     return Moves(len(status), counts, steepest)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.solve.methods import CONTINUATION, METHODS
+from jaxkin.solve.options import CONTINUATION, METHODS, SolverOptions, options_with
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -22,13 +22,17 @@ if TYPE_CHECKING:
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)
 TIGHTEST_32 = 1e-6
-"""The tightest tolerance that float32 is asked for."""
-COMPARED, RUNS, SECONDS = 12, 7, 2.0
-"""Poses whose error is measured; runs at most, and seconds after which no more are begun."""
+"""The tightest tolerance that float32 is asked for: rounding leaves about 5e-7."""
+COMPARED_POSES = 12
+"""Poses whose error is measured: extended precision takes longer for a few than a sweep for all."""
+MAX_RUNS = 7
+"""Sweeps that are timed, at most, of which the median counts."""
+MAX_SECONDS = 2.0
+"""Seconds after which no more sweeps are timed."""
 
 
 class Point(NamedTuple):
-    """One sweep."""
+    """Time and error of one sweep."""
 
     method: str
     precision: str
@@ -36,13 +40,13 @@ class Point(NamedTuple):
     tolerance: float | None
     """Closure residual asked for; None: down to rounding."""
     seconds: float
-    """Of a sweep, compiled before, the median of several."""
+    """Time of the sweep, compiled before: the median of several."""
     error: float
     """Largest error of a pose in radians and characteristic lengths, against the pose in extended precision."""
     residual: float
     """Largest closure residual of the closed poses."""
     closed: float
-    """Share of the poses."""
+    """Fraction of the poses that is closed."""
 
 
 @dataclass(frozen=True)
@@ -56,11 +60,11 @@ class WorkPrecision:
 
     @property
     def advice(self) -> str:
-        """What to ask for, in one sentence."""
-        ours = [point for point in self.points if point.method == CONTINUATION and point.precision == "float64"]
-        best = min(ours, key=lambda point: point.error)
-        coarse = [point for point in ours if point.error <= 1e-4]
-        cheap = min(coarse or ours, key=lambda point: point.seconds)
+        """What accuracy costs here, in one sentence."""
+        continuation = [point for point in self.points if point.method == CONTINUATION and point.precision == "float64"]
+        best = min(continuation, key=lambda point: point.error)
+        coarse = [point for point in continuation if point.error <= 1e-4]
+        cheap = min(coarse or continuation, key=lambda point: point.seconds)
         more = best.seconds / cheap.seconds - 1
         cost = f"costs {more:.0%} more than" if more >= 0.05 else "costs no more than"
         single = [point.error for point in self.points if point.precision == "float32"]
@@ -98,33 +102,40 @@ def work_precision(
     *,
     tolerances: Sequence[float] = TOLERANCES,
     methods: Sequence[str] = METHODS,
+    options: SolverOptions | None = None,
     step: Callable[[str], None] = lambda what: None,
 ) -> WorkPrecision:
     """Sweep a mechanism at many tolerances, in both precisions and by several methods, and measure time and error.
 
     Errors are against poses in extended precision, near those that the sweep finds; coordinates of idle freedoms have
-    no exact value and are left out. `step` is told what is about to be swept. Needs mpmath. Raises ValueError as
-    `sweep` does, and where no pose closes.
+    no exact value and are left out. `options` says all but tolerance and method, which vary. `step` is told what is
+    about to be swept. Needs mpmath. Raises ValueError as `sweep` does, where `options` say a tolerance or a method, and
+    where no pose closes.
     """
-    reference = mechanism.sweep(drive)
+    options = options_with(options)
+    for name, of_options in (("tolerance", options.tolerance), ("method", options.method)):
+        if of_options != getattr(SolverOptions, name):
+            raise ValueError(f"options say {name}={of_options!r}, which is varied here: write {name}s=[{of_options!r}]")
+    reference = mechanism.sweep(drive, options=options)
     closed = np.flatnonzero(np.asarray(reference.closed))
     if not len(closed):
         raise ValueError("no pose of this drive closes, so there is nothing to measure: see the status of its sweep")
-    chosen = np.unique(closed[np.linspace(0, len(closed) - 1, COMPARED).round().astype(int)])
-    exact = _Exact(mechanism, reference, chosen)
+    chosen = np.unique(closed[np.linspace(0, len(closed) - 1, COMPARED_POSES).round().astype(int)])
+    exact = _ExactPoses(mechanism, reference, chosen)
     points = []
     for method, precision, tolerance in combinations(tolerances, methods):
         step(f"{method}, {precision}, {'rounding' if tolerance is None else f'{tolerance:.0e}'}")
         with jax.enable_x64(precision == "float64"), warnings.catch_warnings():
             warnings.filterwarnings("ignore", "jaxkin computes in float32")  # that is what is asked for
-            points.append(_measured(mechanism, drive, method, precision, tolerance, exact))
+            asked = replace(options, method=method, tolerance=tolerance)
+            points.append(_measured(mechanism, drive, asked, precision, exact))
     return WorkPrecision(tuple(points), len(reference), len(chosen))
 
 
 def combinations(
     tolerances: Sequence[float] = TOLERANCES, methods: Sequence[str] = METHODS
 ) -> list[tuple[str, str, float | None]]:
-    """Method, precision and tolerance of every sweep; ours in both precisions, and down to rounding."""
+    """Method, precision and tolerance of every sweep; the continuation in both precisions, and down to rounding."""
     found: list[tuple[str, str, float | None]] = []
     for method in methods:
         found += [(method, "float64", tolerance) for tolerance in tolerances]
@@ -135,24 +146,25 @@ def combinations(
     return found
 
 
-def _measured(
-    mechanism: Mechanism, drive, method: str, precision: str, tolerance: float | None, exact: _Exact
-) -> Point:
+def _measured(mechanism: Mechanism, drive, options: SolverOptions, precision: str, exact: _ExactPoses) -> Point:
+    """Time one sweep, compiled before, and measure its error."""
+
     def run() -> Motion:
-        return jax.block_until_ready(mechanism.sweep(drive, tolerance=tolerance, method=method))
+        return jax.block_until_ready(mechanism.sweep(drive, options=options))
 
     motion, times = run(), []
-    while len(times) < RUNS and (not times or sum(times) < SECONDS):
+    while len(times) < MAX_RUNS and (not times or sum(times) < MAX_SECONDS):
         begin = time.perf_counter()
         run()
         times.append(time.perf_counter() - begin)
     closed = np.asarray(motion.closed)
     residual = float(np.max(np.asarray(motion.residual)[closed], initial=0.0))
     seconds = float(np.median(times))
-    return Point(method, precision, tolerance, seconds, exact.error(motion), residual, float(closed.mean()))
+    error = exact.error(motion)
+    return Point(options.method, precision, options.tolerance, seconds, error, residual, float(closed.mean()))
 
 
-class _Exact:
+class _ExactPoses:
     """Exact poses at some places of a motion, and the errors of other motions there."""
 
     def __init__(self, mechanism: Mechanism, motion: Motion, chosen: np.ndarray) -> None:
@@ -171,7 +183,7 @@ class _Exact:
             )
 
     def error(self, motion: Motion) -> float:
-        """Largest over the chosen poses that are closed, in radians and characteristic lengths."""
+        """Largest error of the chosen poses that are closed, in radians and characteristic lengths."""
         closed, largest = np.asarray(motion.closed)[self.chosen], 0.0
         for joints, loops, poses, seen in self.loop_groups:
             for row, pose, kept, is_closed in zip(self._rows(motion, joints), poses, seen, closed, strict=True):

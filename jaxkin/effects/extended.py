@@ -20,7 +20,14 @@ from jaxkin.topology.structure import LoopGroup
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-DIGITS, STEPS, STILL = 50, 12, 1e-22
+DIGITS = 50
+"""Decimal digits: the error of the reference is then nothing beside that of float64, also at singular poses."""
+CHORD_STEPS = 12
+"""Chord steps at most: each gains some ten digits, fewer near singular poses."""
+LAST_STEP = 1e-22
+"""Step, radians or lengths, below which the pose has converged: far below the rounding of float64."""
+RANK = 1e-9
+"""Singular value over the largest one that counts as zero: an idle freedom."""
 
 Row = Float[np.ndarray, " columns"]
 
@@ -42,13 +49,14 @@ class Extended:
         self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, loop_group)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
-        """The exact pose near q with the same driven coordinates, rounded; and whether the steps came to an end.
+        """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.
 
-        `q` is in radians and lengths of the mechanism; where freedoms are idle, the nearest such pose. Frames are
-        rounded too: redundant equations close to that only, and what is exact is the pose of least residual.
+        `q` is in radians and lengths of the mechanism; where freedoms are idle, the nearest such pose is found. Frames
+        are rounded numbers: redundant equations close to their rounding only, and what is found is the pose of least
+        residual.
         """
         exact = [self.mp.mpf(float(value)) for value in q]
-        for _ in range(STEPS):
+        for _ in range(CHORD_STEPS):
             misfit = self._misfit(exact)
             size = max((abs(value) for value in misfit), default=self.mp.mpf(0))
             rounded = np.array([float(value) for value in exact])
@@ -56,19 +64,19 @@ class Extended:
                 return rounded, True
             step = size * self.mp.matrix(self._step(rounded, np.array([float(value / size) for value in misfit])))
             exact = [value - d for value, d in zip(exact, step, strict=True)]
-            if max(abs(d) for d in step) < STILL:
+            if max(abs(d) for d in step) < LAST_STEP:
                 return np.array([float(value) for value in exact]), True
         return np.array([float(value) for value in exact]), False
 
     def idle(self, q: Row) -> Float[np.ndarray, "columns columns"]:
-        """Projector onto what no equation says anything about at a pose: idle freedoms have no exact value."""
+        """The projector onto the idle freedoms of a pose: no equation determines them, so they have no exact value."""
         jacobian = self._jacobian(q)
         _, values, directions = np.linalg.svd(jacobian)
-        kept = directions[: int((values > 1e-9 * values[0]).sum())]
+        kept = directions[: int((values > RANK * values[0]).sum())]
         return np.eye(len(q)) - kept.T @ kept
 
     def _step(self, q: Row, misfit: np.ndarray) -> Row:
-        return np.linalg.pinv(self._jacobian(q), rcond=1e-9) @ misfit
+        return np.linalg.pinv(self._jacobian(q), rcond=RANK) @ misfit
 
     def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
         jacobian = np.zeros((6 * len(self.loop_group.loops), len(q)))
@@ -76,7 +84,7 @@ class Extended:
         return jacobian / self.loops.units
 
     def _misfit(self, q: list) -> list:
-        """Rotation and translation, over the characteristic length, that the loops leave open."""
+        """Rotation and translation, the latter over the characteristic length, by which the loops do not close."""
         steps = {index: self._displacement(joint, q[self.loops.slices[index]]) for index, joint in self.joints.items()}
         found, places = [], {}
         centre = self.mp.matrix([float(value) for value in self.loops.centre])
@@ -93,7 +101,7 @@ class Extended:
         return found
 
     def _displacement(self, joint: Joint, q: list) -> Any:
-        """J = product of `frames_1 T frames_2^-1` (Table 2)."""
+        """Displacement J of part 2 relative to part 1: the product of `frames_1 T frames_2^-1` (Table 2)."""
         pose, first = self.mp.eye(4), 0
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
@@ -120,5 +128,5 @@ class Extended:
         return self.mp.matrix(np.asarray(pose, float).tolist())
 
     def _inverse(self, pose) -> Any:
-        """Of a pose that is rigid to rounding only: exactly."""
+        """Inverse of a pose, exactly: the pose is rigid to rounding only, so its transpose would not do."""
         return pose**-1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -15,29 +15,30 @@ from jaxtyping import Array, Bool, Float
 from jaxkin._names import by_name, nearest
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mechanism.sweep import spoilt, sweep
+from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
+from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
+    pass
 
 Inputs = dict[str, Float[Array, " poses"]]
 
 
 @dataclass(frozen=True, eq=False)
 class Rates:
-    """First or second derivatives of a motion with respect to time. A pytree; poses come first.
+    """First or second derivatives of a motion with respect to time. A pytree; every array has the poses first.
 
-    Poses that did not close have rates zero, and NONFINITE ones NaN: `motion.status` tells them.
+    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which.
     """
 
     motion: Motion
     inputs: Inputs
     """The given rates of the driven displacements."""
     displacements: tuple[Float[Array, "poses _"], ...]
-    """Of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
+    """Rates of the displacements of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
     matrices: tuple[Float[Array, "poses 4 4"], ...]
-    """Of the transforms of all parts, in the order of `mechanism.parts`."""
+    """Rates of the transforms of all parts, in the order of `mechanism.parts`."""
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
@@ -46,12 +47,12 @@ class Rates:
 
     @cached_property
     def coordinates(self) -> Mapping[str, Float[Array, "poses _"]]:
-        """Of each joint, in the order of its `coordinates`."""
+        """Rates of the displacements of each joint, in the order of its `coordinates`."""
         return dict(zip(self.motion.mechanism.joints, self.displacements, strict=True))
 
     @cached_property
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
-        """Of each part, the derivative of its displacement matrix."""
+        """The derivative of the displacement matrix of each part."""
         return dict(zip(self.motion.mechanism.parts, self.matrices, strict=True))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
@@ -62,7 +63,7 @@ class Rates:
     def angular(self, part: str) -> Float[Array, "poses 3"]:
         """Angular velocity (or acceleration) of a part, world axes, radians per time (or its square)."""
         rotation = self.motion.transforms[_known(self.motion, part)][:, :3, :3]
-        # of an acceleration R'' R^T = [alpha] + [omega]^2, of which the skew part is [alpha]
+        # for an acceleration R'' R^T = [alpha] + [omega]^2, of which the skew part is [alpha]
         spin = jnp.einsum("pij,pkj->pik", self.transforms[part][:, :3, :3], rotation)
         return 0.5 * jnp.stack(
             [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=-1
@@ -72,44 +73,60 @@ class Rates:
 jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "displacements", "matrices"], meta_fields=[])
 
 
-def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
+def velocities(motion: Motion, rates: Mapping[str, Any], *, options: SolverOptions | None = None) -> Rates:
     """Velocities of all joints and parts in every pose of a motion, for given rates of its driven displacements.
 
     `rates` maps a driven "joint" or "joint.coordinate" to one number or one a pose, in radians or lengths per time;
-    driven coordinates that it does not name are at rest. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a
-    name that is not driven and for arrays of another length.
+    driven coordinates that it does not name are at rest. Poses are found anew with `options`, by default those of the
+    motion. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a name that is not driven and for arrays of
+    another length.
     """
     tangents = _tangents(motion, rates)
-    found = jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (motion.inputs,), (tangents,))[1]
-    return Rates(motion, tangents, *_without_nonfinite(motion, found))
+    place = _placing(motion, options)
+    found = jax.jvp(place, (motion.inputs,), (tangents,))[1]
+    return Rates(motion, tangents, *_nan_where_nonfinite(motion, found))
 
 
-def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
+def accelerations(
+    motion: Motion,
+    rates: Mapping[str, Any],
+    accelerations: Mapping[str, Any] | None = None,
+    *,
+    options: SolverOptions | None = None,
+) -> Rates:
     """Accelerations, for given rates and accelerations (none: constant rates) of the driven displacements.
 
     As `velocities`; second derivatives with respect to time.
     """
     first = _tangents(motion, rates)
     second = _tangents(motion, accelerations or {})
+    place = _placing(motion, options)
 
     def velocity(inputs: Inputs, tangents: Inputs):
-        return jax.jvp(lambda inputs: _place(motion.mechanism, inputs), (inputs,), (tangents,))[1]
+        return jax.jvp(place, (inputs,), (tangents,))[1]
 
     found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
-    return Rates(motion, second, *_without_nonfinite(motion, found))
+    return Rates(motion, second, *_nan_where_nonfinite(motion, found))
 
 
-def _place(mechanism: Mechanism, inputs: Inputs):
-    motion = sweep(mechanism, inputs)
-    return motion.displacements, tuple(motion.transforms.values())
+def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
+    """The function from inputs to displacements of all joints and transforms of all parts, which is differentiated."""
+    options = options_with(options if options is not None else motion.options)
+
+    def place(inputs: Inputs):
+        found = sweep(motion.mechanism, inputs, options=options)
+        return found.displacements, tuple(found.transforms.values())
+
+    return place
 
 
-def _without_nonfinite(motion: Motion, found):
-    """The rates, NaN at poses that are NONFINITE: to them the sweep gives poses of no meaning."""
-    return spoilt(found, motion.status != Status.NONFINITE.value)
+def _nan_where_nonfinite(motion: Motion, found):
+    """Set rates to NaN at poses that are NONFINITE, which the sweep replaces by poses of no meaning."""
+    return nan_where_not_finite(found, motion.status != Status.NONFINITE.value)
 
 
 def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
+    """Rates of all driven displacements, one a pose, from those that were given by name."""
     if not isinstance(motion, Motion):
         raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     given = {}
@@ -122,12 +139,13 @@ def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
             )
         given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
     driven = resolve(motion.mechanism.linkage, given) if given else {}
-    named = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
-    for name in named:
+    given_rates = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
+    for name in given_rates:
         if name not in motion.inputs:
             raise ValueError(f"{name!r} is not driven in this motion{nearest(name, motion.inputs)}")
     return {
-        name: named.get(name, jnp.zeros_like(values)).astype(values.dtype) for name, values in motion.inputs.items()
+        name: given_rates.get(name, jnp.zeros_like(values)).astype(values.dtype)
+        for name, values in motion.inputs.items()
     }
 
 

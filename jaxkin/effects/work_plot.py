@@ -1,4 +1,4 @@
-"""A drawing of time against error."""
+"""Draw time against error."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from jaxkin.effects.accuracy import WorkPrecision
 
 MARKERS = "osD^vPX"
+"""Markers of matplotlib, one a method and precision in turn."""
 
 
 def draw(work: WorkPrecision, path: Path) -> Path:

@@ -18,7 +18,7 @@ from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
-from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -110,20 +110,27 @@ class Mechanism:
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
     def sweep(
-        self, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+        self,
+        drive: Mapping[str, object],
+        *,
+        options: SolverOptions | None = None,
+        tolerance: float | None = None,
+        method: str | None = None,
+        throw: bool = False,
     ) -> Motion:
         """The motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
         from jaxkin.mechanism.sweep import sweep
 
-        return sweep(self, drive, tolerance=tolerance, method=method)
+        return sweep(self, drive, options=options, tolerance=tolerance, method=method, throw=throw)
 
     def stream(
         self,
         drive: Mapping[str, object],
         chunk: int = 100_000,
         *,
+        options: SolverOptions | None = None,
         tolerance: float | None = None,
-        method: str = CONTINUATION,
+        method: str | None = None,
     ) -> Stream:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
 
@@ -136,7 +143,7 @@ class Mechanism:
         """
         from jaxkin.mechanism.stream import Stream
 
-        return Stream(self, drive, chunk, tolerance, method)
+        return Stream(self, drive, chunk, options_with(options, tolerance, method))
 
     def closure(self, coordinates: Mapping[str, object]) -> ClosureEquations:
         """Evaluate the closure equations of all loops and their Jacobian, for optimisers of your own.

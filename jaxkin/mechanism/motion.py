@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +18,9 @@ from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
@@ -43,6 +45,8 @@ class Motion:
     """Codes of `Status`."""
     residual: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length of the loops."""
+    options: SolverOptions = field(default_factory=SolverOptions)
+    """How the poses were found; effects of the motion use the same. Static data to JAX, without a traced tolerance."""
 
     def __len__(self) -> int:
         return self.status.shape[0]
@@ -56,6 +60,14 @@ class Motion:
     def on_branch(self) -> Bool[Array, " poses"]:
         """Which poses are on the branch of the assembled pose: closed, or as nearly closed as the joints agree."""
         return self.closed | (self.status == Status.MISFIT.value)
+
+    def check(self) -> Motion:
+        """Raise PoseError where a pose is not on the branch of the assembled pose, with a remedy; else return itself.
+
+        Raises ValueError inside `jit`, `vmap` and `grad`, where the statuses are no numbers yet.
+        """
+        check(self)
+        return self
 
     @cached_property
     def sigma_min(self) -> Float[Array, " poses"]:
@@ -154,5 +166,5 @@ def tally(
 
 
 jax.tree_util.register_dataclass(
-    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=[]
+    Motion, data_fields=["mechanism", "inputs", "displacements", "status", "residual"], meta_fields=["options"]
 )

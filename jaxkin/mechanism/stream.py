@@ -1,8 +1,9 @@
 """Ranges of any length, chunk by chunk: motions that continue each other, in bounded memory.
 
-All chunks are solved by one compiled program. Each begins with the last pose of the one before, by which they are tied
-together. A single input leads there in one way only. Several inputs are led there by a short way first; where that ends
-on another branch, or poses of the chunk do not close, the way that was gone before is gone again.
+All chunks are solved by one compiled program. Each begins with a lead: inputs that end at the last pose of the chunk
+before, by which the two are tied together. A single input needs no other lead than that pose. Several inputs are first
+led there by a short path; where that ends on another branch, or poses of the chunk do not close, the path that was
+travelled before is travelled again.
 """
 
 from __future__ import annotations
@@ -22,21 +23,24 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.sweep import spoilt, sweep
+from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-WAY, SPACING = 128, 0.1
-"""Where there are several inputs: how many poses lead to a chunk at least, and how far they are apart at most, in
-radians or over the size of the mechanism."""
-SAME = 1e-4
-"""Radians, or over the size: where a pose is reached in two ways. At a singular one the two may differ by the root of
-rounding, or a higher one."""
+LEAD_POSES = 128
+"""Poses of the lead of a chunk of several inputs, at least."""
+LEAD_SPACING = 0.1
+"""Distance of the poses of a lead along the path travelled before, at most, in radians or over the size of the
+mechanism: a third of the longest step of the continuation."""
+SAME_PLACE = 1e-4
+"""Distance of parts, radians or over the size, at which a pose that is reached in two ways is one pose. At a singular
+pose the two may differ by the root of rounding, or a higher one."""
 
 
-class _Pose(NamedTuple):
+class _SharedPose(NamedTuple):
     """The pose that two chunks share."""
 
     displacements: tuple[Float[np.ndarray, " _"], ...]
@@ -46,9 +50,7 @@ class _Pose(NamedTuple):
 class Stream:
     """The motions of consecutive chunks of a drive, in turn: see `Mechanism.stream`."""
 
-    def __init__(
-        self, mechanism: Mechanism, drive: Mapping[str, object], chunk: int, tolerance: float | None, method: str
-    ) -> None:
+    def __init__(self, mechanism: Mechanism, drive: Mapping[str, object], chunk: int, options: SolverOptions) -> None:
         if traced(mechanism, {name: drive[name] for name in named(drive)}):
             raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
         if not isinstance(chunk, int | np.integer) or chunk < 1:
@@ -58,10 +60,10 @@ class Stream:
         """Driven displacements by "joint.coordinate", of all poses, as they were given."""
         followed, self._finite = without_gaps(tuple(self.inputs.values()))
         self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))
-        """The same as the motion is followed: without NaN and infinity."""
+        """The displacements as the motion is followed: without NaN and infinity."""
         self.poses = len(next(iter(self.inputs.values())))
         self.chunk = min(chunk, max(self.poses, 1))
-        self._sweep = partial(sweep, mechanism, tolerance=tolerance, method=method)
+        self._sweep = partial(sweep, mechanism, options=options)
         origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in mechanism.all_joints])
         self._centre, self._size = origins.mean(axis=0), float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0
 
@@ -73,36 +75,46 @@ class Stream:
         if len(self) == 1:
             yield self._sweep(self.inputs)
             return
-        kept, last = True, None
+        on_branch, last = True, None
         for first in range(0, self.poses, self.chunk):
-            for lead in self._leads(first):
-                leading = lead.shape[1]
-                which = np.minimum(np.arange(first, first + self.chunk), self.poses - 1)
-                rows = (np.concatenate([to, of[which]]) for to, of in zip(lead, self._followed.values(), strict=True))
-                motion = self._sweep(dict(zip(self.inputs, rows, strict=True)))
-                met = _row(motion, leading - 1)
-                same = last is None or not last.closed or self._same(last, met)
-                if same and not np.any(np.asarray(motion.status) != Status.CLOSED.value):
-                    break
-            kept = kept and same
+            motion, leading, met, same = self._led(first, last)
+            on_branch = on_branch and same
             count = min(self.chunk, self.poses - first)
             arrays = motion.inputs, motion.displacements, motion.status, motion.residual
-            motion = Motion(self.mechanism, *_cut(arrays, self._turns(last, met), jnp.asarray(kept), leading, count))
-            last = _row(motion, count - 1)
+            cut = _cut(arrays, self._turns(last, met), jnp.asarray(on_branch), leading, count)
+            motion = Motion(self.mechanism, *cut, options=motion.options)
+            last = _shared_pose(motion, count - 1)
             yield self._as_given(motion, first)
 
+    def _led(self, first: int, last: _SharedPose | None) -> tuple[Motion, int, _SharedPose, bool]:
+        """Solve the chunk that begins at pose `first`, behind one lead after the other until one keeps the branch.
+
+        Returns the motion, with its lead; the number of poses of that; the pose at its end; and whether this is `last`,
+        the last pose of the chunk before.
+        """
+        for lead in self._leads(first):
+            leading = lead.shape[1]
+            which = np.minimum(np.arange(first, first + self.chunk), self.poses - 1)
+            rows = (np.concatenate([to, of[which]]) for to, of in zip(lead, self._followed.values(), strict=True))
+            motion = self._sweep(dict(zip(self.inputs, rows, strict=True)))
+            met = _shared_pose(motion, leading - 1)
+            same = last is None or not last.closed or self._same(last, met)
+            if same and not np.any(np.asarray(motion.status) != Status.CLOSED.value):
+                break
+        return motion, leading, met, same
+
     def _as_given(self, motion: Motion, first: int) -> Motion:
-        """The motion of a chunk, NONFINITE where its inputs are not finite."""
+        """The motion of a chunk with the inputs that were given, NONFINITE where these are not finite."""
         chunk = slice(first, first + len(motion))
         if self._finite is None or (finite := self._finite[chunk]).all():
             return motion
-        displacements, residual = spoilt((motion.displacements, motion.residual), finite)
+        displacements, residual = nan_where_not_finite((motion.displacements, motion.residual), finite)
         status = jnp.where(finite, motion.status, Status.NONFINITE.value)
         inputs = {name: jnp.asarray(values[chunk]) for name, values in self.inputs.items()}
-        return Motion(self.mechanism, inputs, displacements, status, residual)
+        return Motion(self.mechanism, inputs, displacements, status, residual, motion.options)
 
     def _leads(self, first: int) -> Iterator[Float[np.ndarray, "driven leading"]]:
-        """Inputs that lead to the pose before the chunk that begins there, that included: what to try in turn."""
+        """Inputs that lead to the pose before the chunk that begins at pose `first`, that included: to try in turn."""
         before = max(first - 1, 0)
         end = np.stack([values[before] for values in self._followed.values()])[:, None]
         if len(self.inputs) == 1:
@@ -110,44 +122,45 @@ class Stream:
             return
         step = end - np.stack([values[max(before - 1, 0)] for values in self._followed.values()])[:, None]
         far, near = np.max(np.abs(end) / self._scales), np.max(np.abs(step) / self._scales)
-        turning = end - 0.5 * (far / near * step if near > 0 else end)
-        t = np.linspace(0.0, 1.0, WAY)
-        yield 2 * t * (1 - t) * turning + t * t * end  # a parabola, which comes in along the way: a corner is hard
+        control = end - 0.5 * (far / near * step if near > 0 else end)
+        t = np.linspace(0.0, 1.0, LEAD_POSES)
+        # a parabola, which ends in the direction in which the inputs go on: a corner is hard to follow
+        yield 2 * t * (1 - t) * control + t * t * end
         if first:
-            gone = self._distance[:first]
-            leading = WAY
-            while leading < min(self.chunk, gone[-1] / SPACING):
+            travelled = self._distance[:first]
+            leading = LEAD_POSES
+            while leading < min(self.chunk, travelled[-1] / LEAD_SPACING):
                 leading *= 4
-            which = np.minimum(np.searchsorted(gone, np.linspace(0.0, gone[-1], leading)), before)
+            which = np.minimum(np.searchsorted(travelled, np.linspace(0.0, travelled[-1], leading)), before)
             which[-1] = before
             yield np.stack([values[which] for values in self._followed.values()])
 
     @cached_property
     def _scales(self) -> Float[np.ndarray, "driven 1"]:
-        """What inputs are divided by to be compared: lengths by the size."""
+        """What inputs are divided by to be compared: lengths by the size of the mechanism, angles by one."""
         lengths = [is_length(name.rpartition(".")[2]) for name in self.inputs]
         return np.where(lengths, self._size, 1.0)[:, None]
 
     @cached_property
     def _distance(self) -> Float[np.ndarray, " poses"]:
-        """Of each pose from the first, along all poses between them."""
+        """Distance of each pose from the first, along all poses between them."""
         step = np.zeros(self.poses)
         for values, scale in zip(self._followed.values(), self._scales, strict=True):
             np.maximum(step[1:], np.abs(np.diff(values)) / scale, out=step[1:])
         return np.cumsum(step)
 
-    def _same(self, one: _Pose, other: _Pose) -> bool:
-        """Whether all parts are at the same places, both times closed on the branch of the assembled pose."""
+    def _same(self, one: _SharedPose, other: _SharedPose) -> bool:
+        """Tell whether all parts are at the same places in both poses, and the other one is closed."""
         both = tuple(np.stack(pair) for pair in zip(one.displacements, other.displacements, strict=True))
         for transforms in map(np.asarray, part_transforms(self.mechanism.linkage, both)):
             rotation, shift = transforms[1, :3, :3] - transforms[0, :3, :3], transforms[1, :3, 3] - transforms[0, :3, 3]
             moved = rotation @ self._centre + shift
-            if not max(np.abs(rotation).max(), np.abs(moved).max() / self._size) <= SAME:
+            if not max(np.abs(rotation).max(), np.abs(moved).max() / self._size) <= SAME_PLACE:
                 return False
         return other.closed
 
-    def _turns(self, last: _Pose | None, met: _Pose) -> tuple[Float[np.ndarray, " _"], ...]:
-        """The full turns by which angles of a chunk continue those of the chunk before."""
+    def _turns(self, last: _SharedPose | None, met: _SharedPose) -> tuple[Float[np.ndarray, " _"], ...]:
+        """The full turns, radians, by which angles of a chunk continue those of the chunk before."""
         if last is None:
             return tuple(np.zeros_like(here) for here in met.displacements)
         turns = []
@@ -157,9 +170,9 @@ class Stream:
         return tuple(turns)
 
 
-def _row(motion: Motion, number: int) -> _Pose:
+def _shared_pose(motion: Motion, number: int) -> _SharedPose:
     displacements, status = jax.device_get(_at((motion.displacements, motion.status), number))
-    return _Pose(displacements, bool(status == Status.CLOSED.value))
+    return _SharedPose(displacements, bool(status == Status.CLOSED.value))
 
 
 @jax.jit
@@ -168,9 +181,9 @@ def _at(arrays, number):
 
 
 @partial(jax.jit, static_argnums=(3, 4))
-def _cut(arrays, turns: tuple[Float[Array, " _"], ...], kept: Bool[Array, ""], first: int, count: int):
-    """So many poses from one on, so many turns further; JUMPED where the branch was not kept."""
+def _cut(arrays, turns: tuple[Float[Array, " _"], ...], on_branch: Bool[Array, ""], first: int, count: int):
+    """Cut `count` poses from `first` on and add full turns to them; JUMPED where the branch was not kept."""
     inputs, displacements, status, residual = jax.tree.map(lambda array: array[first : first + count], arrays)
     displacements = tuple(each + more for each, more in zip(displacements, turns, strict=True))
-    status = jnp.where((status == Status.CLOSED.value) & ~kept, Status.JUMPED.value, status)
+    status = jnp.where((status == Status.CLOSED.value) & ~on_branch, Status.JUMPED.value, status)
     return inputs, displacements, status, residual

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -13,7 +13,6 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._names import closest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.describe import why_infeasible
@@ -21,9 +20,8 @@ from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
-from jaxkin.solve.methods import CONTINUATION, METHODS
-from jaxkin.solve.status import Status, Tolerance, roundings
-from jaxkin.solve.status import tolerance as default_tolerance
+from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.solve.status import SEVERITY, ClosureTolerance, Status, default_tolerance, rounding_residual
 from jaxkin.solve.system.from_linkage import Columns
 
 if TYPE_CHECKING:
@@ -31,91 +29,99 @@ if TYPE_CHECKING:
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
 """Displacements of the columns of a structure element, and what became of the poses."""
-ROUNDINGS = 16
-"""Units of rounding in the residual of a pose that is improved no further unless a tolerance is asked for."""
-SEVERITY = (Status.CLOSED, Status.MISFIT, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
-"""Of several loop systems the worst decides the status of the pose."""
+DEFAULT_ROUNDINGS = 16
+"""Units of rounding in the residual of a pose that is improved no further if no tolerance is asked for: 3.6e-15
+in float64, where rounding alone leaves about 1e-15 for each elementary motion."""
 
 
 def sweep(
-    mechanism: Mechanism, drive: Mapping[str, object], *, tolerance: float | None = None, method: str = CONTINUATION
+    mechanism: Mechanism,
+    drive: Mapping[str, object],
+    *,
+    options: SolverOptions | None = None,
+    tolerance: float | None = None,
+    method: str | None = None,
+    throw: bool = False,
 ) -> Motion:
-    """The motion of all parts while some joint coordinates run through given displacements.
+    """Compute the motion of all parts while some joint coordinates run through given displacements.
 
     `drive` maps "joint" (if it has one coordinate) or "joint.coordinate" to an array of one value a pose: radians, or
     lengths in the unit of the mechanism, measured from the assembled pose. Several arrays must have equal length. The
     motion is followed from the assembled pose; a single input may come in any order, several are followed in the order
     given. Only loops that a driven joint moves are solved; coordinates that nothing drives stay at rest.
 
-    A pose is closed where its residual is at most `tolerance`, and improved no further; by default 1e-12 (2e-6 in
-    float32), and improved down to rounding. `method` names another way to find poses (`jaxkin.solve.methods.METHODS`):
-    for comparison, none is as fast or watches the branch. `jk.work_precision` shows what either costs.
+    A pose is closed where its residual is at most the `tolerance`, and improved no further; by default 1e-12 (2e-6 in
+    float32), and improved down to rounding. `method` names another way to find poses (`jaxkin.solve.options.METHODS`):
+    for comparison, none is as fast or watches the branch; `jk.work_precision` shows what either costs. Both are
+    shorthands for fields of `options`, a `jk.SolverOptions`, which has all settings of the solver. The motion keeps its
+    options, and effects of the motion use them.
 
-    Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`, it is never
-    an exception; one whose displacements are NaN or infinite is NONFINITE and NaN itself, and all others are what they
-    would be without it. Raises ValueError for a drive that makes no sense (see `jaxkin.linkage.coordinates.resolve`),
-    or that the loops have no freedoms for (see `jaxkin.mobility.infeasible_drive`; not where the geometry is traced).
+    Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`; with
+    `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose displacements are NaN or infinite is
+    NONFINITE and NaN itself, and all others are what they would be without it. Raises ValueError for a drive that makes
+    no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops have no freedoms for (see
+    `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of wrong values, and for
+    `throw=True` where numbers are traced.
     """
+    options = options_with(options, tolerance, method)
     plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    asked = _tolerance(tolerance)
-    if method not in METHODS:
-        raise ValueError(f"there is no method {method!r} among {', '.join(METHODS)}{closest(method, METHODS)}")
+    asked = _closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
     _warn_of_float32()
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     solutions = [
-        solve(element.system, method, element.joints, _padded([followed[i] for i in element.inputs]), asked)
+        solve(element.system, options, element.joints, _padded([followed[i] for i in element.inputs]), asked)
         for element in elements
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
-    layout = Layout(plan.freedoms, tuple(plan.driven.values()), columns)
+    layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
     inputs, moved, resting, *found = _collect(layout, values, finite, solutions)
     displacements = tuple(
         moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(plan.freedoms)
     )
     # under `grad` JAX hands arrays of the host through as they are
-    return Motion(mechanism, dict(zip(plan.driven, map(jnp.asarray, inputs), strict=True)), displacements, *found)
+    inputs = dict(zip(plan.driven, map(jnp.asarray, inputs), strict=True))
+    motion = Motion(mechanism, inputs, displacements, *found, options=options)
+    if throw:
+        motion.check()
+    return motion
 
 
 def _of_least_residual(
-    elements: Sequence[DrivenElement], solutions: Sequence[Solution], asked: Tolerance
+    elements: Sequence[DrivenElement], solutions: Sequence[Solution], asked: ClosureTolerance
 ) -> tuple[list[DrivenElement], list[Solution]]:
-    """Elements with what was found, that of ideal joints replaced by the poses of least residual of those given."""
+    """Replace solutions of ideal joints by the poses of least residual of the joints that were given."""
     every, found = list(elements), list(solutions)
     for number, (element, (rows, outcome)) in enumerate(zip(elements, solutions, strict=True)):
         if element.given is None:
             continue
         system, columns, joints = element.given
-        none = jnp.zeros_like(rows[:1])
-        whole = [rows[element.columns.index(each)] if each in element.columns else none[0] for each in columns]
-        poses, status, gap = least_residual(
-            system, joints, element.joints, jnp.stack(whole), outcome.status, asked.closed
+        zeros = jnp.zeros_like(rows[:1])
+        begun = [rows[element.columns.index(each)] if each in element.columns else zeros[0] for each in columns]
+        poses, status, residual_norm = least_residual(
+            system, joints, element.joints, jnp.stack(begun), outcome.status, asked.max_residual
         )
-        every[number], found[number] = element._replace(columns=columns), (poses, Outcome(status, gap))
+        every[number], found[number] = element._replace(columns=columns), (poses, Outcome(status, residual_norm))
     return every, found
 
 
-def _tolerance(asked: float | None) -> Tolerance:
-    """The tolerance asked for; without one that of the precision, and poses down to rounding."""
-    dtype = dtypes.canonicalize_dtype(float)  # numbers of the host: to make arrays of the device takes longer
-    if asked is None:
-        return Tolerance(*(np.asarray(gap, dtype) for gap in (default_tolerance(dtype), roundings(dtype, ROUNDINGS))))
+def _closure_tolerance(asked: Any) -> ClosureTolerance:
+    """The residuals asked for: a number or a traced one, or None for those of the precision."""
+    dtype = dtypes.canonicalize_dtype(float)
     if traced(asked):
-        return Tolerance(*[jnp.asarray(asked, dtype)] * 2)
-    try:
-        given = np.asarray(asked, dtype)
-        if given.shape or not given > 0:
-            raise ValueError
-    except (TypeError, ValueError):
-        raise ValueError(f"tolerance must be a positive number such as 1e-9, got {asked!r}") from None
-    return Tolerance(given, given)
+        return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)
+    # numbers of the host: to make arrays of the device takes longer
+    if asked is None:
+        residuals = default_tolerance(dtype), rounding_residual(dtype, DEFAULT_ROUNDINGS)
+        return ClosureTolerance(*(np.asarray(residual, dtype) for residual in residuals))
+    return ClosureTolerance(*[np.asarray(asked, dtype)] * 2)
 
 
-class Layout(NamedTuple):
+class DisplacementSources(NamedTuple):
     """Where the displacements of the joints come from (static)."""
 
     freedoms: tuple[int, ...]
@@ -128,7 +134,7 @@ class Layout(NamedTuple):
 
 @partial(jax.jit, static_argnums=0)
 def _collect(
-    layout: Layout,
+    layout: DisplacementSources,
     values: tuple[Given, ...],
     finite: Bool[Array | np.ndarray, " poses"] | None,
     solutions: list[Solution],
@@ -139,10 +145,10 @@ def _collect(
     Int[Array, " poses"],
     Float[Array, " poses"],
 ]:
-    """The inputs, displacements, status and closure residual, of which the worst structure element's.
+    """Collect inputs, displacements, status (the worst of all structure elements) and closure residual of each pose.
 
-    Displacements by number of the joint; of those that nothing moves one array for all of as many freedoms. All are NaN
-    where an input is not `finite`.
+    Displacements come by number of the joint; joints that nothing moves share one array for each number of freedoms.
+    All are NaN where an input is not `finite`.
     """
     poses, dtype = values[0].shape[0], values[0].dtype
     resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
@@ -160,15 +166,15 @@ def _collect(
             rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
             moved[joint] = jnp.stack([jnp.broadcast_to(row, (poses,)) for row in rows], axis=1)
         worst = jnp.maximum(worst, rank[found.status[:poses]])
-        square = square + found.gap[:poses] ** 2
+        square = square + found.residual_norm[:poses] ** 2
     status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
     resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
-    moved, resting, residual = spoilt((moved, resting, jnp.sqrt(square)), finite)
+    moved, resting, residual = nan_where_not_finite((moved, resting, jnp.sqrt(square)), finite)
     return tuple(map(jnp.asarray, values)), moved, resting, status, residual
 
 
-def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
-    """Arrays with a row a pose, NaN where the pose is not `finite`; None: all are."""
+def nan_where_not_finite(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
+    """Set the rows of arrays to NaN, one row a pose, where the pose is not `finite` (None: all are)."""
     if finite is None:
         return rows
     return jax.tree.map(
@@ -177,10 +183,10 @@ def spoilt(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
 
 
 def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
-    """The inputs, the last pose repeated up to one of few lengths: ranges of similar length share a compiled program.
+    """Repeat the last pose up to one of few lengths, so that ranges of similar length share a compiled program.
 
-    A power of two from 32 to 256 poses, above that a multiple of an eighth of one, of many a 32nd. Traced inputs are
-    left alone: their program is compiled for their length anyway. Without a drive: one pose for all.
+    Lengths are powers of two from 32 to 256 poses, above that multiples of an eighth of one, above 32768 of a 32nd.
+    Traced inputs are left alone: their program is compiled for their length anyway. Without a drive: one pose for all.
     """
     if not rows:
         return jnp.zeros((0, 1), float)

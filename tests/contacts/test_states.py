@@ -13,7 +13,7 @@ from jaxkin.geometry.pose import apply, perpendicular, rotation
 from jaxkin.geometry.rigid import as_matrices
 from jaxkin.geometry.surfaces import Cone, Cylinder, Sphere
 from jaxkin.joints.joint import joint
-from jaxkin.mechanism.motion import joint_motion
+from jaxkin.linkage.joint_motion import joint_motion
 
 displacements = jax.jit(joint_motion)
 

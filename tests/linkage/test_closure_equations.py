@@ -5,7 +5,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from reference.mechanisms import jansen, planar_fourbar, rssr_linkage
+from reference.catalogue import jansen
+from reference.mechanisms import planar_fourbar, rssr_linkage
 
 
 def at_random(mechanism, size, rng):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jaxkin.solve.status import tolerance
+from jaxkin.solve.status import default_tolerance
 from reference import planar
 from reference.catalogue import antiparallelogram
 from reference.hard_case import HardCase
@@ -18,7 +18,7 @@ def test_every_pose_is_closed_on_its_branch_or_says_why_not(case: HardCase):
     motion = case.sweep()
     np.testing.assert_array_equal(motion.status, case.statuses)
     closed = np.asarray(motion.closed)
-    assert np.all(np.asarray(motion.residual)[closed] <= tolerance(motion.residual.dtype))
+    assert np.all(np.asarray(motion.residual)[closed] <= default_tolerance(motion.residual.dtype))
     near = case.near(motion)
     assert np.all(case.error(motion)[near] <= case.allowed(motion)[near])
 

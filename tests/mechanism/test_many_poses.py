@@ -6,12 +6,12 @@ Tolerance 1e-12, as for few poses: what is left of the closure after the last st
 import numpy as np
 import pytest
 
-from jaxkin.solve.range.solve_range import MANY
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 from reference import higher_pairs, planar, spatial
 from reference.mechanisms import cam, planar_fourbar, rssr_linkage
 
-POSES = MANY + 100
+POSES = SolverOptions().interpolate_from + 100
 TURN = np.linspace(0.0, 2 * np.pi, POSES)
 
 

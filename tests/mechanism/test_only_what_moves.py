@@ -14,28 +14,24 @@ import pytest
 
 from jaxkin.joints.pairs import revolute
 from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure import spatial
 from jaxkin.solve.closure.closure import closure, loop_geometry
-from jaxkin.solve.execution.programs import _solve, solve
+from jaxkin.solve.execution.programs import _solve
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.status import ClosureTolerance
 from jaxkin.solve.system.state import assembled
 from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
 
 RANGE = np.linspace(0.0, 1.0, 20)
 
 
-@pytest.fixture
-def solved(monkeypatch):
-    """Arguments of each solve that a sweep asks for, without solving."""
-    calls: list[tuple] = []
-    monkeypatch.setattr("jaxkin.mechanism.sweep.solve", lambda *given: (calls.append(given), solve(*given))[1])
-
-    def of(mechanism, drive):
-        calls.clear()
-        jax.eval_shape(lambda: mechanism.sweep(drive).status)
-        return list(calls)
-
-    return of
+def solved(mechanism, joint):
+    """Arguments of each solve that a sweep over the range asks for, by the plan of its drive."""
+    tolerance = ClosureTolerance(np.asarray(1e-12), np.asarray(0.0))
+    elements = plan_drive(mechanism.linkage, (joint,)).elements
+    return [(element.system, SolverOptions(), element.joints, RANGE[None], tolerance) for element in elements]
 
 
 def operations(function, *given) -> float:
@@ -53,18 +49,18 @@ def with_idle_loops(count: int) -> Mechanism:
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 
-def test_loops_that_do_not_move_are_absent(solved):
-    alone = solved(planar_fourbar(), {"A": RANGE})
-    among = solved(with_idle_loops(10), {"A": RANGE})
+def test_loops_that_do_not_move_are_absent():
+    alone = solved(planar_fourbar(), "A")
+    among = solved(with_idle_loops(10), "A")
     assert len(alone) == len(among) == 1
     assert among[0][0] == alone[0][0]
     assert operations(_solve, *among[0]) == operations(_solve, *alone[0])
 
 
-def closures(mechanism: Mechanism, solved, joint: str, form: LoopClass | None = None) -> float:
+def closures(mechanism: Mechanism, joint: str, form: LoopClass | None = None) -> float:
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
-    ((system, _, joints, *_),) = solved(mechanism, {joint: RANGE})
-    system = system if form is None else replace(system, loop_class=form)
+    ((system, _, joints, *_),) = solved(mechanism, joint)
+    system = system if form is None else replace(system, form=form)
     geometry, _ = loop_geometry(system, *joints)
     # the travel along a loop written out: XLA counts the body of a loop once
     with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):
@@ -72,23 +68,23 @@ def closures(mechanism: Mechanism, solved, joint: str, form: LoopClass | None = 
 
 
 @pytest.mark.long
-def test_equations_that_a_planar_loop_lacks_are_absent(solved):
+def test_equations_that_a_planar_loop_lacks_are_absent():
     """The same four-bar in its plane and in space."""
-    assert closures(planar_fourbar(), solved, "A") < 0.8 * closures(planar_fourbar(), solved, "A", LoopClass())
+    assert closures(planar_fourbar(), "A") < 0.8 * closures(planar_fourbar(), "A", LoopClass())
 
 
 @pytest.mark.long
-def test_turns_of_balls_are_absent_where_there_is_none(solved):
+def test_turns_of_balls_are_absent_where_there_is_none():
     """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
     hinges, cut, whole = (
-        closures(mechanism, solved, "A", form)
+        closures(mechanism, "A", form)
         for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), LoopClass()))
     )
     assert hinges < 0.75 * whole and cut < 0.75 * whole
 
 
-def test_what_is_not_read_is_not_computed(solved):
+def test_what_is_not_read_is_not_computed():
     """A sweep returns displacements, status and residual; states, singular values and transforms are for who asks."""
-    ((system, method, *given),) = solved(planar_fourbar(), {"A": RANGE})
-    found = jax.eval_shape(lambda *given: _solve(system, method, *given), *given)
+    ((system, options, *given),) = solved(planar_fourbar(), "A")
+    found = jax.eval_shape(lambda *given: _solve(system, options, *given), *given)
     assert sorted(leaf.shape[:-1] for leaf in jax.tree.leaves(found)) == [(), (), (4,)]

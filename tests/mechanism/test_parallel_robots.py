@@ -5,11 +5,12 @@ import pytest
 
 from jaxkin.joints.pairs import prismatic, revolute, spherical
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.range.solve_range import MANY
+from jaxkin.solve.options import SolverOptions
 from reference import parallel
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import rssr_linkage, spherical_linkage
 
+MANY = SolverOptions().interpolate_from
 LEGS = [f"leg {i}" for i in range(6)]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.mechanism.motion import placed
+from jaxkin.linkage.joint_motion import part_transforms
 
 POINTS = {"A": (0.0, 0.0, 0.0), "B": (31.0, 7.0, -2.0), "C": (52.0, 43.0, 5.0)}  # mm
 AXES = {"A": (1.0, 2.0, 3.0), "B": (-1.0, 0.3, 2.0), "C": (0.2, 1.0, -0.4)}
@@ -37,7 +37,7 @@ def transforms(mechanism, angles):
         **{name: row[:, None] for name, row in zip(POINTS, angles, strict=True)},
         "grip": angles[0][:, None][:, :0],
     }
-    found = placed(mechanism, tuple(columns[name] for name in mechanism.joints))
+    found = part_transforms(mechanism.linkage, tuple(columns[name] for name in mechanism.joints))
     return dict(zip(mechanism.parts, found, strict=True))
 
 

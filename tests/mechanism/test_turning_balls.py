@@ -7,7 +7,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.geometry.pose import frame, rotation, unit
 from jaxkin.geometry.rigid import as_matrices
-from jaxkin.mechanism.motion import joint_motion
+from jaxkin.linkage.joint_motion import joint_motion
 
 X, Y, Z = np.eye(3)
 ORIGIN = np.zeros(3)

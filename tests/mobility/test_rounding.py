@@ -14,7 +14,7 @@ from jaxkin.joints.pairs import prismatic, revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.alignment import PLAY, SIX_DIGITS
-from jaxkin.solve.status import Status, tolerance
+from jaxkin.solve.status import Status, default_tolerance
 from reference import mechanisms, overconstrained
 from reference.rounding import EVERY, placed, rounded, schmidt_coupling, spherical_wrist, tilted
 from reference.rounding import tilted_fourbar as fourbar
@@ -173,8 +173,8 @@ def test_joints_that_disagree_by_more_give_poses_of_least_residual(tilt):
     status, residual = np.asarray(motion.status), np.asarray(motion.residual)
     assert moved_by(mechanism, fourbar(tilt, align=0).all_joints) == 0.0
     assert set(status) == {Status.CLOSED, Status.MISFIT}
-    assert np.all(residual[status == Status.CLOSED] <= tolerance(residual.dtype))
-    assert np.all(residual[status == Status.MISFIT] > tolerance(residual.dtype))
+    assert np.all(residual[status == Status.CLOSED] <= default_tolerance(residual.dtype))
+    assert np.all(residual[status == Status.MISFIT] > default_tolerance(residual.dtype))
     # the axis of C is out of the plane by no more than the tilt, whatever it turns: of Eq. 12 the root of 2 at most
     assert residual.max() <= 2 * tilt
     expected = np.asarray(fourbar(0.0).sweep({"A": TURN}).coordinates["D"])

@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import frame
 from jaxkin.solve.execution.programs import jit_options
-from jaxkin.solve.status import Status, tolerance
+from jaxkin.solve.status import Status, default_tolerance
 from reference.hard_case import TURN, off_turns
 from reference.random_linkages import Array, Linkage
 
@@ -107,7 +107,7 @@ def checked(linkage: Linkage, program: Callable, rng: np.random.Generator, desig
     off = np.max(
         [off_turns(displacements[where[name]][..., 0] - angle) for name, angle in solved.angles.items()], axis=0
     )
-    largest = tolerance(np.float64)
+    largest = default_tolerance(np.float64)
     open_ = closed & ((residual > largest) | (linkage.misfit(points, axes, displacements) > 10 * largest))
     right = closed & reachable & (off <= APART)
     return Count(

@@ -1,6 +1,6 @@
-"""A long range in pieces, one a core, is the range in one: poses, full turns and order.
+"""A long range in shards, one a core, is the range in one: poses, full turns and order.
 
-Tolerance 1e-12: what is left of the closure after the last step is rounding, and the knots of a piece are its own.
+Tolerance 1e-12: what is left of the closure after the last step is rounding, and the samples of a shard are its own.
 """
 
 from itertools import pairwise
@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
-from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.execution import cores as pieces
+from jaxkin.solve.execution.cores import shard_count
+from jaxkin.solve.options import SolverOptions
 from reference.mechanisms import planar_fourbar, rssr_linkage
 
 POSES = 3000
@@ -38,24 +38,18 @@ def five_bar():
     )
 
 
-def swept(mechanism, angles, cores, monkeypatch):
-    return driven(mechanism, {"A": angles}, cores, monkeypatch)
-
-
-def driven(mechanism, drive, cores, monkeypatch):
-    monkeypatch.setattr(pieces, "_cores", lambda: cores)
-    monkeypatch.setattr(pieces, "LEAST", POSES // 4)
-    monkeypatch.setattr("jaxkin.solve.execution.programs.MANY", POSES)  # put in order, as longer ranges are
-    return mechanism.sweep(drive)
+def on_cores(cores):
+    """Options by which the ranges here are cut into a shard a core, and put in order, as longer ones are."""
+    return SolverOptions(cores=cores, min_shard_poses=POSES // 4, interpolate_from=POSES // cores)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("order", RANGES)
 @pytest.mark.parametrize("linkage", [planar_fourbar, rssr_linkage])
-def test_pieces_are_the_range(linkage, order, monkeypatch):
-    """Three pieces, of which the last overlaps the second; in balls full turns are counted across their ends."""
+def test_shards_are_the_range(linkage, order):
+    """Three shards, of which the last overlaps the second; in balls full turns are counted across their ends."""
     mechanism = linkage()
-    whole, split = (swept(mechanism, RANGES[order], cores, monkeypatch) for cores in (1, 3))
+    whole, split = (mechanism.sweep({"A": RANGES[order]}, options=on_cores(cores)) for cores in (1, 3))
     assert np.all(whole.closed) and np.all(split.closed)
     assert np.max(split.residual) < 1e-12
     for one, other in zip(whole.displacements, split.displacements, strict=True):
@@ -63,11 +57,11 @@ def test_pieces_are_the_range(linkage, order, monkeypatch):
 
 
 @pytest.mark.long
-def test_pieces_of_several_inputs_are_their_range(monkeypatch):
+def test_shards_of_several_inputs_are_their_range():
     """In and out of reach of a five-bar: behind a limit a straight line from the assembled pose is tried."""
     way = np.linspace(0.0, 12.0, POSES)
     drive = {"A": way + 0.3 * np.sin(3 * way), "E": 1.5 * np.sin(way)}
-    whole, split = (driven(five_bar(), drive, cores, monkeypatch) for cores in (1, 3))
+    whole, split = (five_bar().sweep(drive, options=on_cores(cores)) for cores in (1, 3))
     np.testing.assert_array_equal(whole.status, split.status)
     assert 0.3 < np.mean(split.closed) < 0.99
     assert np.max(split.residual[split.closed]) < 1e-12
@@ -78,16 +72,14 @@ def test_pieces_of_several_inputs_are_their_range(monkeypatch):
 
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
-def test_settings_of_a_thread_hold_in_those_of_its_pieces(monkeypatch):
+def test_settings_of_a_thread_hold_in_those_of_its_shards():
     with jax.enable_x64(False):
-        motion = swept(planar_fourbar(), RANGES["falling"], 2, monkeypatch)
+        motion = planar_fourbar().sweep({"A": RANGES["falling"]}, options=on_cores(2))
     assert {array.dtype for array in motion.displacements} == {np.dtype(np.float32)}
     assert np.all(motion.closed)
 
 
-def test_how_many_pieces(monkeypatch):
-    monkeypatch.setattr(pieces, "_cores", lambda: 8)
+def test_how_many_shards():
     (element,) = plan_drive(planar_fourbar().linkage, ("A",)).elements
-    assert pieces.pieces(element.system, pieces.LEAST - 1) == 1
-    assert pieces.pieces(element.system, 3 * pieces.LEAST) == 3
-    assert pieces.pieces(element.system, 100 * pieces.LEAST) == 8
+    options = SolverOptions(cores=8, min_shard_poses=1000)
+    assert [shard_count(element.system, poses, options) for poses in (999, 3000, 100_000)] == [1, 3, 8]

@@ -10,9 +10,9 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure.closure import closure
 from jaxkin.solve.closure.rod_spin import turn_between, without_spin
 from jaxkin.solve.execution.programs import solve
-from jaxkin.solve.methods import CONTINUATION
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.range.solve_range import scaled
-from jaxkin.solve.status import Status, Tolerance
+from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.from_linkage import block_joints, block_system
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, retract
@@ -66,8 +66,8 @@ def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
     cut, whole, joints = systems(mechanism, drive, **({} if spins else {"spins": ()}))
     range_ = np.linspace(0.0, 1.0, 32)
     inputs = jnp.asarray([upto * range_ for upto in drive.values()])
-    tolerance = Tolerance(np.asarray(1e-12), np.asarray(0.0))
-    one, other = (solve(system, CONTINUATION, joints, inputs, tolerance) for system in (cut, whole))
+    tolerance = ClosureTolerance(np.asarray(1e-12), np.asarray(0.0))
+    one, other = (solve(system, SolverOptions(), joints, inputs, tolerance) for system in (cut, whole))
     for _, outcome in (one, other):
         assert np.all(np.asarray(outcome.status) == Status.CLOSED.value)
     turning = {column for columns in cut.balls for column in columns}

@@ -4,7 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.continuation.determinant_sign import ratio_of_determinants, turned
+from jaxkin.solve.continuation.determinant_sign import determinant_ratio, ratio_of_determinants
 from reference.matrices import block_triangular
 
 
@@ -36,4 +36,4 @@ def test_a_block_that_turns_over_is_seen_though_another_does_too():
     jacobian, other = jnp.asarray(jacobian), jnp.asarray(other)
     # but for the little on the diagonal, a billionth of the square of a block, over the square of its least value
     expected = np.repeat([[-1.0], [-1.0], [1.0]], 40, axis=1)
-    np.testing.assert_allclose(turned(jacobian, other, blocks[:3]), expected, atol=1e-2)
+    np.testing.assert_allclose(determinant_ratio(jacobian, other, blocks[:3]), expected, atol=1e-2)

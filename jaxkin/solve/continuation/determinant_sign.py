@@ -1,7 +1,7 @@
-"""How the Jacobian has turned on the way from one pose to another: whether a singular pose lies between them.
+"""The ratio of the determinants of two Jacobians: a negative one tells that a singular pose lies between two poses.
 
-Where two branches nearly meet a long step goes straight on to the other one; both are closed, but between them a
-determinant has changed its sign.
+Where two branches nearly meet, a long step of the continuation leads straight on to the other branch. Both ends are
+closed poses; but between them a determinant has changed its sign.
 """
 
 from __future__ import annotations
@@ -18,22 +18,27 @@ from jaxkin.solve.system.equation_blocks import EquationBlock
 
 Square = Float[Array, "n n poses"]
 
+DIAGONAL = 0.1
+"""Times the root of the unit of rounding and the squared norm of the Jacobian: added to the diagonal of the products of
+Jacobians, so that rows or columns for which the Jacobian lacks rank do not decide the sign by rounding."""
 
-def turned(before: Matrix, after: Matrix, blocks: Sequence[EquationBlock]) -> Float[Array, "blocks poses"]:
-    """The determinant of each block of the Jacobian over the one before: negative where it has changed its sign.
 
-    Where a block is not square those of `J0^T J1` and `J0^T J0`, or of `J0 J1^T` and `J0 J0^T`; a little on the
-    diagonal makes columns, or rows, count for which the Jacobian lacks rank.
+def determinant_ratio(before: Matrix, after: Matrix, blocks: Sequence[EquationBlock]) -> Float[Array, "blocks poses"]:
+    """The determinant of each block of the Jacobian `after` over that of `before`: negative where its sign changed.
+
+    Both are (equations, columns, poses). A block that need not be square is compared by `det(J0^T J1) / det(J0^T J0)`,
+    or by `det(J0 J1^T) / det(J0 J0^T)` if it has more columns than rows.
     """
-    found = jnp.zeros((0, before.shape[-1]), before.dtype)
-    return jnp.concatenate([found, *(_turned(before[np.ix_(*block)], after[np.ix_(*block)])[None] for block in blocks)])
+    none = jnp.zeros((0, before.shape[-1]), before.dtype)
+    ratios = [_block_ratio(before[np.ix_(*block)], after[np.ix_(*block)])[None] for block in blocks]
+    return jnp.concatenate([none, *ratios])
 
 
-def _turned(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
+def _block_ratio(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
     rows, columns, _ = before.shape
     eps = float(jnp.finfo(before.dtype).eps)
-    little = 0.1 * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
-    diagonal = little * jnp.eye(min(columns, rows), dtype=before.dtype)[..., None]
+    shift = DIAGONAL * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
+    diagonal = shift * jnp.eye(min(columns, rows), dtype=before.dtype)[..., None]
 
     def product(other: Matrix) -> Square:
         return jnp.einsum("eil,ejl->ijl" if columns < rows else "eil,fil->efl", before, other) + diagonal
@@ -42,9 +47,10 @@ def _turned(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
 
 
 def ratio_of_determinants(one: Square, other: Square) -> Float[Array, " poses"]:
-    """Those of matrices that are positive definite, but for the first where it has turned over.
+    """The determinants of `one` over those of `other`, both (n, n, poses).
 
-    Such need no pivoting; and no library, whose import would take as long as a small sweep.
+    `other` is positive definite and `one` is near it, or has changed the sign of its determinant: elimination without
+    pivoting does, and no library is called, whose import would take as long as a small sweep.
     """
     n, _, poses = one.shape
     both = jnp.concatenate([one, other], axis=-1)
@@ -57,7 +63,7 @@ def ratio_of_determinants(one: Square, other: Square) -> Float[Array, " poses"]:
         matrix, ratio = carry
         pivot = matrix[0, 0]
         rest = matrix[1:, 1:] - matrix[1:, :1] * (matrix[0, 1:] / pivot)
-        # the first row and column are done with; the determinants of large matrices would leave the range of numbers
+        # a ratio of pivots at a time: the determinants of large matrices would leave the range of numbers
         return jnp.pad(rest, ((0, 1), (0, 1), (0, 0))), ratio * (pivot[:poses] / pivot[poses:])
 
     return lax.fori_loop(0, n, eliminate, (both, jnp.ones(poses, one.dtype)))[1]

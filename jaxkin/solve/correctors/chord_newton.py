@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import floor
-from jaxkin.solve.execution.lockstep import any_lane
+from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import inverse
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -39,7 +39,7 @@ def shared_steps(
 
     def running(at: tuple[Array, State, Array, Array]) -> Array:
         count, _, _, gap = at
-        return (count < STEPS) & any_lane(gap > enough)
+        return (count < STEPS) & any_in_lockstep(gap > enough)
 
     def step(at: tuple[Array, State, Array, Array]) -> tuple[Array, State, Array, Array]:
         count, state, residual, _ = at

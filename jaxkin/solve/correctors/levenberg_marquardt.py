@@ -15,7 +15,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
-from jaxkin.solve.execution.lockstep import any_lane
+from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import least_norm
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -66,7 +66,7 @@ def correct(
     eps = float(jnp.finfo(dtype).eps)
 
     def running(iterate: _Iterate) -> Array:
-        return any_lane((iterate.count <= iterations) & ~iterate.done)
+        return any_in_lockstep((iterate.count <= iterations) & ~iterate.done)
 
     def step(iterate: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once

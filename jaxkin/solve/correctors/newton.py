@@ -13,7 +13,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import choose, floor
-from jaxkin.solve.execution.lockstep import any_lane
+from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import UNROLLED, solve_blocks
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -48,7 +48,7 @@ def newton(
     costly = any(len(block.rows) > UNROLLED for block in equation_blocks(system))
 
     def running(at: _Iterate) -> Array:
-        return (at.count <= STEPS) & any_lane((at.closure.gap > enough) & (at.foreseen > enough))
+        return (at.count <= STEPS) & any_in_lockstep((at.closure.gap > enough) & (at.foreseen > enough))
 
     def step(at: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
@@ -58,7 +58,7 @@ def newton(
             return solve_blocks(closed.jacobian, closed.residual, floor(dtype), equation_blocks(system), regular=True)
 
         if costly:  # not a last time, when all are closed: to ask costs as much as to solve small systems
-            delta = lax.cond(any_lane(closed.gap > enough), solved, lambda: jnp.zeros_like(at.trial.x))
+            delta = lax.cond(any_in_lockstep(closed.gap > enough), solved, lambda: jnp.zeros_like(at.trial.x))
         else:
             delta = solved()
         foreseen = infinite

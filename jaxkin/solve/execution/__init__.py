@@ -1,1 +1,1 @@
-"""Compiled programs, and how they run: over cores, over designs, lanes in lockstep."""
+"""How the solver runs: compiled programs, shards on several cores, batches of designs, loops in lockstep."""

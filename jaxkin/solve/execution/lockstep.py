@@ -1,7 +1,8 @@
-"""Loops over many designs at once: inside `vmap` one predicate for the whole batch.
+"""Loops over many designs in lockstep: inside `vmap` one predicate decides for the whole batch.
 
-Where every design of a batch had a predicate of its own, JAX would copy all that a loop carries, knots included, in
-each of its iterations, to undo it for those that are done. The loops of the solver leave alone what is done.
+With a predicate for each design of a batch, JAX would copy all that a loop carries, samples of the branch included, in
+each iteration, to undo the iteration for designs that are done. The loops of the solver leave poses that are done alone
+by themselves.
 """
 
 from __future__ import annotations
@@ -15,32 +16,33 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 _DESIGNS = "designs of jaxkin"
-_together: ContextVar[bool] = ContextVar("_together", default=False)
-"""Whether what is being traced is a batch of designs."""
+"""Name of the axis of the designs in a batch."""
+_in_lockstep: ContextVar[bool] = ContextVar("_in_lockstep", default=False)
+"""Whether JAX is tracing a batch of designs in lockstep."""
 
 
 def in_lockstep(function: Callable, in_axes: tuple[int | None, ...]) -> Callable:
-    """The function under `vmap`, its predicates by `any_lane` those of the whole batch."""
+    """Map a function over designs as `vmap` does, with predicates of `any_in_lockstep` those of the whole batch."""
 
     def one(*args):
-        token = _together.set(True)
+        token = _in_lockstep.set(True)
         try:
             return function(*args)
         finally:
-            _together.reset(token)
+            _in_lockstep.reset(token)
 
     return jax.vmap(one, in_axes, axis_name=_DESIGNS)
 
 
-def any_lane(mask: Bool[Array, "..."]) -> Array:
-    """Whether the mask holds anywhere, in any design of a batch that runs `in_lockstep`."""
+def any_in_lockstep(mask: Bool[Array, "..."]) -> Array:
+    """Tell whether the mask holds anywhere, in any design of a batch that runs `in_lockstep`."""
     found = jnp.any(mask)
-    return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0 if _together.get() else found
+    return lax.pmax(found.astype(jnp.int32), _DESIGNS) > 0 if _in_lockstep.get() else found
 
 
 @jax.custom_batching.custom_vmap
 def write_row(table: Float[Array, "rows entries"], row: Float[Array, " entries"], at: Int[Array, ""]) -> Array:
-    """The table with a row written over. The place is that of all designs: in a batch, too, it is written in place."""
+    """Overwrite row `at` of the table, which is the same number for all designs: so a batch is written in place too."""
     return lax.dynamic_update_slice(table, row[None], (at, 0))
 
 

@@ -1,6 +1,6 @@
-"""The solver as compiled programs: one finds the poses, with the compiler option that suits it; one gives derivatives.
+"""The solver as compiled programs: one finds the poses, with compiler options that suit it; one gives derivatives.
 
-Only the second is ever differentiated. Where the numbers are there (not inside `jit` or `vmap`), a gradient finds its
+Only the second is ever differentiated. Where the numbers are known (not inside `jit` or `vmap`), a gradient finds its
 poses by the same program as the plain sweep.
 """
 
@@ -17,63 +17,89 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin._traced import traced
-from jaxkin.solve.execution.cores import pieces, side_by_side
+from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
-from jaxkin.solve.range.solve_range import CONTINUATION, MANY, Joints, Poses, displacements, find_poses, piece
-from jaxkin.solve.status import Status, Tolerance
+from jaxkin.solve.options import CONTINUATION, SolverOptions
+from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.solve_range import Joints, displacements, find_poses, shard
+from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.loop_system import LoopSystem
 
-OPTIONS = {
+COMPILER_OPTIONS = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
     "xla_llvm_disable_expensive_passes": True,
     "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
 }
-"""For the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the costlier passes of
-LLVM 1.4 times, for a program no faster.
+"""Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
+costlier passes of LLVM 1.4 times, for a program that is no faster.
 
-It is made of operations of a few microseconds: to hand them to a library of reductions, to make trees of sums of some
-forty numbers, or to split them among threads, takes longer than they do, and threads that wait for more of them keep
-the core that another piece needs. Several cores have poses of their own: see `pieces`; or are several devices."""
+The program is made of operations of a few microseconds: to hand them to a library of reductions, to make trees of sums
+of some forty numbers, or to split them among threads takes longer than they do, and threads that wait for more work
+keep the core that another shard needs. Several cores have poses of their own (`run_on_cores`), or are several devices.
+"""
+
+_traces = 0
+"""Programs that find poses and were traced in this process."""
 
 
 class Outcome(NamedTuple):
+    """What became of the poses."""
+
     status: Int[Array, " poses"]
-    gap: Float[Array, " poses"]
+    residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12, lengths over the characteristic length."""
 
 
 def solve(
     system: LoopSystem,
-    method: str,
+    options: SolverOptions,
     joints: Joints,
     inputs: Float[Array | np.ndarray, "driven poses"],
-    tolerance: Tolerance,
+    tolerance: ClosureTolerance,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Displacements of all joints, and what became of the poses.
+    """Find displacements of all joints (radians, lengths of the mechanism) for given inputs, and the outcome.
 
-    Compiled once for a system, a method and a number of poses.
+    Compiled once for a system, the options that a program depends on, and a number of poses. `tolerance` decides, not
+    `options.tolerance`: it may be traced.
     """
     if not traced((joints, inputs, tolerance)):
-        if method != CONTINUATION:
-            return _program(_solve)(system, method, joints, inputs, tolerance)
-        given, order = _in_order(np.asarray(inputs))
-        number = pieces(system, given.shape[1])
-
-        def solved(given: np.ndarray, begin: np.ndarray | None = None):
-            return _program(_solve)(system, method, joints, given, tolerance, begin, share=number)
-
-        found = side_by_side(system, solved, given, number)
-        return found if order is None else jax.tree.map(lambda rows: rows[..., order], found)
+        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
-    # options are for whole programs only: inside one that is being traced the search becomes part of that
-    poses = (_plain if traced(numbers) else _program)(_of_all_designs)(system, method, *numbers)
-    return _plain(displacements)(system, joints, inputs, poses), Outcome(poses.status, poses.gap)
+    # compiler options are for whole programs only: inside one that is being traced the search becomes part of that
+    find = (_plain if traced(numbers) else _program)(_of_all_designs)
+    poses = find(system, options.of_program, *numbers)
+    return _plain(displacements)(system, joints, inputs, poses), Outcome(poses.status, poses.residual_norm)
 
 
-def _of_all_designs(system: LoopSystem, method: str, joints: Joints, inputs: Array, tolerance: Tolerance) -> Poses:
-    return all_designs(partial(find_poses, system, method), _all_closed)(joints, inputs, tolerance)
+def compilations() -> int:
+    """The number of programs that find poses and were compiled in this process: one more shows a recompilation."""
+    return _traces
+
+
+def _solve_numbers(
+    system: LoopSystem, options: SolverOptions, joints: Joints, inputs: np.ndarray, tolerance: ClosureTolerance
+) -> tuple[Float[Array, "columns poses"], Outcome]:
+    """Solve for numbers that are known, long ranges in shards."""
+    of_program = options.of_program
+    if options.method != CONTINUATION:
+        return _program(_solve)(system, of_program, joints, inputs, tolerance)
+    ordered, places = _in_order(inputs, options.interpolate_from)
+    count = shard_count(system, ordered.shape[1], options)
+
+    def of_shard(inputs: np.ndarray, shard_start: np.ndarray | None = None):
+        return _program(_solve)(system, of_program, joints, inputs, tolerance, shard_start, shard_count=count)
+
+    found = run_on_cores(system, of_shard, ordered, count)
+    return found if places is None else jax.tree.map(lambda rows: rows[..., places], found)
+
+
+def _of_all_designs(
+    system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
+) -> Poses:
+    _count_trace()
+    return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
 
 
 def _all_closed(poses: Poses) -> Array:
@@ -82,28 +108,35 @@ def _all_closed(poses: Poses) -> Array:
 
 def _solve(
     system: LoopSystem,
-    method: str,
+    options: SolverOptions,
     joints: Joints,
     inputs: Float[Array, "driven poses"],
-    tolerance: Tolerance,
-    begin: Int[Array, ""] | None = None,
-    share: int = 1,
-) -> tuple[Float[Array, "columns piece"], Outcome]:
-    poses = find_poses(system, method, joints, inputs, tolerance, share, begin)
-    return displacements(system, joints, piece(inputs, share, begin), poses), Outcome(poses.status, poses.gap)
+    tolerance: ClosureTolerance,
+    shard_start: Int[Array, ""] | None = None,
+    shard_count: int = 1,
+) -> tuple[Float[Array, "columns shard"], Outcome]:
+    _count_trace()
+    poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start)
+    own = shard(inputs, shard_count, shard_start)
+    return displacements(system, joints, own, poses), Outcome(poses.status, poses.residual_norm)
 
 
-def _in_order(inputs: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Many poses of a single input in rising order, as interpolation needs them, and where each is to be put back."""
-    if len(inputs) != 1 or inputs.shape[1] < MANY:
+def _count_trace() -> None:
+    global _traces  # noqa: PLW0603
+    _traces += 1
+
+
+def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np.ndarray | None]:
+    """Sort many poses of a single input, as interpolation needs them, and tell where each is to be put back."""
+    if len(inputs) != 1 or inputs.shape[1] < interpolate_from:
         return inputs, None
     before, after = inputs[0, :-1], inputs[0, 1:]
     if np.all(after >= before) or np.all(after <= before):
         return inputs, None
     order = np.argsort(inputs[0], kind="stable")
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    return inputs[:, order], place
+    places = np.empty_like(order)
+    places[order] = np.arange(len(order))
+    return inputs[:, order], places
 
 
 @cache
@@ -117,14 +150,14 @@ def _program(function):
 
 
 def _static(function) -> tuple[str, ...]:
-    return tuple(name for name in ("system", "method", "share") if name in signature(function).parameters)
+    return tuple(name for name in ("system", "options", "shard_count") if name in signature(function).parameters)
 
 
 @cache
 def jit_options() -> dict[str, Any]:
-    """The options as an argument of `jax.jit`, where this version of JAX knows them; for whole programs only."""
+    """The compiler options as an argument of `jax.jit`, empty where this version of JAX does not know them."""
     try:
-        jax.jit(lambda x: x, compiler_options=OPTIONS)(0.0)
+        jax.jit(lambda x: x, compiler_options=COMPILER_OPTIONS)(0.0)
     except (TypeError, jax.errors.JaxRuntimeError):
         return {}
-    return {"compiler_options": OPTIONS}
+    return {"compiler_options": COMPILER_OPTIONS}

@@ -1,1 +1,1 @@
-"""All poses of a range: interpolated between those of the branch, corrected; and their derivatives."""
+"""All poses of a range: predicted from the branch or interpolated, corrected, and differentiated implicitly."""

@@ -2,7 +2,7 @@
 
 A closed pose satisfies r(geometry, inputs, free coordinates) = 0, so its free coordinates change by the least-norm
 solution of `J delta = -dr`: forward, reverse and nested, without differentiating any iteration. Poses that did not
-close have no derivative: theirs is zero, and none of their numbers enters that of the others.
+close have no derivative: it is set to zero, and none of their numbers enters the derivative of another pose.
 """
 
 from __future__ import annotations
@@ -21,33 +21,33 @@ from jaxkin.solve.system.state import State, assembled, drive, rate
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
-def attach(
+def attach_derivative(
     system: LoopSystem,
     geometry: Geometry,
     inputs: Float[Array, "driven poses"],
     solved: State,
     closed: Bool[Array, " poses"],
 ) -> State:
-    """The solved state, as the differentiable function of geometry and inputs that it is where `closed` holds."""
+    """Return the solved state as the differentiable function of geometry and inputs that it is where `closed` holds."""
     del geometry, inputs, closed
     return solved
 
 
-@attach.defjvp
-def _attach_jvp(system: LoopSystem, primals, tangents):
+@attach_derivative.defjvp
+def _implicit_jvp(system: LoopSystem, primals, tangents):
     geometry, inputs, solved, closed = primals
     d_geometry, d_inputs, _, _ = tangents
-    state = attach(system, geometry, inputs, solved, closed)
+    state = attach_derivative(system, geometry, inputs, solved, closed)
     # poses that did not close are replaced before anything is computed from them: a NaN would pass through a mask
     rest = assembled(system, state.x.shape[-1], state.x.dtype)
     safe = jax.tree.map(lambda a, b: jnp.where(closed, a, b), state, rest)
-    at = jnp.where(closed, inputs, 0.0)
+    safe_inputs = jnp.where(closed, inputs, 0.0)
 
     def residual(geometry: Geometry, inputs: Float[Array, "driven poses"]):
         driven = drive(system, safe, inputs)
         return closure(system, geometry, driven).residual, driven
 
-    _, (d_residual, d_driven) = jax.jvp(residual, (geometry, at), (d_geometry, d_inputs))
+    _, (d_residual, d_driven) = jax.jvp(residual, (geometry, safe_inputs), (d_geometry, d_inputs))
     if not system.free:
         return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_driven)
     jacobian = free_jacobian(system, closure(system, geometry, safe))

@@ -1,9 +1,9 @@
-"""Many poses at once, between few that were solved: interpolation of high order, one correction, a check of each pose.
+"""Many poses of a single input at once: interpolation of high order, one correction, a check of each pose.
 
-A range in order is cut into segments. At four poses of each the state and its exact slope are known, which makes a
-polynomial of degree seven; over a segment of a fortieth of a radian it is right to about rounding. Where it is not, one
-chord step (Newton's, with the inverse Jacobian of the middle of the segment) brings it there. Each pose then has to
-close by itself: a segment in which one does not is left to the damped corrector.
+A range in order is cut into segments. At four nodes of each segment the state and its exact slope are known, which
+makes a polynomial of degree seven; over a segment of a fortieth of a radian it is right to about rounding. Where it is
+not, one chord step (a step of Newton's method with the inverse Jacobian of the middle of the segment) brings the poses
+to closure. Each pose then has to close by itself: a segment in which one does not is corrected pose by pose.
 """
 
 from __future__ import annotations
@@ -20,133 +20,153 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.closure.joint_coordinates import at_rest
-from jaxkin.solve.continuation.branch import Knots, guess
-from jaxkin.solve.continuation.step import slopes
+from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
+from jaxkin.solve.continuation.fronts import ContinuationProblem
+from jaxkin.solve.continuation.step import input_slopes
 from jaxkin.solve.correctors.levenberg_marquardt import floor
 from jaxkin.solve.correctors.newton import newton
-from jaxkin.solve.execution.lockstep import any_lane
+from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.least_norm import inverse
-from jaxkin.solve.status import roundings, tolerance
+from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
+from jaxkin.solve.status import default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
 
-SEGMENTS, WITH_SPINS = 256, 512
-"""At most so many, of a number of poses that is a power of two. Where rods spin between balls, and a ball passes near
-half a turn, the spin changes fast."""
+MAX_SEGMENTS = 256
+"""Segments of a range at most: of a full turn each is a fortieth of a radian wide."""
+MAX_SEGMENTS_WITH_SPINS = 512
+"""The same where rods spin between balls: the spin changes fast where a ball passes near half a turn."""
 NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
-"""Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial."""
+"""Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial, by which the error is spread
+evenly over the segment."""
 NARROWEST = 1e-4
 """Half the width of the narrowest segment, radians or characteristic lengths: repeated inputs have no width."""
-CORRECTION = 1e-6
-"""A pose farther from the polynomial than this is not trusted."""
-NEAR = 1e-2
-"""A node farther from where the knots put it is not trusted."""
-SHARP, CLOSED = 32, 64
-"""Times the unit of rounding: a segment whose poses do not all close as well as this is corrected, or after that left
-to the damped corrector."""
+MAX_CHORD_STEP = 1e-6
+"""Correction, radians or characteristic lengths, above which a polynomial is not trusted to be on the
+branch: what it leaves after a good fit is many times smaller."""
+MAX_NODE_CORRECTION = 1e-2
+"""Distance of a node from its prediction, radians or characteristic lengths, above which it is not trusted to be on the
+branch."""
+SHARP_ROUNDINGS = 32
+"""Units of rounding in the residual above which the poses of a segment are corrected; half of
+`CLOSED_ROUNDINGS`, so that poses that need no correction pass by a margin."""
 
 
-class Poses(NamedTuple):
-    """Poses as they were found: numbers without derivatives."""
+class _Segments(NamedTuple):
+    """The segments of a range: their poses, and what replaces the solution there."""
 
-    state: State
-    status: Int[Array, " poses"]
-    gap: Float[Array, " poses"]
-    """Square root of Eq. 12, lengths over the characteristic length."""
+    first: Int[Array, " segments"]
+    """Number of the first pose. The last segment overlaps the one before it, so that all have one length."""
+    middle: Float[Array, " segments"]
+    half_width: Float[Array, " segments"]
+    status: Int[Array, " segments"]
+    trusted: Bool[Array, " segments"]
+    """Whether all nodes closed, near their predictions, with one status."""
+    polynomials: State
+    """Coefficients, lowest power first in the last axis, of the argument from -1 to 1."""
+    inverses: Float[Array, "segments columns equations"]
+    """Of the Jacobian in the middle."""
 
 
 def interpolate(
-    system: LoopSystem,
-    geometry: Geometry,
-    knots: Knots,
+    problem: ContinuationProblem,
+    samples: BranchSamples,
     values: Float[Array, " poses"],
-    settle: Callable[[Float[Array, " segment"]], Poses],
-    share: int,
+    correct_segment: Callable[[Float[Array, " segment"]], Poses],
+    shard_count: int,
 ) -> Poses:
-    """All poses from those at the nodes of the segments; `settle` finds those of a segment that cannot be trusted.
+    """Find the poses for these values of a single input, one of `shard_count` shards of a range, in order.
 
-    The values are one of so many pieces of a range.
+    `correct_segment` finds the poses of a segment of which the polynomials cannot be trusted.
     """
-    dtype, poses = values.dtype, values.shape[0]
-    sharp, closes = roundings(dtype, SHARP), roundings(dtype, CLOSED)
-    segments = max((WITH_SPINS if system.spinning else SEGMENTS) // share, 1)
-    length = max(2 ** (poses - 1).bit_length() // segments, 1)
-    # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
-    first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
-    begin, end = values[first], values[first + length - 1]
-    middle, half = 0.5 * (begin + end), jnp.maximum(0.5 * jnp.abs(end - begin), NARROWEST)
-    status, solid, polynomials, back = _solve_nodes(system, geometry, knots, middle, half)
+    system, geometry, dtype, poses = problem.system, problem.geometry, values.dtype, values.shape[0]
+    sharp, closes = rounding_residual(dtype, SHARP_ROUNDINGS), rounding_residual(dtype, CLOSED_ROUNDINGS)
+    max_segments = max((MAX_SEGMENTS_WITH_SPINS if system.spinning else MAX_SEGMENTS) // shard_count, 1)
+    length = max(2 ** (poses - 1).bit_length() // max_segments, 1)
+    segments = _solved_segments(system, geometry, samples, values, length)
 
-    def one(number: Array, found: Poses) -> Poses:
-        here = lax.dynamic_slice_in_dim(values, first[number], length)
-        state = jax.tree.map(lambda c: _at((here - middle[number]) / half[number], c[number]), polynomials)
+    def fill_segment(number: Array, found: Poses) -> Poses:
+        first = segments.first[number]
+        here = lax.dynamic_slice_in_dim(values, first, length)
+        t = (here - segments.middle[number]) / segments.half_width[number]
+        state = jax.tree.map(lambda coefficients: _horner(t, coefficients[number]), segments.polynomials)
         predicted = drive(system, retract(system, state, jnp.zeros_like(state.x)), here[None])
-        closed = closure(system, geometry, predicted)
+        evaluation = closure(system, geometry, predicted)
 
-        def corrected() -> tuple[State, Array, Array]:
-            state = retract(system, predicted, -back[number] @ closed.residual)
+        def chord_step() -> tuple[State, Array, Array]:
+            state = retract(system, predicted, -segments.inverses[number] @ evaluation.residual)
             return state, closure(system, geometry, state).gap, difference(state, predicted)
 
-        state, gap, moved = lax.cond(
-            any_lane(closed.gap > sharp), corrected, lambda: (predicted, closed.gap, jnp.zeros_like(here))
+        state, residual_norm, moved = lax.cond(
+            any_in_lockstep(evaluation.gap > sharp),
+            chord_step,
+            lambda: (predicted, evaluation.gap, jnp.zeros_like(here)),
         )
-        trusted = solid[number] & jnp.all((gap <= closes) & (moved <= CORRECTION))
+        good = segments.trusted[number] & jnp.all((residual_norm <= closes) & (moved <= MAX_CHORD_STEP))
         segment = lax.cond(
-            any_lane(~trusted),
-            lambda: settle(here),
-            lambda: Poses(state, jnp.full(length, status[number]), gap),
+            any_in_lockstep(~good),
+            lambda: correct_segment(here),
+            lambda: Poses(state, jnp.full(length, segments.status[number]), residual_norm),
         )
         return jax.tree.map(
-            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first[number], axis=-1), found, segment
+            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first, axis=-1), found, segment
         )
 
     start = Poses(assembled(system, poses, dtype), jnp.zeros(poses, jnp.int32), jnp.zeros(poses, dtype))
-    return lax.fori_loop(0, len(first), one, start)
+    return lax.fori_loop(0, len(segments.first), fill_segment, start)
 
 
-def _solve_nodes(
-    system: LoopSystem,
-    geometry: Geometry,
-    knots: Knots,
-    middle: Float[Array, " segments"],
-    half: Float[Array, " segments"],
-) -> tuple[Int[Array, " segments"], Bool[Array, " segments"], State, Array]:
-    """Of every segment: status, whether that holds for all of its nodes, polynomials of the state, inverse Jacobian."""
-    values = (middle[:, None] + half[:, None] * jnp.asarray(NODES, half.dtype)).reshape(-1)
-    begin = guess(system, knots, values)
-    state = drive(system, begin.state, values[None])
-    state, closed, _ = newton(system, geometry, state, roundings(values.dtype, CLOSED))
-    middles = closed.jacobian[..., len(NODES) // 2 :: len(NODES)]
-    back = inverse(middles, floor(values.dtype), equation_blocks(system))
-    basis = jnp.asarray(_coefficients(), values.dtype)
+def _solved_segments(
+    system: LoopSystem, geometry: Geometry, samples: BranchSamples, values: Float[Array, " poses"], length: int
+) -> _Segments:
+    """Cut the values into segments of `length` poses, and solve their nodes all at once."""
+    poses = values.shape[0]
+    # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
+    first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
+    begin, end = values[first], values[first + length - 1]
+    middle, half_width = 0.5 * (begin + end), jnp.maximum(0.5 * jnp.abs(end - begin), NARROWEST)
 
-    def polynomial(x: Array, d: Array) -> Array:
-        shape = (*x.shape[:-1], half.shape[0], len(NODES))
-        x = x.reshape(shape)
-        # of differences, which are small: the coefficients of a power are sums that cancel
-        centre = x[..., :1]
-        data = jnp.concatenate([x - centre, d.reshape(shape) * half[:, None]], axis=-1)
-        return jnp.einsum("ij,...sj->s...i", basis, data).at[..., 0].add(jnp.moveaxis(centre[..., 0], -1, 0))
+    nodes = (middle[:, None] + half_width[:, None] * jnp.asarray(NODES, values.dtype)).reshape(-1)
+    prediction = predict(system, samples, nodes)
+    state = drive(system, prediction.state, nodes[None])
+    state, evaluation, _ = newton(system, geometry, state, rounding_residual(values.dtype, CLOSED_ROUNDINGS))
+    middles = evaluation.jacobian[..., len(NODES) // 2 :: len(NODES)]
+    inverses = inverse(middles, floor(values.dtype), equation_blocks(system))
 
-    slope = rate(system, state, slopes(system, state, closed, jnp.ones_like(values)[None]))
-    polynomials = jax.tree.map(polynomial, *jax.jvp(partial(at_rest, system, geometry), (state,), (slope,)))
-    status = begin.status.reshape(-1, len(NODES))
-    good = (closed.gap <= tolerance(values.dtype)) & (difference(state, begin.state) <= NEAR) & begin.covered
-    solid = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)
-    return status[:, 0], solid, polynomials, back
+    slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
+    state_and_slope = jax.jvp(partial(at_rest, system, geometry), (state,), (slope,))
+    polynomials = jax.tree.map(partial(_coefficients, half_width), *state_and_slope)
+    status = prediction.status.reshape(-1, len(NODES))
+    near = difference(state, prediction.state) <= MAX_NODE_CORRECTION
+    good = (evaluation.gap <= default_tolerance(values.dtype)) & near & prediction.covered
+    trusted = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)
+    return _Segments(first, middle, half_width, status[:, 0], trusted, polynomials, inverses)
 
 
-def _at(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:
-    """Polynomials at these places, by Horner's rule."""
+def _coefficients(
+    half_width: Float[Array, " segments"], x: Float[Array, "*entries nodes"], slope: Float[Array, "*entries nodes"]
+) -> Float[Array, "segments *entries degree"]:
+    """Coefficients of the polynomials through values and slopes at the nodes of all segments, lowest power first."""
+    basis = jnp.asarray(_hermite_basis(), half_width.dtype)
+    shape = (*x.shape[:-1], half_width.shape[0], len(NODES))
+    x = x.reshape(shape)
+    # of differences from the first node, which are small: the coefficients of a power are sums that cancel
+    origin = x[..., :1]
+    data = jnp.concatenate([x - origin, slope.reshape(shape) * half_width[:, None]], axis=-1)
+    return jnp.einsum("ij,...sj->s...i", basis, data).at[..., 0].add(jnp.moveaxis(origin[..., 0], -1, 0))
+
+
+def _horner(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degree"]) -> Float[Array, "*entries poses"]:
+    """Evaluate polynomials at `t` by Horner's rule."""
     *lower, total = jnp.moveaxis(coefficients, -1, 0)[..., None]
     for coefficient in reversed(lower):
         total = total * t + coefficient
     return total
 
 
-def _coefficients() -> np.ndarray:
-    """(8, 8): coefficients of the polynomial of degree seven from the values and slopes at the four nodes."""
+def _hermite_basis() -> np.ndarray:
+    """(8, 8): from four values and four slopes at the nodes to the coefficients of the polynomial of degree seven."""
     powers = np.arange(2 * len(NODES))
     values = NODES[:, None] ** powers
     slopes = powers * NODES[:, None] ** np.maximum(powers - 1, 0)

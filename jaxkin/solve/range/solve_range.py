@@ -1,10 +1,10 @@
-"""A whole range of inputs for one loop system: continuation, then all poses at once (Section 5.1, Eq. 12 and 13).
+"""A whole range of inputs of one loop system: continuation, then all poses at once (Section 5.1, Eq. 12 and 13).
 
-The range of a single input is followed once, from the assembled pose to either end, at as few knots as are safe.
-Between two knots every pose is predicted by cubic Hermite interpolation with exact slopes and brought to closure, all
-poses at once and in whatever order they come: see `settle`; of many most are interpolated: see `dense`. Several inputs
-are followed in the same way along a smooth curve through the poses in the order in which they are given; what that does
-not reach is tried in a straight line from the assembled pose.
+The branch of a single input is traced once, from the assembled pose to either end of the range, at as few samples as
+are safe (`continuation.branch`). Between two samples every pose is predicted by a cubic with exact slopes and
+corrected, all poses at once and in whatever order they come (`polish`); most of many poses are interpolated
+(`interpolation`). Several inputs are followed in the same way along a smooth curve through the poses in the order in
+which they are given; poses that the curve does not reach are tried in a straight line from the assembled pose.
 """
 
 from __future__ import annotations
@@ -18,23 +18,26 @@ from jaxtyping import Array, Bool, Float, Int, Shaped
 
 from jaxkin.solve.closure.closure import Geometry, closure, loop_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, read_off, unwrapped
-from jaxkin.solve.continuation.branch import follow, guess
+from jaxkin.solve.continuation.branch import trace_branch
+from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
+from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import TOGETHER, shared_steps
 from jaxkin.solve.correctors.levenberg_marquardt import choose
-from jaxkin.solve.execution.lockstep import any_lane
-from jaxkin.solve.methods import CONTINUATION
-from jaxkin.solve.range.implicit_derivative import attach
-from jaxkin.solve.range.interpolation import CLOSED, SHARP, Poses, interpolate
-from jaxkin.solve.range.polish import FARTHEST_CORRECTION, group_size, in_groups, settle
-from jaxkin.solve.reference_methods.minimise import minimised
-from jaxkin.solve.status import Status, Tolerance, classify, is_closed, roundings
+from jaxkin.solve.execution.lockstep import any_in_lockstep
+from jaxkin.solve.options import CONTINUATION, SolverOptions
+from jaxkin.solve.range.implicit_derivative import attach_derivative
+from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
+from jaxkin.solve.range.polish import correct_poses
+from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, MAX_CORRECTION, Poses, group_size, in_groups
+from jaxkin.solve.reference_methods.minimise import minimise_each
+from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
 
-MANY, CHUNK = 8192, 256
-"""From so many poses on most are interpolated; poses whose balls are read off at once."""
+BALL_GROUP = 256
+"""Poses whose ball angles are found at once: of all poses at once the matrices leave the cache."""
 
 
 class Joints(NamedTuple):
@@ -45,161 +48,163 @@ class Joints(NamedTuple):
     pitch: tuple[Float[Array, ""], ...]
 
 
+class _Range(NamedTuple):
+    """What is asked for, in radians and lengths over the characteristic length."""
+
+    geometry: Geometry
+    inputs: Float[Array, "driven poses"]
+    tolerance: ClosureTolerance
+    shard_count: int
+    shard_start: Int[Array, ""] | None
+    follow_limits: Bool[Array, ""] | bool
+
+
 def find_poses(
     system: LoopSystem,
-    method: str,
+    options: SolverOptions,
     joints: Joints,
     inputs: Float[Array, "driven poses"],
-    tolerance: Tolerance,
-    share: int = 1,
-    begin: Int[Array, ""] | None = None,
-    patient: Bool[Array, ""] | bool = True,
+    tolerance: ClosureTolerance,
+    shard_count: int = 1,
+    shard_start: Int[Array, ""] | None = None,
+    follow_limits: Bool[Array, ""] | bool = True,
 ) -> Poses:
-    """The poses for the given finite inputs, in the order of `system.driven`, radians and lengths of the mechanism.
+    """Find the poses for finite inputs, in the order of `system.driven`, radians and lengths of the mechanism.
 
-    `method` is one of `methods.METHODS`. The inputs are one of so many pieces of a range: `share`; or those of the
-    whole range, of which the piece that begins with this number is asked for. Who is not patient may find poses STALLED
-    that would close.
+    `inputs` is one shard of the range (`shard_count` in all), or the whole range with `shard_start` given, the number
+    of the first pose of the shard that is asked for. With `follow_limits=False`, poses behind a limit may be reported
+    STALLED.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled(system, joints)
-    return _search(system, method, geometry, inputs / driven(system, lengths), tolerance, share, begin, patient)
+    asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
+    poses = _found(system, options, asked)
+    return poses._replace(status=poses.status.astype(jnp.int32))
 
 
-def piece(
-    array: Shaped[Array, "*rows poses"], share: int, begin: Int[Array, ""] | None
-) -> Shaped[Array, "*rows piece"]:
-    """The piece of the poses that begins with this number, of so many of equal length; all of them without one."""
-    if begin is None:
+def shard(
+    array: Shaped[Array, "*rows poses"], shard_count: int, shard_start: Int[Array, ""] | None
+) -> Shaped[Array, "*rows shard"]:
+    """Cut the shard that begins at `shard_start` from all poses, one of `shard_count`; all of them if that is None."""
+    if shard_start is None:
         return array
-    return lax.dynamic_slice_in_dim(array, begin, -(-array.shape[-1] // share), axis=-1)
+    return lax.dynamic_slice_in_dim(array, shard_start, -(-array.shape[-1] // shard_count), axis=-1)
 
 
 def displacements(
     system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"], poses: Poses
 ) -> Float[Array, "columns poses"]:
-    """Displacements of all joints in the poses found, as the differentiable functions of joints and inputs they are.
+    """Displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
-    In radians and lengths of the mechanism; those of least residual where a pose did not close.
+    In radians and lengths of the mechanism; displacements of least residual where a pose did not close.
     """
     geometry, lengths = scaled(system, joints)
 
     def read(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
         inputs, poses = group
-        state = attach(system, geometry, inputs, poses.state, is_closed(poses.status))
+        state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
         turns = ball_turns(system, geometry, state)
         return read_off(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
     if not system.balls:
         return read(given)
-    return unwrapped(system, in_groups(read, given, CHUNK))  # of all poses at once the matrices leave the cache
+    return unwrapped(system, in_groups(read, given, BALL_GROUP))
 
 
 def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
-    """The geometry, and what the coordinates of the solver are multiplied by to be those of the mechanism."""
+    """The geometry over the characteristic length, and the factors from its coordinates to those of the mechanism."""
     geometry, length = loop_geometry(system, *joints)
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 
-def _search(
-    system: LoopSystem,
-    method: str,
-    geometry: Geometry,
-    inputs: Float[Array, "driven poses"],
-    tolerance: Tolerance,
-    share: int,
-    begin: Int[Array, ""] | None,
-    patient: Bool[Array, ""] | bool,
-) -> Poses:
-    """The same in lengths over the characteristic length."""
-    whole, inputs = inputs, piece(inputs, share, begin)
+def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+    """Find the poses by the method of the options."""
+    geometry, tolerance = asked.geometry, asked.tolerance
+    inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
-        gap = closure(system, geometry, state).gap
-        yes = jnp.ones_like(gap, bool)
-        poses = Poses(state, classify(gap, yes, yes, tolerance.closed), gap)
-    elif method != CONTINUATION:
-        state, gap, status = minimised(system, geometry, inputs, method, tolerance.closed)
-        poses = Poses(state, status, gap)
-    elif len(system.driven) == 1:
-        poses = _of_one_input(system, geometry, inputs[0], tolerance, share, patient)
-    elif system.driven:
-        poses = _of_several_inputs(system, geometry, whole, tolerance, share, begin, patient)
-    else:
-        poses = Poses(*reach(system, geometry, inputs))
-    return poses._replace(status=poses.status.astype(jnp.int32))
+        residual_norm = closure(system, geometry, state).gap
+        yes = jnp.ones_like(residual_norm, bool)
+        return Poses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
+    if options.method != CONTINUATION:
+        state, status, residual_norm = minimise_each(system, geometry, inputs, options.method, tolerance.max_residual)
+        return Poses(state, status, residual_norm)
+    if len(system.driven) == 1:
+        return _of_one_input(system, options, asked._replace(inputs=inputs))
+    if system.driven:
+        return _of_several_inputs(system, options, asked)
+    return Poses(*reach(system, geometry, inputs, options))
 
 
-def _of_one_input(
-    system: LoopSystem,
-    geometry: Geometry,
-    values: Float[Array, " poses"],
-    tolerance: Tolerance,
-    share: int,
-    patient: Bool[Array, ""] | bool,
-) -> Poses:
-    """A few poses by themselves, the many between them by interpolation."""
-    knots = follow(system, geometry, lambda at: (at[None], jnp.ones_like(at)[None]), values, patient)
-    worth = knots.whole | patient
-    values = jnp.where(worth, values, 0.0)
+def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+    """Find the poses of a single input: by interpolation from `options.interpolate_from` poses on, else one by one."""
+    values = asked.inputs[0]
 
-    def settled(values: Float[Array, " poses"]) -> Poses:
-        return settle(system, geometry, knots, values, values[None], tolerance, patient)
+    def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
+        return at[None], jnp.ones_like(at)[None]
 
-    one_by_one = partial(in_groups, settled, size=group_size(system))
-    few = len(values) < MANY
-    poses = one_by_one(values) if few else interpolate(system, geometry, knots, values, one_by_one, share)
-    return _only(worth, poses)
+    problem = ContinuationProblem(system, asked.geometry, identity, options, asked.follow_limits)
+    samples = trace_branch(problem, values)
+    kept = samples.complete | asked.follow_limits
+    values = jnp.where(kept, values, 0.0)
 
+    def corrected(values: Float[Array, " poses"]) -> Poses:
+        return correct_poses(problem, samples, values, values[None], asked.tolerance)
 
-def _only(worth: Bool[Array, ""], poses: Poses) -> Poses:
-    """The poses, STALLED where a range was not worth the while."""
-    return poses._replace(status=jnp.where(worth, poses.status, Status.STALLED.value))
+    one_by_one = partial(in_groups, corrected, size=group_size(system))
+    if len(values) < options.interpolate_from:
+        return _stalled_unless(kept, one_by_one(values))
+    return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard_count))
 
 
-def _of_several_inputs(
-    system: LoopSystem,
-    geometry: Geometry,
-    inputs: Float[Array, "driven poses"],
-    tolerance: Tolerance,
-    share: int,
-    begin: Int[Array, ""] | None,
-    patient: Bool[Array, ""] | bool,
-) -> Poses:
-    """The poses along a curve through all of them, and those that it does not reach."""
-    at, way = curve_through(inputs)
-    at, inputs = (piece(array, share, begin) for array in (at, inputs))
-    knots = follow(system, geometry, way, at, patient)
-    worth = knots.whole | patient
-    at, inputs = jnp.where(worth, at, 0.0), jnp.where(worth, inputs, 0.0)
+def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
+    """Find the poses along a curve through all of them, and those that the curve does not reach in a straight line."""
+    geometry, follow_limits = asked.geometry, asked.follow_limits
+    at, path = curve_through(asked.inputs)
+    at, inputs = (shard(array, asked.shard_count, asked.shard_start) for array in (at, asked.inputs))
+    problem = ContinuationProblem(system, geometry, path, options, follow_limits)
+    samples = trace_branch(problem, at)
+    kept = samples.complete | follow_limits
+    at, inputs = jnp.where(kept, at, 0.0), jnp.where(kept, inputs, 0.0)
 
-    def settled(group: tuple[Array, Array]) -> Poses:
+    def corrected(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
-        found = settle(system, geometry, knots, at, inputs, tolerance, patient)
+        found = correct_poses(problem, samples, at, inputs, asked.tolerance)
         failed = found.status != Status.CLOSED.value
 
-        def otherwise() -> Poses:
-            straight = Poses(*reach(system, geometry, jnp.where(failed, inputs, 0.0)))
-            better = failed & ((straight.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
-            return choose(better, straight, found)
+        def straight() -> Poses:
+            other = Poses(*reach(system, geometry, jnp.where(failed, inputs, 0.0), options))
+            better = failed & ((other.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
+            return choose(better, other, found)
 
-        return lax.cond(any_lane(failed) & patient, otherwise, lambda: found)
+        return lax.cond(any_in_lockstep(failed) & follow_limits, straight, lambda: found)
 
-    if len(at) < MANY:
-        return _only(worth, in_groups(settled, (at, inputs), group_size(system)))
+    one_by_one = partial(in_groups, corrected, size=group_size(system))
+    if len(at) < options.interpolate_from:
+        return _stalled_unless(kept, one_by_one((at, inputs)))
+    neighbours = partial(_of_neighbours, system, geometry, samples, one_by_one)
+    return _stalled_unless(kept, in_groups(neighbours, (at, inputs), TOGETHER))
 
-    def neighbours(group: tuple[Array, Array]) -> Poses:
-        at, inputs = group
-        begin = guess(system, knots, at)
-        begun = drive(system, begin.state, inputs)
-        state, gap = shared_steps(system, geometry, begun, roundings(at.dtype, SHARP))
-        near = difference(state, begun) <= FARTHEST_CORRECTION
-        good = (gap <= roundings(at.dtype, CLOSED)) & near & begin.covered & (begin.status == Status.CLOSED.value)
-        return lax.cond(
-            any_lane(~good),
-            lambda: in_groups(settled, group, group_size(system)),
-            lambda: Poses(state, begin.status, gap),
-        )
 
-    return _only(worth, in_groups(neighbours, (at, inputs), TOGETHER))
+def _of_neighbours(
+    system: LoopSystem, geometry: Geometry, samples: BranchSamples, one_by_one, group: tuple[Array, Array]
+) -> Poses:
+    """Correct a group of neighbouring poses by chord steps; if one of them does not close, each by itself."""
+    at, inputs = group
+    prediction = predict(system, samples, at)
+    begun = drive(system, prediction.state, inputs)
+    state, residual_norm = shared_steps(system, geometry, begun, rounding_residual(at.dtype, SHARP_ROUNDINGS))
+    closes = residual_norm <= rounding_residual(at.dtype, CLOSED_ROUNDINGS)
+    near = difference(state, begun) <= MAX_CORRECTION
+    good = closes & near & prediction.covered & (prediction.status == Status.CLOSED.value)
+    return lax.cond(
+        any_in_lockstep(~good),
+        lambda: one_by_one(group),
+        lambda: Poses(state, prediction.status, residual_norm),
+    )
+
+
+def _stalled_unless(kept: Bool[Array, ""], poses: Poses) -> Poses:
+    """The poses, STALLED where their range was given up at a limit that is not followed."""
+    return poses._replace(status=jnp.where(kept, poses.status, Status.STALLED.value))

@@ -1,1 +1,1 @@
-"""Other ways to find poses, among them the paper's own: for comparison."""
+"""Other methods that find poses, among them that of the paper: for comparison."""

@@ -1,7 +1,8 @@
-"""The paper's own minimisation: Davidon, Fletcher and Powell (Fletcher and Powell 1963).
+"""The minimisation of the paper: the method of Davidon, Fletcher and Powell (Fletcher and Powell 1963).
 
-A quasi-Newton method whose estimate of the inverse Hessian starts as the unit matrix, with their cubic line search. The
-gradient is by central differences, as it has to be where a programme knows only how to evaluate Eq. 12, or by JAX.
+A quasi-Newton method whose estimate of the inverse Hessian starts as the unit matrix, with the cubic line search of the
+same authors. The gradient is by central differences, as it has to be where a program can only evaluate Eq. 12, or by
+JAX.
 """
 
 from __future__ import annotations
@@ -16,7 +17,10 @@ from jaxtyping import Array, Float
 
 Objective = Callable[[Array], Array]
 Point = Float[Array, " n"]
-ITERATIONS, LINE_STEPS = 200, 20
+DFP_ITERATIONS = 200
+"""Iterations at most: the method may crawl where the estimate of the Hessian has to be begun anew."""
+MAX_DOUBLINGS = 20
+"""Doublings of the first step of a line search, at most: a million times its length."""
 
 
 class _Iterate(NamedTuple):
@@ -30,7 +34,7 @@ class _Iterate(NamedTuple):
 
 
 def central_differences(objective: Objective) -> Callable[[Point], Point]:
-    """The gradient by central differences, with the step that balances rounding and truncation."""
+    """Make the gradient by central differences, with the step that balances rounding and truncation: eps^(1/3)."""
 
     def gradient(x: Point) -> Point:
         step = float(jnp.finfo(x.dtype).eps) ** (1 / 3)
@@ -41,8 +45,8 @@ def central_differences(objective: Objective) -> Callable[[Point], Point]:
     return gradient
 
 
-def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, enough: Array) -> Point:
-    """A point where the objective is least, or at most `enough`, near the start."""
+def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, target: Array) -> Point:
+    """Find a point near the start where the objective is least, or at most `target`."""
 
     def step(at: _Iterate) -> _Iterate:
         direction = -at.inverse @ at.gradient
@@ -61,20 +65,21 @@ def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, 
         unit = jnp.eye(x.shape[0], dtype=x.dtype)
         inverse = jnp.where(safe, at.inverse + update, jnp.where(downhill, at.inverse, unit))
         better = value < at.value
-        done = (value <= enough) | ~better
+        done = (value <= target) | ~better
         x, value, new = (jnp.where(better, a, b) for a, b in ((x, at.x), (value, at.value), (new, at.gradient)))
         return _Iterate(at.count + 1, x, value, new, inverse, done)
 
     value = objective(start)
     unit = jnp.eye(start.shape[0], dtype=start.dtype)
-    first = _Iterate(jnp.asarray(0), start, value, gradient(start), unit, value <= enough)
-    return lax.while_loop(lambda at: (at.count < ITERATIONS) & ~at.done, step, first).x
+    first = _Iterate(jnp.asarray(0), start, value, gradient(start), unit, value <= target)
+    return lax.while_loop(lambda at: (at.count < DFP_ITERATIONS) & ~at.done, step, first).x
 
 
 def _along(objective: Objective, gradient, x: Point, direction: Point, value: Array, slope: Array) -> Array:
-    """Where the objective is least along a direction: doubled steps until it rises, then a cubic through both ends.
+    """Step length at which the objective is least along a direction: doubled until it rises, then by a cubic.
 
-    The first step is the one that would bring the objective down to zero, its least value, were it a parabola.
+    The cubic goes through values and slopes at both ends of the last step. The first step is the one that would bring
+    the objective to zero, its least value, if it were a parabola.
     """
 
     def ends(length: Array) -> tuple[Array, Array]:
@@ -83,7 +88,7 @@ def _along(objective: Objective, gradient, x: Point, direction: Point, value: Ar
 
     def rising(carry) -> Array:
         count, _, (_, low, falling), (_, high, rise) = carry
-        return (count < LINE_STEPS) & (rise < 0) & (high < low) & (falling < 0)
+        return (count < MAX_DOUBLINGS) & (rise < 0) & (high < low) & (falling < 0)
 
     def further(carry):
         count, length, _, b = carry

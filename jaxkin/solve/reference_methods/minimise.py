@@ -1,7 +1,7 @@
-"""The poses one after the other by a named method of minimisation, as the paper does it (Section 5.1).
+"""Find the poses one after the other by a named method of minimisation, as the paper does (Section 5.1).
 
-Each pose is sought from the one before it. For comparison: nothing watches the branch, and no pose can be told from
-another that is nearer to the start. Gauss-Newton, Levenberg-Marquardt and BFGS are those of jaxopt.
+Each pose is sought from the one before it. For comparison only: nothing watches the branch, and a pose cannot be told
+from another one that is nearer to the start. Gauss-Newton, Levenberg-Marquardt and BFGS are those of jaxopt.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import choose
@@ -25,14 +25,20 @@ from jaxkin.solve.system.state import State, assembled, drive, retract
 
 Point = Float[Array, " used"]
 Function = Callable[[Point], Array]
-ITERATIONS, STALE = 100, 3
-"""At most so many steps a pose, and so many in a row that gain nothing."""
+JAXOPT_ITERATIONS = 100
+"""Iterations for a pose, at most; a pose that needs more is STALLED."""
+IDLE_ITERATIONS = 3
+"""Iterations in a row that may lessen the objective by nothing: further ones would gain nothing either."""
 
 
-def minimised(
-    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, enough: Scalar
-) -> tuple[State, Float[Array, " poses"], Array]:
-    """States and status and closure gap, the pose before each as its start; a pose is done when its gap is `enough`."""
+def minimise_each(
+    system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, max_residual: Scalar
+) -> tuple[State, Int[Array, " poses"], Float[Array, " poses"]]:
+    """Find each pose from the one before it; returns states, statuses and residuals.
+
+    Statuses are CLOSED, STALLED and NONFINITE, residuals the square root of Eq. 12. A pose is done when its
+    residual is at most `max_residual`, lengths over the characteristic length.
+    """
     place = jnp.asarray(np.eye(system.columns)[:, list(system.used)], inputs.dtype)
     search = _SEARCHES[method]
 
@@ -43,40 +49,41 @@ def minimised(
             state = drive(system, retract(system, start, (place @ free)[:, None]), given[:, None])
             return state, closure(system, geometry, state)
 
-        # Eq. 12 with the entries of rotation weighted by one half: what the residual is the root of nearby
+        # Eq. 12 with the entries of rotation weighted by one half: the objective whose residuals are those of `closure`
         free = search(
             lambda free: at(free)[1].residual[:, 0],
             lambda free: at(free)[1].merit[0],
             jnp.zeros(place.shape[1], inputs.dtype),
-            0.5 * enough**2,
+            0.5 * max_residual**2,
         )
-        state, closed = at(free)
-        within = closed.gap <= enough
+        state, evaluation = at(free)
+        within = evaluation.gap <= max_residual
         status = jnp.where(within, Status.CLOSED.value, Status.STALLED.value)
-        status = jnp.where(jnp.isfinite(closed.gap), status, Status.NONFINITE.value)[0].astype(jnp.int32)
-        return choose(within, state, before), (state, closed.gap[0], status)
+        status = jnp.where(jnp.isfinite(evaluation.gap), status, Status.NONFINITE.value)[0].astype(jnp.int32)
+        return choose(within, state, before), (state, evaluation.gap[0], status)
 
-    _, (states, gap, status) = lax.scan(one, assembled(system, 1, inputs.dtype), inputs.T)
-    return State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1)), gap, status
+    _, (states, residual_norm, status) = lax.scan(one, assembled(system, 1, inputs.dtype), inputs.T)
+    state = State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1))
+    return state, status, residual_norm
 
 
 def _stepping(make: Callable[[Function, Function], Any]):
-    """A method of jaxopt, step by step until the objective is small enough or falls no more."""
+    """Run a method of jaxopt step by step, until the objective is at most `target` or falls no more."""
 
-    def search(residual: Function, objective: Function, start: Point, enough: Array) -> Point:
+    def search(residual: Function, objective: Function, start: Point, target: Array) -> Point:
         solver = make(residual, objective)
 
         def running(carry) -> Array:
-            count, stale, best, *_ = carry
-            return (count < ITERATIONS) & (stale < STALE) & (best > enough)
+            count, idle, best, *_ = carry
+            return (count < JAXOPT_ITERATIONS) & (idle < IDLE_ITERATIONS) & (best > target)
 
         def step(carry):
-            count, stale, best, found, params, state = carry
+            count, idle, best, found, params, state = carry
             params, state = solver.update(params, state)
             value = objective(params)
             better = value < best
             found = jnp.where(better, params, found)
-            return count + 1, jnp.where(better, 0, stale + 1), jnp.minimum(value, best), found, params, state
+            return count + 1, jnp.where(better, 0, idle + 1), jnp.minimum(value, best), found, params, state
 
         begin = (jnp.asarray(0), jnp.asarray(0), objective(start), start, start, solver.init_state(start))
         return lax.while_loop(running, step, begin)[3]
@@ -103,7 +110,7 @@ _SEARCHES = {
     "gauss-newton": _stepping(_gauss_newton),
     "levenberg-marquardt": _stepping(_levenberg_marquardt),
     "bfgs": _stepping(_bfgs),
-    "dfp": lambda _, objective, start, enough: dfp(objective, central_differences(objective), start, enough),
-    "dfp-autodiff": lambda _, objective, start, enough: dfp(objective, jax.grad(objective), start, enough),
+    "dfp": lambda _, objective, start, target: dfp(objective, central_differences(objective), start, target),
+    "dfp-autodiff": lambda _, objective, start, target: dfp(objective, jax.grad(objective), start, target),
 }
-"""By name: from residual, objective and start to the point found."""
+"""By name: a function of residual, objective, start and the target of the objective that returns the point found."""

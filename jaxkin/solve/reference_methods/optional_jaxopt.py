@@ -1,4 +1,4 @@
-"""jaxopt, imported when it is used: it takes a third of a second, and warns that it is not developed any further."""
+"""jaxopt, imported where it is used: the import takes a third of a second, and warns."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from types import ModuleType
 
 
 def jaxopt() -> ModuleType:
-    """The library."""
+    """Import the library, without its warning that it is not maintained any more."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message="JAXopt is no longer maintained", category=DeprecationWarning)
         import jaxopt

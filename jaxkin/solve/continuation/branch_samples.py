@@ -1,0 +1,158 @@
+"""The branch as samples: poses with slopes, between which any pose is predicted by cubic interpolation.
+
+An angle comes back after a full turn. Where the mechanism does so too, one turn of samples serves all turns; and a
+value beyond an unreachable interval, a whole number of turns away from where the motion got without one, is that same
+pose.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin.geometry.trig import TURN
+from jaxkin.solve.continuation.fronts import Fronts
+from jaxkin.solve.continuation.predictor import hermite
+from jaxkin.solve.continuation.step import NEAR_LIMIT
+from jaxkin.solve.correctors.levenberg_marquardt import choose
+from jaxkin.solve.linear.least_norm import placed
+from jaxkin.solve.status import Status, is_closed
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import State, rate, retract, turning
+
+EXTRAPOLATED = 1e-3
+"""Distance beyond the last samples, radians or characteristic lengths, that a prediction still covers: the end of a
+range and the last sample may differ by rounding, and what is wrongly covered is found out by its residual."""
+MEETING = (3.0 - TURN, 3.0)
+"""Where the backward and the forward front meet, radians: a full turn apart, near half a turn from the assembled pose,
+but not at it, where designers put change points."""
+
+
+class BranchSamples(NamedTuple):
+    """Samples of the branch in rising order of their distance along the path, in the middle the assembled pose."""
+
+    at: Float[Array, " samples"]
+    """Distance along the path (the input itself if it is a single one); infinite before the first and behind the
+    last."""
+    table: Float[Array, "samples entries"]
+    """All numbers of a sample in one row, so that it is written, and read, at one stroke: see `sample_rows`."""
+    first: Int[Array, ""]
+    last: Int[Array, ""]
+    repeats: Bool[Array, ""]
+    """Whether the mechanism is where it began after a full turn of the input."""
+    winding: Float[Array, " columns"]
+    """By how much its coordinates are then larger, radians."""
+    complete: Bool[Array, ""]
+    """Whether the samples cover the whole range, and the range has no limit."""
+
+
+class Prediction(NamedTuple):
+    """Where the search for a pose begins, and the status of the pose if the search ends nearby."""
+
+    state: State
+    status: Int[Array, " poses"]
+    covered: Bool[Array, " poses"]
+    """Whether the samples reach as far as the input."""
+
+
+class _Sample(NamedTuple):
+    at: Float[Array, " samples"]
+    state: State
+    slope: State
+    """Derivative of the state with respect to the distance."""
+    status: Int[Array, " samples"]
+
+
+def sample_rows(system: LoopSystem, fronts: Fronts) -> Float[Array, "fronts entries"]:
+    """Write the fronts as rows: distance, coordinates, turns of the balls, derivatives of both, and the status."""
+    slope = rate(system, fronts.state, fronts.slope)
+    which = _stored_columns(system)
+    states = [part for x, turns in (fronts.state, slope) for part in (x[which], turns)]
+    entries = [part.reshape(-1, part.shape[-1]) for part in (fronts.at, *states)]
+    return jnp.concatenate([*entries, fronts.status[None].astype(fronts.residual_norm.dtype)]).T
+
+
+def _stored_columns(system: LoopSystem) -> np.ndarray:
+    """Columns of coordinates in use: balls with a quaternion, of which there may be many, use none."""
+    return np.flatnonzero(~turning(system))
+
+
+def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " poses"]) -> _Sample:
+    """Read the samples of these numbers, which are within bounds."""
+    at, column = jnp.split(samples.table.at[number].get(mode="promise_in_bounds").T, [1])
+    which, balls = _stored_columns(system), len(system.turned_balls)
+    half = len(which) + 4 * balls
+    state, slope = (
+        State(
+            placed(part[: len(which)], which, system.columns),
+            part[len(which) : half].reshape(balls, 4, number.shape[0]),
+        )
+        for part in (column, column[half:])
+    )
+    return _Sample(at[0], state, slope, column[-1].astype(jnp.int32))
+
+
+def winding(system: LoopSystem, state: State) -> Float[Array, " columns"]:
+    """The whole turns, radians, by which the coordinates of the second of two fronts exceed those of the first."""
+    return jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round((state.x[:, 1] - state.x[:, 0]) / TURN))
+
+
+def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " poses"]) -> Prediction:
+    """Predict the poses at these distances along the path; the driven coordinates are not set to the inputs."""
+    if system.periodic:
+        values = _wrapped(samples, values)
+        turns = jnp.where(samples.repeats, jnp.ceil((values - MEETING[1]) / TURN), 0.0)
+        values = values - TURN * turns
+    number = jnp.clip(jnp.searchsorted(samples.at, values, side="left") - 1, samples.first, samples.last - 1)
+    left, right = _sample(system, samples, number), _sample(system, samples, number + 1)
+    between, from_left, trusted = _trusted_side(left, right, values)
+    state = choose(between, _interpolated(system, left, right, values), choose(from_left, left.state, right.state))
+    status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
+    if system.periodic:
+        state = State(state.x + turns * samples.winding[:, None], state.turns)
+    least, most = (samples.at.at[end].get(mode="promise_in_bounds") for end in (samples.first, samples.last))
+    return Prediction(state, status, (values >= least - EXTRAPOLATED) & (values <= most + EXTRAPOLATED))
+
+
+def _trusted_side(
+    left: _Sample, right: _Sample, values: Float[Array, " poses"]
+) -> tuple[Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
+    """Tell whether both neighbours of a value are on one branch; if it belongs to the left one; if its own is closed.
+
+    Where the neighbours differ there is a limit between them: the motion was followed up to the inner one, the one
+    nearer the assembled pose, and at the outer one the loops close again.
+    """
+    left_closed, right_closed = is_closed(left.status), is_closed(right.status)
+    between = left_closed & (left.status == right.status)
+    rising = values >= 0
+    outer_closed = jnp.where(rising, right_closed, left_closed)
+    near_inner = jnp.abs(values - jnp.where(rising, left.at, right.at)) <= NEAR_LIMIT
+    belongs_to_inner = near_inner | ~outer_closed
+    from_left = belongs_to_inner == rising
+    nearest_closed = jnp.where(from_left, left_closed, right_closed)
+    trusted = between | (near_inner | ~belongs_to_inner) & nearest_closed
+    return between, from_left, trusted
+
+
+def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
+    """Wrap each value by multiples of 2 pi into the interval that was followed without a limit, where it can be."""
+    followed = (samples.table[:, -1] == Status.CLOSED.value) & jnp.isfinite(samples.at)
+    least = jnp.min(jnp.where(followed, samples.at, jnp.inf))
+    most = jnp.max(jnp.where(followed, samples.at, -jnp.inf))
+    # an end of the range that was reached is no limit
+    least = jnp.where(least <= samples.at[samples.first], -jnp.inf, least - NEAR_LIMIT)
+    most = jnp.where(most >= samples.at[samples.last], jnp.inf, most + NEAR_LIMIT)
+    down = values - TURN * jnp.ceil(jnp.maximum(values - most, 0.0) / TURN)
+    back = down + TURN * jnp.ceil(jnp.maximum(least - down, 0.0) / TURN)
+    return jnp.where((back >= least) & (back <= most), back, values)
+
+
+def _interpolated(system: LoopSystem, left: _Sample, right: _Sample, values: Float[Array, " poses"]) -> State:
+    """Interpolate between two samples by a cubic, the turns of balls brought back to unit quaternions."""
+    width = right.at - left.at
+    t = (values - left.at) / jnp.where(width > 0, width, 1.0)
+    state = hermite(left.state, left.slope, right.state, right.slope, width, t)
+    return retract(system, state, jnp.zeros_like(state.x))

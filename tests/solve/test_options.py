@@ -1,0 +1,111 @@
+"""Options of the solver: what they do, that they travel with a motion, and what is refused."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin.solve.execution.programs import compilations
+from reference.mechanisms import planar_fourbar
+
+TURN = np.linspace(0.0, 2 * np.pi, 20)
+
+
+def test_options_are_hashable_and_equal_by_value():
+    assert hash(jk.SolverOptions(tolerance=1e-9)) == hash(jk.SolverOptions(tolerance=np.float64(1e-9)))
+    assert jk.SolverOptions(max_steps=np.int64(9)) == jk.SolverOptions(max_steps=9) != jk.SolverOptions()
+
+
+def test_a_shorthand_is_the_option():
+    mechanism = planar_fourbar(1.0)
+    short = mechanism.sweep({"A": TURN}, tolerance=1e-3)
+    options = mechanism.sweep({"A": TURN}, options=jk.SolverOptions(tolerance=1e-3))
+    assert short.options == options.options == jk.SolverOptions(tolerance=1e-3)
+    np.testing.assert_array_equal(short.coordinates["D"], options.coordinates["D"])
+    assert 1e-9 < np.max(short.residual) <= 1e-3  # improved no further than asked for
+
+
+def test_options_of_running_compile_nothing():
+    """Tolerance and cores are no part of the compiled program."""
+    mechanism = planar_fourbar(1.0)
+    mechanism.sweep({"A": TURN})
+    before = compilations()
+    for options in (jk.SolverOptions(tolerance=1e-6), jk.SolverOptions(cores=1), jk.SolverOptions(min_shard_poses=9)):
+        mechanism.sweep({"A": TURN}, options=options)
+    assert compilations() == before
+
+
+def test_few_steps_leave_poses_stalled():
+    """A step is at most 0.3 long: three of them do not pass 0.9 in either direction."""
+    wide = np.linspace(-3.0, 3.0, 20)
+    motion = planar_fourbar(1.0).sweep({"A": wide}, options=jk.SolverOptions(max_steps=3))
+    beyond = np.abs(wide) > 0.9
+    assert set(np.asarray(motion.status)[beyond].tolist()) == {jk.Status.STALLED}
+
+
+def test_the_options_of_a_motion_go_where_it_goes():
+    options = jk.SolverOptions(tolerance=1e-6, cores=1)
+    mechanism = planar_fourbar(1.0)
+    motion = mechanism.sweep({"A": TURN}, options=options)
+    assert jax.tree.map(lambda leaf: leaf, motion).options == options
+    assert jk.velocities(motion, {"A": 1.0}).motion.options == options
+    assert [chunk.options for chunk in mechanism.stream({"A": TURN}, 10, options=options)] == [options, options]
+
+
+def test_a_traced_tolerance_is_no_static_option():
+    mechanism = planar_fourbar(1.0)
+
+    def swept(tolerance):
+        motion = mechanism.sweep({"A": TURN}, tolerance=tolerance)
+        assert motion.options == jk.SolverOptions()
+        return motion.residual
+
+    assert 1e-9 < np.max(jax.jit(swept)(1e-3)) <= 1e-3
+    with pytest.raises(ValueError, match=r"SolverOptions are static.*write sweep\(drive, tolerance=\.\.\.\)"):
+        jax.jit(lambda tolerance: jk.SolverOptions(tolerance=tolerance) and tolerance)(1e-3)
+
+
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        ({"tolerance": 0.0}, "tolerance must be a positive number such as 1e-9, got 0.0"),
+        ({"tolerance": "fine"}, "tolerance must be a positive number such as 1e-9, got 'fine'"),
+        ({"tolerance": [1e-3, 1e-4]}, "tolerance must be a positive number"),
+        ({"method": "dpf"}, "there is no method 'dpf' among continuation, .*did you mean 'dfp'"),
+        (
+            {"max_steps": 0},
+            r"max_steps must be a whole number, 1 or more, such as .*\(max_steps=2\), got 0",
+        ),
+        ({"cores": 1.5}, "cores must be a whole number, 1 or more, .* got 1.5"),
+        ({"rescue_steps": True}, r"rescue_steps must be a whole number.*\(rescue_steps=200\), got True"),
+        ({"rescue_steps": None}, "rescue_steps must be a whole number.* got None"),
+    ],
+)
+def test_wrong_values_are_refused(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        jk.SolverOptions(**wrong)
+
+
+def test_saying_a_thing_twice_or_otherwise_is_refused():
+    mechanism, options = planar_fourbar(1.0), jk.SolverOptions(tolerance=1e-6, method="dfp")
+    with pytest.raises(ValueError, match=r"tolerance is given twice, as tolerance=1e-09 and as options=.*1e-06"):
+        mechanism.sweep({"A": TURN}, options=options, tolerance=1e-9)
+    with pytest.raises(ValueError, match=r"method is given twice, as method='bfgs' and as options=.*'dfp'"):
+        mechanism.stream({"A": TURN}, options=options, method="bfgs")
+    with pytest.raises(ValueError, match=r"options must be a jk\.SolverOptions, such as .*, got \{'tolerance'"):
+        mechanism.sweep({"A": TURN}, options={"tolerance": 1e-6})
+    with pytest.raises(ValueError, match=r"options say method='dfp', which is varied here"):
+        jk.work_precision(mechanism, {"A": TURN}, options=jk.SolverOptions(method="dfp"))
+
+
+def test_effects_use_the_options_of_the_motion():
+    """At a coarse tolerance the poses, and so the rates, are off by about as much."""
+    mechanism, turn = planar_fourbar(1.0), jnp.asarray(TURN)
+    fine, coarse = (mechanism.sweep({"A": turn}, tolerance=tolerance) for tolerance in (None, 1e-3))
+    exact, rates, asked = (
+        jk.velocities(motion, {"A": 1.0}, options=options).coordinates["D"]
+        for motion, options in ((fine, None), (coarse, None), (coarse, jk.SolverOptions()))
+    )
+    assert 1e-9 < np.max(np.abs(rates - exact)) < 1e-1
+    np.testing.assert_array_equal(asked, exact)
