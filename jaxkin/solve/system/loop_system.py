@@ -20,12 +20,6 @@ one and two; cut at a ball the latter three, at both balls of a rod one. Of a lo
 one and three."""
 
 
-LOCKING = {("T_xy_phi", "T_theta_phi"): (1, (3, 4, 2)), ("T_theta_phi", "T_theta_phi_psi"): (0, (0, 1))}
-"""Pairs of movements whose angles lock where a ball has rolled a quarter turn, (d) and (p): the one in whose frame a
-ball turns instead, and the columns that turn it about x, y, z, counted from the first of the pair. What (p) gives its
-second angle about z does is left to the movement behind it."""
-
-
 @dataclass(frozen=True)
 class LoopSystem:
     """Loops that share joints, and which of their coordinates are given."""
@@ -79,9 +73,10 @@ class LoopSystem:
             for frame, name in enumerate(movements):
                 if MOVEMENTS[name].ball:
                     pairs[joint, frame] = (column, column + 1, column + 2)
-                pair = LOCKING.get((name, movements[frame + 1] if frame + 1 < len(movements) else "I"))
-                if pair and not given:  # a single angle can be driven only where it is one
-                    locking[joint, frame + pair[0]] = tuple(column + k for k in pair[1])
+                lock = MOVEMENTS[name].lock
+                follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
+                if lock and follows and not given:  # a single angle can be driven only where it is one
+                    locking[joint, frame + lock.ball] = tuple(column + k for k in lock.columns)
                 column += len(MOVEMENTS[name].coordinates)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
 
