@@ -16,9 +16,12 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 
-from jaxkin.solve import compiled, correct, knots, newton, settle
+from jaxkin.solve.continuation import branch
+from jaxkin.solve.correctors import levenberg_marquardt, newton
+from jaxkin.solve.execution import programs
+from jaxkin.solve.range import polish
 
-FEW = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
+FAST_COMPILATION = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
 
 
 class Count:
@@ -48,13 +51,13 @@ def counted() -> Iterator[Count]:
 
         made = jnp.full(begin.done.shape, -1, jnp.int32)  # the first only evaluates the beginning
         last, made = lax.while_loop(lambda carry: condition(carry[0]), step, (begin, made))
-        if settling:
+        if correcting:
             jax.debug.callback(_damped, made)
         return last
 
     def improved(condition, body, begin):
         last = lax.while_loop(condition, body, begin)
-        if settling:
+        if correcting:
             jax.debug.callback(_newton, last.count - 1)  # the first only evaluates the beginning
         return last
 
@@ -75,25 +78,25 @@ def counted() -> Iterator[Count]:
     def _damped(made) -> None:
         count.damped = max(count.damped, int(np.max(made)))
 
-    settling: list[bool] = []
+    correcting: list[bool] = []
 
     def told(original):
         def traced(*args, **kwargs):
-            settling.append(True)
+            correcting.append(True)
             try:
                 return original(*args, **kwargs)
             finally:
-                settling.pop()
+                correcting.pop()
 
         return traced
 
     patches: list[tuple[Any, str, Any]] = [
-        (correct, "lax", _with(corrected)),
+        (levenberg_marquardt, "lax", _with(corrected)),
         (newton, "lax", _with(improved)),
-        (knots, "lax", _with(followed)),
-        (settle, "correct", told(settle.correct)),
-        (settle, "newton", told(settle.newton)),
-        (compiled, "OPTIONS", compiled.OPTIONS | FEW),
+        (branch, "lax", _with(followed)),
+        (polish, "correct", told(polish.correct)),
+        (polish, "newton", told(polish.newton)),
+        (programs, "COMPILER_OPTIONS", programs.COMPILER_OPTIONS | FAST_COMPILATION),
     ]
     before = [(module, name, getattr(module, name)) for module, name, _ in patches]
     _forget()
@@ -111,8 +114,9 @@ def counted() -> Iterator[Count]:
 def _forget() -> None:
     """All that was compiled, and with which options."""
     jax.clear_caches()
-    compiled.jit_options.cache_clear()
-    compiled._program.cache_clear()
+    programs.jit_options.cache_clear()
+    programs._solve_program.cache_clear()
+    programs._poses_program.cache_clear()
 
 
 def _with(while_loop) -> SimpleNamespace:

@@ -36,6 +36,9 @@ are larger."""
 
 EQUATIONS = 6
 """Independent closure equations of a loop at most, of the twelve of Eq. 11: three of rotation, three of translation."""
+IN_SUBGROUP = 3
+"""Independent equations of a planar loop at most, one of rotation and two of translation; and of a spherical loop, all
+three of rotation."""
 
 Columns = Sequence[tuple[int, int]]
 """(joint, coordinate) of each column."""

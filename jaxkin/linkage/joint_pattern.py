@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.solve_order import Group
 from jaxkin.topology.graph import Circuit
 
@@ -22,9 +23,6 @@ LETTERS = {
     ("rotate", "rotate", "rotate"): "S",
 }
 """The letter of a pair by the kinds of its elementary motions, sorted."""
-
-IN_SUBGROUP = 3
-"""Unknown coordinates of a dyad in the plane, or about a point: as many as a loop has equations there."""
 
 
 def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:

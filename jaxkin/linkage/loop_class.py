@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import jax
@@ -10,7 +10,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.planes import plane_columns, turn_about_one_direction
+from jaxkin.linkage.planes import plane_columns, turn_about_one_direction, turn_about_one_point
 from jaxkin.linkage.rods import idle_spins
 from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import Structure
@@ -26,6 +26,8 @@ class LoopClass(NamedTuple):
     -1 where the rod is part 1 of the ball's joint."""
     schoenflies: tuple[int, ...] = ()
     """Numbers of the loops that turn about one direction only, wherever they slide (the subgroup of Schoenflies)."""
+    spherical: tuple[int, ...] = ()
+    """Numbers of the loops that turn about axes through one point only."""
     cut_at_balls: bool = False
     """Whether loops are cut at balls where that is possible: see `LoopSystem.cuts`."""
 
@@ -44,12 +46,10 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
     found = []
     for loop_group in structure.loop_groups:
         inside = [joints[joint] for joint in loop_group.joints]
-        schoenflies = tuple(
-            number
-            for number, loop in enumerate(loop_group.loops)
-            if turn_about_one_direction([joints[joint] for joint, _ in loop])
-        )
-        found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, cut_at_balls=True))
+        chains = [[joints[joint] for joint, _ in loop] for loop in loop_group.loops]
+        schoenflies = tuple(number for number, chain in enumerate(chains) if turn_about_one_direction(chain))
+        spherical = tuple(number for number, chain in enumerate(chains) if turn_about_one_point(chain))
+        found.append(LoopClass(plane_columns(inside), idle_spins(inside, bodies), schoenflies, spherical, True))
     return tuple(found)
 
 
@@ -59,13 +59,15 @@ def renumbered(
     """The class of some `loops` for others of the same joints; those that are new among `chosen` need numbers."""
     if tuple(chosen) == tuple(loops):
         return loop_class
-    schoenflies = tuple(
-        number
-        for number, loop in enumerate(chosen)
-        if (
-            loops.index(loop) in loop_class.schoenflies
-            if loop in loops
-            else turn_about_one_direction([joints[joint] for joint, _ in loop])
+
+    def numbers(known: Sequence[int], holds: Callable[[Sequence[Joint]], bool]) -> tuple[int, ...]:
+        return tuple(
+            number
+            for number, loop in enumerate(chosen)
+            if (loops.index(loop) in known if loop in loops else holds([joints[joint] for joint, _ in loop]))
         )
+
+    return loop_class._replace(
+        schoenflies=numbers(loop_class.schoenflies, turn_about_one_direction),
+        spherical=numbers(loop_class.spherical, turn_about_one_point),
     )
-    return loop_class._replace(schoenflies=schoenflies)

@@ -1,7 +1,8 @@
-"""Which structure elements are planar, and which loops turn about one direction (host code, numbers only).
+"""Which structure elements are planar, and which loops turn about one direction or point (host code, numbers only).
 
 Joints that turn about one direction or slide at right angles to it form the planar subgroup, in which a loop needs
 three equations instead of six. Those that slide anywhere form the subgroup of Schoenflies, in which it needs four.
+Those that only turn, about axes through one point, form the spherical subgroup, in which it needs three.
 """
 
 from __future__ import annotations
@@ -48,6 +49,40 @@ def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
     """Whether all joints that turn at all do so about one direction; where that is traced, no."""
     axes = None if traced(joints) else _axes(joints)
     return axes is not None and _one_direction(axes[0])
+
+
+def turn_about_one_point(joints: Sequence[Joint]) -> bool:
+    """Whether all joints turn about axes through one point, and nothing slides; where that is traced, no.
+
+    Of the joints on both of their parts, so that the point is the same for all parts however far the joints turn. Axes
+    of one direction only are left to the plane, or to the subgroup of Schoenflies.
+    """
+    axes = None if traced(joints) else _axes(joints)
+    if axes is None or axes[1] or _one_direction(axes[0]):
+        return False
+    turning, _ = axes
+    sides = np.array([[first, second] for _, first, second in turning]).reshape(-1, 3)
+    places = np.concatenate([_origins(joint) for joint in joints])
+    places = places - places[0]
+    size = np.ptp(places, axis=0).max(initial=0.0)
+    across = np.eye(3) - sides[:, :, None] * sides[:, None]
+    centre = np.linalg.lstsq(across.sum(axis=0), np.einsum("aij,aj->i", across, places), rcond=None)[0]
+    off = np.linalg.norm(np.einsum("aij,aj->ai", across, centre - places), axis=1)
+    along = np.einsum("ai,ai->a", sides, centre - places).reshape(-1, 2)
+    return bool(max(off.max(), np.abs(along[:, 0] - along[:, 1]).max()) <= PARALLEL * size)
+
+
+def _origins(joint: Joint) -> np.ndarray:
+    """Points on the axes of `_axes`, of each coordinate on both parts in turn."""
+    sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
+    return np.array(
+        [
+            side[frame, :3, 3]
+            for frame, name in enumerate(joint.movements)
+            for _ in MOVEMENTS[name].elements
+            for side in sides
+        ]
+    ).reshape(-1, 3)
 
 
 Axes = list[tuple[int, np.ndarray, np.ndarray]]

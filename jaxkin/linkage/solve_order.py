@@ -17,15 +17,12 @@ from jaxtyping import Float
 
 from jaxkin.joints.screws import Screws
 from jaxkin.linkage.contracted_graph import ContractedGraph, Ends
-from jaxkin.linkage.first_order import Columns, Noise, independent, loop_jacobian, null_space, without
+from jaxkin.linkage.first_order import EQUATIONS, Columns, Noise, independent, loop_jacobian, null_space, without
 from jaxkin.topology.graph import Circuit
 
 _MAX_SETS = 2000
 """Sets of loops that are tried at most before the rest of the loops is taken as one group. Elements of up to some ten
 loops need fewer than a hundred; the limit keeps a mesh of fifty loops below a second."""
-
-SPATIAL = 6
-"""Independent equations of a loop in space, at most."""
 
 
 @dataclass(frozen=True)
@@ -160,7 +157,7 @@ def order_by_counting(
         joints = tuple(sorted(set[int]().union(*(new[k] for k in chosen))))
         passed = {joint for k in chosen for joint, _ in loops[k]}.difference(joints)
         columns = tuple(column for joint in joints for column in unknown[joint])
-        rank = min(len(columns), sum(equations[k] or SPATIAL for k in chosen))
+        rank = min(len(columns), sum(equations[k] or EQUATIONS for k in chosen))
         after = _direct(found, sorted({known[joint] for joint in passed if joint in known}))
         found.append(Group(joints, columns, tuple(sorted(passed)), tuple(loops[k] for k in chosen), rank, after))
         known |= dict.fromkeys(joints, len(found) - 1)

@@ -16,6 +16,7 @@ from jaxkin._memory import once_for_each
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
@@ -23,7 +24,7 @@ from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
-from jaxkin.solve.system.loop_system import IN_PLANE, LoopSystem
+from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
 
 
@@ -158,7 +159,8 @@ def _counted_groups(
     for column, (joint, k) in enumerate(solved.columns):
         if (joint, k) not in driven:
             unknown[joint].append(column)
-    equations = [IN_PLANE if solved.planar else None for _ in loop_group.loops]
+    about_point = loop_class.spherical
+    equations = [IN_SUBGROUP if solved.planar or k in about_point else None for k in range(len(loop_group.loops))]
     return order_by_counting(loop_group.loops, unknown, equations)
 
 

@@ -114,7 +114,7 @@ class Mechanism:
         drive: Mapping[str, object],
         *,
         options: SolverOptions | None = None,
-        tolerance: float | None = None,
+        tolerance: float | jax.Array | None = None,
         method: str | None = None,
         throw: bool = False,
     ) -> Motion:
@@ -129,7 +129,7 @@ class Mechanism:
         chunk: int = 100_000,
         *,
         options: SolverOptions | None = None,
-        tolerance: float | None = None,
+        tolerance: float | jax.Array | None = None,
         method: str | None = None,
     ) -> Stream:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.

@@ -167,7 +167,9 @@ def _kind(system: LoopSystem, loop: int) -> str:
     """The class of a loop by the equations that the solver needs for it."""
     if system.planar:
         return "planar"
-    return "Schoenflies" if loop in system.loop_class.schoenflies else "spatial"
+    if loop in system.sections.spherical:
+        return "spherical"
+    return "Schoenflies" if loop in system.sections.one_rotation else "spatial"
 
 
 def _count(number: int, what: str) -> str:

@@ -39,7 +39,7 @@ def sweep(
     drive: Mapping[str, object],
     *,
     options: SolverOptions | None = None,
-    tolerance: float | None = None,
+    tolerance: float | jax.Array | None = None,
     method: str | None = None,
     throw: bool = False,
 ) -> Motion:

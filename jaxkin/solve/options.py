@@ -25,8 +25,9 @@ see `jaxkin.solve.reference_methods.minimise`. "dfp" is the method of the paper.
 class SolverOptions:
     """How poses are found: accuracy, method, limits on the work, cores. Immutable and hashable.
 
-    Compiled programs depend on all fields but `tolerance`, `cores` and `min_shard_poses`: for other values of the other
-    fields a sweep is compiled anew. Raises ValueError for a value that a field cannot have.
+    A sweep is compiled anew for other values of all fields but `tolerance`, `cores` and `min_shard_poses`; the latter
+    two only decide into how many shards a long range is cut, for each number of which a program is compiled. Raises
+    ValueError for a value that a field cannot have.
     """
 
     tolerance: float | None = None
@@ -65,7 +66,7 @@ class SolverOptions:
 
     @property
     def of_program(self) -> SolverOptions:
-        """The options that a compiled program depends on; the others at their defaults."""
+        """The options that the code of a program depends on; the others at their defaults."""
         return replace(self, tolerance=None, cores=None, min_shard_poses=SolverOptions.min_shard_poses)
 
 

@@ -37,6 +37,12 @@ REFUSED = {
     "arm.sweep({0: angles})": "a drive names 'joint' or 'joint.coordinate', as in {'A': angles}, got 0",
     "arm.sweep({'A': angles + 1j})": "drive 'A': the displacements must be real numbers, got array(",
     "arm.sweep({'A': angles}, tolerance='small')": "tolerance must be a positive number such as 1e-9, got 'small'",
+    "arm.sweep({'A': angles}, options={'tolerance': 1e-9})": "options must be a jk.SolverOptions, such as "
+    "jk.SolverOptions(tolerance=1e-9), got {'tolerance': 1e-09}",
+    "jk.SolverOptions(cores=1.5)": "cores must be a whole number, 1 or more, such as jk.SolverOptions(cores=2), got 1",
+    "jk.SolverOptions(rescue_steps=None)": "such as jk.SolverOptions(rescue_steps=200), got None",
+    "jax.jit(lambda t: (jk.SolverOptions(tolerance=t), t)[1])(1e-3)": "SolverOptions are static, and this tolerance is "
+    "traced by JAX: write sweep(drive, tolerance=...) instead",
     "arm.sweep({'A': angles}, tolerance=[1e-9])": "tolerance must be a positive number such as 1e-9, got [1e-09]",
     "arm.sweep({'A': angles}, method='newton')": "there is no method 'newton' among continuation, gauss-newton,",
     "arm.stream({'A': angles}, chunk=1.5)": "chunk must be a number of poses, 1 or more, got 1.5",

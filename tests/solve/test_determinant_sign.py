@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio, ratio_of_determinants
+from jaxkin.solve.system.equation_blocks import EquationBlock
 from reference.matrices import block_triangular
 
 
@@ -37,3 +38,14 @@ def test_a_block_that_turns_over_is_seen_though_another_does_too():
     # but for the little on the diagonal, a billionth of the square of a block, over the square of its least value
     expected = np.repeat([[-1.0], [-1.0], [1.0]], 40, axis=1)
     np.testing.assert_allclose(determinant_ratio(jacobian, other, blocks[:3]), expected, atol=1e-2)
+
+
+@pytest.mark.parametrize("shape", [(5, 3), (3, 5)])
+def test_a_jacobian_that_is_not_square_is_compared_in_its_own_range(shape):
+    """An unknown, or an equation, that changes its sign, and another length of it; tolerance as above."""
+    jacobian = jnp.asarray(np.random.default_rng(1).normal(size=(*shape, 4)))
+    rows, columns = (np.arange(count) for count in shape)
+    for factor in (-1.0, 0.5):
+        other = jacobian.at[:, 0].multiply(factor) if shape[1] < shape[0] else jacobian.at[0].multiply(factor)
+        found = determinant_ratio(jacobian, other, [EquationBlock(tuple(rows), tuple(columns))])
+        np.testing.assert_allclose(found, factor, rtol=1e-6)

@@ -20,7 +20,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.spatial import Spatial
-from jaxkin.solve.system.chain_tables import steps
+from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
 MANY, FEW = 512, 32
@@ -82,7 +82,7 @@ def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Floa
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     """The constants in the plane of the first joint that turns, from those in space."""
-    table, kept = steps(system), _kept(system)
+    table, kept = chain_tables(system), _kept(system)
     loops = np.arange(len(system.loops))
 
     def onward(pose: Array, between: Array) -> tuple[Array, Array]:
@@ -177,7 +177,7 @@ class _Kept(NamedTuple):
 
 @lru_cache(maxsize=256)
 def _kept(system: LoopSystem) -> _Kept:
-    table = steps(system)
+    table = chain_tables(system)
     inside = table.column < system.columns
     chosen = [np.flatnonzero(column) for column in inside.T]
     length = max(map(len, chosen))

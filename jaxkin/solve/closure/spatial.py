@@ -23,7 +23,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
-from jaxkin.solve.system.chain_tables import AXES, steps
+from jaxkin.solve.system.chain_tables import AXES, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rotation_matrix
 
@@ -42,6 +42,8 @@ class Spatial(NamedTuple):
     pitch: Float[Array, " joints"]
     lines: Lines
     """Of idle spins: see `spins`."""
+    centres: Float[Array, "3 spherical"]
+    """Points about which the spherical loops turn, of `LoopSystem.sections`."""
 
 
 def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
@@ -50,22 +52,33 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     Columns follow `LoopSystem`, those of balls turn about world axes.
     """
     rotation, translation, twists = _travel(system, geometry, state)
-    table, poses = steps(system), state.x.shape[-1]
-    rotations = np.array(system.rotations)
-    free, schoenflies, uncut = (np.flatnonzero(which) for which in (rotations == 3, rotations == 1, rotations > 0))
-    ends = np.setdiff1d(np.arange(len(system.loops)), table.rods[0])
+    table, poses, sections = chain_tables(system), state.x.shape[-1], system.sections
+    free, spherical, schoenflies, ends = (np.array(loops, int) for loops in sections[:-1])
     # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
+    uncut = np.sort(np.concatenate([free, spherical, schoenflies]))
     turned = rotation[:, :, uncut] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
     residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
     rows = [twists[table.source[:, free], :3, free]]
+    moved = translation[:, ends]
+    squares = jnp.sum(moved**2, axis=(0, 1))
+    if spherical.size:
+        turns = vee(rotation[:, :, spherical].swapaxes(0, 1))
+        weighted, slopes = _about_points(
+            geometry.centres[..., None],
+            turns,
+            translation[:, spherical],
+            twists[table.source[:, spherical], :3, spherical],
+        )
+        squares += jnp.sum(translation[:, spherical] ** 2, axis=(0, 1))
+        residual += [*_of_loops(weighted)]
+        rows.append(slopes)
     if schoenflies.size:
         # the twist of a joint that turns holds the direction
         turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
         direction = twists[turning[schoenflies], :3, schoenflies]
-        residual.append(jnp.sum(direction * _of_loops(vee(rotation[:, :, schoenflies].swapaxes(0, 1))), axis=1))
+        turns = _of_loops(vee(rotation[:, :, schoenflies].swapaxes(0, 1)))
+        residual.append(jnp.sum(direction * turns, axis=1))
         rows.append(jnp.sum(direction * twists[table.source[:, schoenflies], :3, schoenflies], axis=2, keepdims=True))
-    moved = translation[:, ends]
-    squares = jnp.sum(moved**2, axis=(0, 1))
     residual += [*_of_loops(moved)]
     rows.append(twists[table.source[:, ends], 3:, ends])
     if table.rods.size:
@@ -76,6 +89,26 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     residual = jnp.concatenate(residual)
     jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
+
+
+def _about_points(
+    centres: Float[Array, "3 loops 1"],
+    turns: Float[Array, "3 loops poses"],
+    translation: Float[Array, "3 loops poses"],
+    slopes: Float[Array, "columns loops 3 poses"],
+) -> tuple[Float[Array, "3 loops poses"], Float[Array, "columns loops 3 poses"]]:
+    """Three equations of loops about points `c` that pose the same least-squares problem as all six.
+
+    There `t = (1 - R) c`, whose derivative by a turn w is `d x w` with `d = R c = c - t`. So the gradient of half the
+    sum of squares is `vee + t x c`, and the normal matrix that of the turns with the weight `1 + d^2 - d d^T`, whose
+    root S is `s - d d^T / (1 + s)` with `s^2 = 1 + c^2`.
+    """
+    d = centres - translation
+    s = jnp.sqrt(1 + jnp.sum(centres**2, axis=0))
+    gradient = turns + jnp.cross(translation, centres, axis=0)
+    weighted = (gradient + d * jnp.sum(d * gradient, axis=0) / (1 + s)) / s
+    d = _of_loops(d)[None]
+    return weighted, s[:, None] * slopes - d * jnp.sum(d * slopes, axis=2, keepdims=True) / (1 + s[:, None])
 
 
 def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
@@ -97,7 +130,7 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
     """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it; a rod spins somehow."""
     if not any(system.cuts):
         return {}
-    table = steps(system)
+    table = chain_tables(system)
     rotation, translation, _ = _travel(system, geometry, state)
     closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of what the chain turns, [row, column]
     if table.rods.size:
@@ -118,8 +151,8 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
 def _travel(
     system: LoopSystem, geometry: Spatial, state: State
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
-    """Displacement of the ends of the chains, and the twists that the steps give to them, as in `Steps.source`."""
-    table, poses, dtype = steps(system), state.x.shape[-1], state.x.dtype
+    """Displacement of the ends of the chains, and the twists that the rows give to them: `ChainTables.source`."""
+    table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
     chains = len(table.begin)
     turn, slide, screw, sign, side = (
         jnp.asarray(entry, dtype)[..., None]
@@ -156,7 +189,7 @@ def _travel(
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _ball_turns(state: State, table) -> Float[Array, "steps 3 3 chains poses"]:
+def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
     """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
@@ -178,13 +211,28 @@ def _product(a: Rotation, b: Rotation) -> Rotation:
 
 def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
     """The constants of the loops from the frames of the joints: those before, those after, and none."""
-    table = steps(system)
+    table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
     along = jnp.asarray(turned[table.axis], frames.dtype)
     enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
     between = jnp.concatenate([_inverse(frames[table.begin])[None] @ enter[:1], leave[:-1] @ enter[1:]])
-    return Spatial(between, leave[-1] @ frames[table.end], pitch, spin_lines(system, frames))
+    return Spatial(between, leave[-1] @ frames[table.end], pitch, spin_lines(system, frames), _centres(system, frames))
+
+
+def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Array, "3 spherical"]:
+    """The point nearest to all axes of each spherical loop, by the frames on the first parts of its joints."""
+    centres = [jnp.zeros((3, 0), frames.dtype)]
+    for loop in system.sections.spherical:
+        axes = system.axes(joint for joint, _ in system.loops[loop])
+        of_frame, axis = np.array(axes).T
+        direction, point = frames[of_frame, :3, axis], frames[of_frame, :3, 3]
+        across = jnp.eye(3, dtype=frames.dtype) - direction[:, :, None] * direction[:, None]
+        a, b, c = jnp.sum(across, axis=0)
+        right = jnp.einsum("aij,aj->i", across, point)
+        normals = jnp.stack([jnp.cross(b, c), jnp.cross(c, a), jnp.cross(a, b)])
+        centres.append((right @ normals / (a @ normals[0]))[:, None])
+    return jnp.concatenate(centres, axis=1)
 
 
 def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:

@@ -7,7 +7,6 @@ poses by the same program as the plain sweep.
 from __future__ import annotations
 
 from functools import cache, partial
-from inspect import signature
 from typing import Any, NamedTuple
 
 import jax
@@ -68,9 +67,9 @@ def solve(
         return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     # compiler options are for whole programs only: inside one that is being traced the search becomes part of that
-    find = (_plain if traced(numbers) else _program)(_of_all_designs)
-    poses = find(system, options.of_program, *numbers)
-    return _plain(displacements)(system, joints, inputs, poses), Outcome(poses.status, poses.residual_norm)
+    poses = _poses_program(whole=not traced(numbers))(system, options.of_program, *numbers)
+    found = _displacements_program(system, joints, inputs, poses)
+    return found, Outcome(poses.status, poses.residual_norm)
 
 
 def compilations() -> int:
@@ -84,12 +83,12 @@ def _solve_numbers(
     """Solve for numbers that are known, long ranges in shards."""
     of_program = options.of_program
     if options.method != CONTINUATION:
-        return _program(_solve)(system, of_program, joints, inputs, tolerance)
+        return _solve_program()(system, of_program, joints, inputs, tolerance)
     ordered, places = _in_order(inputs, options.interpolate_from)
     count = shard_count(system, ordered.shape[1], options)
 
     def of_shard(inputs: np.ndarray, shard_start: np.ndarray | None = None):
-        return _program(_solve)(system, of_program, joints, inputs, tolerance, shard_start, shard_count=count)
+        return _solve_program()(system, of_program, joints, inputs, tolerance, shard_start, shard_count=count)
 
     found = run_on_cores(system, of_shard, ordered, count)
     return found if places is None else jax.tree.map(lambda rows: rows[..., places], found)
@@ -139,18 +138,20 @@ def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np
     return inputs[:, order], places
 
 
-@cache
-def _plain(function):
-    return jax.jit(function, static_argnames=_static(function))
+_displacements_program = jax.jit(displacements, static_argnames="system")
+"""Displacements from poses that were found: the program that is differentiated."""
 
 
 @cache
-def _program(function):
-    return jax.jit(function, static_argnames=_static(function), **jit_options())
+def _solve_program():
+    """The program of a plain sweep: poses and displacements."""
+    return jax.jit(_solve, static_argnames=("system", "options", "shard_count"), **jit_options())
 
 
-def _static(function) -> tuple[str, ...]:
-    return tuple(name for name in ("system", "options", "shard_count") if name in signature(function).parameters)
+@cache
+def _poses_program(whole: bool):
+    """The search for poses alone, of which the displacements are differentiated: a whole program, or part of one."""
+    return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
 @cache

@@ -1,14 +1,15 @@
-"""The loops of a system as tables of elementary steps: what the closure kernel runs through, joint by joint.
+"""The loops of a system as tables of elementary motions: what the closure kernel runs through, joint by joint.
 
-A step turns about and slides along the z axis of its own frame, or turns as a ball does. The tables are host data,
-made once. A loop is one chain of steps, closed in itself or between the two sides of the ball at which it is cut; one
-that is cut at both balls of a rod is two chains, from ball to ball. Those of unequal length are filled up with steps
-that do nothing.
+An elementary motion turns about and slides along the z axis of its own frame, or turns as a ball does. The tables are
+host data, made once for a system. An uncut loop is one chain of elementary motions, closed in itself; a loop that is
+cut at a ball is one chain from one side of the ball to the other; a loop that is cut at both balls of a rod is two
+chains, from ball to ball. Shorter chains are filled up with rows that do nothing.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import accumulate
 from typing import NamedTuple
 
 import numpy as np
@@ -19,116 +20,188 @@ from jaxkin.solve.system.loop_system import LoopSystem
 AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
 """Rotations that carry z to x, y, z (and keep the order of the axes), by the number of the axis."""
 
+Z_AXIS = 2
+"""Number of the axis that `AXES` leaves where it is: for rows without an axis of their own."""
 
-class Steps(NamedTuple):
-    """Tables of shape (steps, chains): the first chain of every loop, then the second ones of those cut at a rod."""
+
+class ChainRow(NamedTuple):
+    """One elementary motion of a chain; one entry of each of the tables of the same names."""
+
+    column: int
+    """Column of the coordinate; the number of columns, which holds zero, where there is none."""
+    joint: int
+    sign: int
+    """+1, or -1 where the joint is travelled from part 2 to part 1; 0 for rows that do nothing."""
+    turn: int
+    """1 where the coordinate turns, else 0."""
+    slide: int
+    """1 where the coordinate slides, else 0."""
+    screw: int
+    """1 where the coordinate slides by the pitch of the joint as well, else 0."""
+    ball: int
+    """Number of the ball that turns; the number of balls where none does."""
+    side: int
+    """+1, or -1 where the axes that its columns turn a ball about turn with it: a line of centres."""
+    axis: int
+    """Number of the axis of the frame that is the z axis of the elementary motion."""
+    enter: int
+    """Number of the frame in which it begins: frames on parts 1, frames on parts 2, then "no frame"."""
+    leave: int
+    """Number of the frame in which it ends."""
+
+
+class ChainEnds(NamedTuple):
+    """Where a chain begins and ends."""
+
+    begin: int
+    """Number of the frame in which the chain begins: "no frame", or the frame behind the ball where the loop is cut."""
+    end: int
+    """Number of the frame in which it ends: "no frame", or the frame before a ball."""
+    cut_ball: int
+    """Number of the ball behind which it begins; the number of balls where the loop is uncut."""
+    cut_sign: int
+    """+1, or -1 where that ball is travelled from part 2 to part 1; 0 where the loop is uncut."""
+
+
+class Chain(NamedTuple):
+    """A chain of elementary motions."""
+
+    rows: list[ChainRow]
+    ends: ChainEnds
+
+
+class ChainTables(NamedTuple):
+    """Tables of shape (rows, chains), of `ChainRow` and `ChainEnds`; the first chain of every loop comes first, then
+    the second chains of the loops that are cut at a rod."""
 
     column: np.ndarray
-    """Column of the coordinate; the number of columns, which holds zero, where there is none."""
     joint: np.ndarray
     sign: np.ndarray
-    """+1, or -1 where the joint is travelled from part 2 to part 1; 0 for steps that do nothing."""
     turn: np.ndarray
-    """1 where the coordinate turns, else 0."""
     slide: np.ndarray
-    """1 where the coordinate slides, else 0."""
     screw: np.ndarray
-    """1 where the coordinate slides by the pitch of the joint as well, else 0."""
     ball: np.ndarray
     """Index of the quaternion of a ball in the `State`; the number of quaternions, which holds no turn, where there is
     none."""
     side: np.ndarray
-    """+1, or -1 where the axes that its columns turn a ball about turn with it: a line of centres."""
     axis: np.ndarray
     enter: np.ndarray
-    """Index of the frame in which the step begins: frames before, frames after, no frame."""
     leave: np.ndarray
-    """Index of the frame in which it ends."""
     begin: np.ndarray
-    """(chains,): frame in which the chain begins; no frame, or that behind the ball at which the loop is cut."""
+    """(chains,), as `end`, `cut_ball` and `cut_sign`."""
     end: np.ndarray
-    """(chains,): frame in which it ends; no frame, or that before a ball."""
     cut_ball: np.ndarray
-    """(chains,): number of the ball behind which it begins; the number of balls where the loop is whole."""
     cut_sign: np.ndarray
-    """(chains,): +1, or -1 where that is travelled from part 2 to part 1; 0 where the loop is whole."""
     source: np.ndarray
-    """(columns, chains): the twist that is the column of the Jacobian, counted four a step (z, then the three of a
-    ball), or one where there is no ball; the one behind the last, which is zero, where the chain does not hold the
-    coordinate."""
+    """(columns, chains): number of the twist that is the column of the Jacobian, counted four a row (z, then the three
+    of a ball), or one a row where there is no ball; the number of twists, which holds zero, where the chain does not
+    hold the coordinate."""
     rods: np.ndarray
-    """(2, rods): both chains of each loop that is cut at a rod."""
+    """(2, rods): numbers of both chains of each loop that is cut at a rod."""
 
 
 @lru_cache(maxsize=256)
-def steps(system: LoopSystem) -> Steps:
+def chain_tables(system: LoopSystem) -> ChainTables:
     """The tables of a system."""
-    frames = sum(map(len, system.movements))
-    opened = [
-        _opened(_loop(system, loop), cut, (2 * frames, 2 * frames, len(system.balls), 0))
-        for loop, cut in zip(system.loops, system.cuts, strict=True)
-    ]
-    of_rods = [number for number, chains in enumerate(opened) if len(chains) > 1]
-    chains, ends = zip(*(chains[0] for chains in opened), *(opened[number][1] for number in of_rods), strict=True)
-    length = max(map(len, chains))
-    idle = (system.columns, 0, 0, 0, 0, 0, len(system.balls), 1, 2, 2 * frames, 2 * frames)
-    filled = np.array([rows + [idle] * (length - len(rows)) for rows in chains], np.int32)
-    tables = [filled[..., entry].T for entry in range(filled.shape[-1])]
-    each = 4 if system.turned_balls else 1
-    source = np.full((system.columns, len(chains)), each * length, np.int32)
-    for (step, chain), column in np.ndenumerate(tables[0]):
-        if column < system.columns:
-            source[column, chain] = each * step
-    for (step, chain), ball in np.ndenumerate(tables[6]):
-        if ball < len(system.balls):
-            columns = system.balls[ball]
-            source[list(columns), chain] = 4 * step + 1 + np.arange(len(columns))
-    place = np.full(len(system.balls) + 1, len(system.turned_balls), np.int32)
-    place[list(system.turned_balls)] = np.arange(len(system.turned_balls))
-    tables[6] = place[tables[6]]
-    rods = np.array([of_rods, np.arange(len(opened), len(chains))], np.int32)
-    return Steps._make([*tables, *np.array(ends, np.int32).T, source, rods])
+    by_loop = [_chains(system, loop, cut) for loop, cut in zip(system.loops, system.cuts, strict=True)]
+    of_rods = [number for number, chains in enumerate(by_loop) if len(chains) > 1]
+    chains = [*(first for first, *_ in by_loop), *(by_loop[number][1] for number in of_rods)]
+    length = max(len(chain.rows) for chain in chains)
+    no_row = _no_row(system)
+    filled = np.array([chain.rows + [no_row] * (length - len(chain.rows)) for chain in chains], np.int32)
+    rows = dict(zip(ChainRow._fields, np.moveaxis(filled, -1, 0).swapaxes(1, 2), strict=True))
+    ends = dict(zip(ChainEnds._fields, np.array([chain.ends for chain in chains], np.int32).T, strict=True))
+    source = _sources(system, rows["column"], rows["ball"])
+    quaternion = np.full(len(system.balls) + 1, len(system.turned_balls), np.int32)
+    quaternion[list(system.turned_balls)] = np.arange(len(system.turned_balls))
+    rows["ball"] = quaternion[rows["ball"]]
+    rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
+    return ChainTables(**rows, **ends, source=source, rods=rods)
 
 
-def _opened(
-    rows: list[tuple[int, ...]], cut: tuple[int, ...], whole: tuple[int, ...]
-) -> list[tuple[list[tuple[int, ...]], tuple[int, ...]]]:
-    """The chains of a loop that is cut at some balls, each from behind one to before the next: its rows; the frames in
-    which it begins and ends, and number and sign of the ball that it begins behind, or those of a `whole` loop."""
+def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> np.ndarray:
+    """`ChainTables.source` from the columns and the numbers of balls of all rows, each (rows, chains)."""
+    length, chains = column.shape
+    twists_a_row = 4 if system.turned_balls else 1
+    source = np.full((system.columns, chains), twists_a_row * length, np.int32)
+    for (row, chain), coordinate in np.ndenumerate(column):
+        if coordinate < system.columns:
+            source[coordinate, chain] = twists_a_row * row
+    for (row, chain), number in np.ndenumerate(ball):
+        if number < len(system.balls):
+            columns = system.balls[number]
+            source[list(columns), chain] = 4 * row + 1 + np.arange(len(columns))
+    return source
+
+
+def _frames(system: LoopSystem) -> int:
+    """Number of frames on the first parts of all joints: as many on the second parts, and behind those "no frame"."""
+    return sum(map(len, system.movements))
+
+
+def _no_row(system: LoopSystem) -> ChainRow:
+    """A row that does nothing."""
+    no_frame = 2 * _frames(system)
+    return ChainRow(
+        column=system.columns,
+        joint=0,
+        sign=0,
+        turn=0,
+        slide=0,
+        screw=0,
+        ball=len(system.balls),
+        side=1,
+        axis=Z_AXIS,
+        enter=no_frame,
+        leave=no_frame,
+    )
+
+
+def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[int, ...]) -> list[Chain]:
+    """The chains of a loop that is cut at some balls, each from behind one ball to before the next; of an uncut loop
+    one chain."""
+    rows = [row for joint, sign in loop for row in _joint_rows(system, joint, sign)]
     if not cut:
-        return [(rows, whole)]
-    places = [number for number, row in enumerate(rows) if row[6] in cut]
+        no_frame = 2 * _frames(system)
+        return [Chain(rows, ChainEnds(no_frame, no_frame, len(system.balls), 0))]
+    places = [number for number, row in enumerate(rows) if row.ball in cut]
     chains = []
-    for place, other in zip(places, [*places[1:], places[0]], strict=True):
-        (*_, leave), (*_, enter, _) = rows[place], rows[other]
-        between = rows[place + 1 : other] if place < other else rows[place + 1 :] + rows[:other]
-        chains.append((between, (leave, enter, rows[place][6], rows[place][2])))
+    for place, following in zip(places, [*places[1:], places[0]], strict=True):
+        ball = rows[place]
+        between = rows[place + 1 : following] if place < following else rows[place + 1 :] + rows[:following]
+        chains.append(Chain(between, ChainEnds(ball.leave, rows[following].enter, ball.ball, ball.sign)))
     return chains
 
 
-def _loop(system: LoopSystem, loop: tuple[tuple[int, int], ...]) -> list[tuple[int, ...]]:
-    """The rows of one loop, entries in the order of `Steps`."""
-    frames = sum(map(len, system.movements))
-    first_frame = np.cumsum([0, *map(len, system.movements)])
-    turning = {column for columns in system.balls for column in columns}
-    rows = []
-    for joint, sign in loop:
-        chain = system.chains[joint]
-        for name, frame, column, ball in chain if sign > 0 else reversed(chain):
-            before = int(first_frame[joint]) + frame
-            enter, leave = (before, frames + before) if sign > 0 else (frames + before, before)
-            movement = MOVEMENTS[name]
-            elements = [element for element in movement.elements if column + element.coordinate not in turning]
-            if ball is not None or not elements:
-                elements = [None]
-            for number, element in enumerate(elements if sign > 0 else elements[::-1]):
-                at = enter if number == 0 else 2 * frames, leave if number == len(elements) - 1 else 2 * frames
-                if element is None:
-                    which = len(system.balls) if ball is None else ball
-                    side = -1 if ball is not None and len(system.balls[ball]) == 2 else 1
-                    rows.append((system.columns, joint, sign, 0, 0, 0, which, side, 2, *at))
-                else:
-                    kind = (element.kind != "translate", element.kind == "translate", element.kind == "screw")
-                    index = column + element.coordinate
-                    rows.append((index, joint, sign, *map(int, kind), len(system.balls), 1, element.axis, *at))
+def _joint_rows(system: LoopSystem, joint: int, sign: int) -> list[ChainRow]:
+    """The rows of a joint that is travelled from part 1 to part 2 (sign +1) or back (-1)."""
+    turned_as_ball = {column for columns in system.balls for column in columns}
+    first_frame = tuple(accumulate(map(len, system.movements), initial=0))[joint]
+    frames, no_row = _frames(system), _no_row(system)
+    rows: list[ChainRow] = []
+    for name, frame, column, ball in system.chains[joint][::sign]:
+        on_part1 = first_frame + frame
+        on_part2 = frames + on_part1
+        motions = [each for each in MOVEMENTS[name].elements if column + each.coordinate not in turned_as_ball]
+        if ball is not None or not motions:
+            of_ball = {} if ball is None else {"ball": ball, "side": -1 if len(system.balls[ball]) == 2 else 1}
+            here = [no_row._replace(joint=joint, sign=sign, **of_ball)]
+        else:
+            here = [
+                no_row._replace(
+                    column=column + each.coordinate,
+                    joint=joint,
+                    sign=sign,
+                    turn=int(each.kind != "translate"),
+                    slide=int(each.kind == "translate"),
+                    screw=int(each.kind == "screw"),
+                    axis=each.axis,
+                )
+                for each in motions[::sign]
+            ]
+        # all motions of one movement share its frame: only the first one enters it, and only the last one leaves it
+        enter, leave = (on_part1, on_part2)[::sign]
+        here[0] = here[0]._replace(enter=enter)
+        here[-1] = here[-1]._replace(leave=leave)
+        rows += here
     return rows

@@ -1,35 +1,66 @@
 """A system of closed loops as the solver sees it: static, hashable, without numbers.
 
-The joints of one structure element (a single or multiple closed loop) and the loops that run through them, with the
-coordinates that are driven. Coordinates of all joints stand one after another as columns of the Jacobian.
+A loop system holds the joints of one structure element (a single or multiple closed loop), the loops that run through
+these joints, the coordinates that are driven and the order of solution. The coordinates of all joints, one after
+another, are the columns of the Jacobian.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import accumulate, product
+from itertools import accumulate
+from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.screws import freedoms
+from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.loop_class import LoopClass
 
-EQUATIONS, IN_PLANE, CENTRE, LENGTH = 6, 3, 3, 1
-"""Independent equations a loop at most: three of rotation, three of translation (of the twelve of Eq. 11); in a plane
-one and two; cut at a ball the latter three, at both balls of a rod one. Of a loop that turns about one direction only,
-one and three."""
+
+class Sections(NamedTuple):
+    """Which loops in space have which equations, in the order in which they are rows of the Jacobian."""
+
+    rotation: tuple[int, ...]
+    """Numbers of the loops of three equations of rotation."""
+    spherical: tuple[int, ...]
+    """Numbers of the loops whose axes meet in one point, with three equations in all."""
+    one_rotation: tuple[int, ...]
+    """Numbers of the loops that turn about one direction only."""
+    translation: tuple[int, ...]
+    """Numbers of the loops of three equations of translation; of those that are cut at a ball these are all."""
+    rod_length: tuple[int, ...]
+    """Numbers of the loops that are cut at both balls of a rod, of which its length is left."""
+
+
+EQUATIONS_OF = (3, 3, 1, 3, 1)
+"""Number of equations of a loop in each of the `Sections`."""
+
+
+class PlacedMovement(NamedTuple):
+    """A movement of a joint."""
+
+    movement: str
+    """Key of `MOVEMENTS`."""
+    frame: int
+    """Which of the joint's frames it moves in."""
+    column: int
+    """Its first column."""
+    ball: int | None
+    """Number of the ball that it turns; None where it turns none."""
 
 
 @dataclass(frozen=True)
 class LoopSystem:
-    """Loops that share joints, and which of their coordinates are given."""
+    """Loops that share joints, which of their coordinates are given, and in which order the loops are solved."""
 
     movements: tuple[tuple[str, ...], ...]
     """For each joint the keys of `MOVEMENTS` of its frames."""
     loops: tuple[tuple[tuple[int, int], ...], ...]
-    """For each loop its joints in order of travel with +1, or -1 where travelled from part 2 to part 1."""
+    """For each loop (joint, sign) in order of travel: +1 where travelled from part 1 to part 2, else -1."""
     driven: tuple[int, ...]
-    """Columns whose values are given."""
+    """Columns of the coordinates that are given, rising."""
     loop_class: LoopClass
     """What is special about the loops, so that they need fewer equations."""
     order: tuple[tuple[int, ...], ...] = ()
@@ -40,22 +71,22 @@ class LoopSystem:
             object.__setattr__(self, "order", (tuple(range(len(self.loops))),))
 
     @cached_property
-    def chains(self) -> tuple[tuple[tuple[str, int, int, int | None], ...], ...]:
-        """For each joint its movements: key of `MOVEMENTS`, frame, first column, number of its ball if it is one."""
+    def chains(self) -> tuple[tuple[PlacedMovement, ...], ...]:
+        """For each joint its movements, from part 1 to part 2."""
         chains = []
         for joint, movements in enumerate(self.movements):
             column, chain = self._first_columns[joint], []
             for frame, name in enumerate(movements):
-                chain.append((name, frame, column, self.places.get((joint, frame), (None,))[0]))
+                chain.append(PlacedMovement(name, frame, column, self.places.get((joint, frame), (None,))[0]))
                 column += len(MOVEMENTS[name].coordinates)
             chains.append(tuple(chain))
         return tuple(chains)
 
     @cached_property
     def balls(self) -> tuple[tuple[int, ...], ...]:
-        """The columns that turn each ball about the axes of its frame: three, or the first two of a line of centres.
+        """For each ball the columns that turn it about the axes of its frame: three, or two of a line of centres.
 
-        Ball pairs come first, then what would lock if it were solved by its angles.
+        Ball pairs come first, then the balls that are solved in place of angles that would lock.
         """
         return tuple(columns for _, columns in self.places.values())
 
@@ -65,7 +96,7 @@ class LoopSystem:
 
     @cached_property
     def places(self) -> dict[tuple[int, int], tuple[int, tuple[int, ...]]]:
-        """Joint and frame of each ball -> its number and its columns, by rising number."""
+        """(joint, frame) of each ball -> its number and its columns, by rising number."""
         pairs, locking = {}, {}
         for joint, movements in enumerate(self.movements):
             column = self._first_columns[joint]
@@ -75,10 +106,20 @@ class LoopSystem:
                     pairs[joint, frame] = (column, column + 1, column + 2)
                 lock = MOVEMENTS[name].lock
                 follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
-                if lock and follows and not given:  # a single angle can be driven only where it is one
+                if lock and follows and not given:  # the angles of a ball cannot be driven one by one
                     locking[joint, frame + lock.ball] = tuple(column + k for k in lock.columns)
                 column += len(MOVEMENTS[name].coordinates)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
+
+    def axes(self, joints: Iterable[int]) -> list[tuple[int, int]]:
+        """(frame, axis) of each elementary motion of some joints; frames are counted through, those of all joints."""
+        first = tuple(accumulate(map(len, self.movements), initial=0))
+        return [
+            (first[joint] + frame, element.axis)
+            for joint in joints
+            for frame, name in enumerate(self.movements[joint])
+            for element in MOVEMENTS[name].elements
+        ]
 
     @cached_property
     def is_length(self) -> tuple[bool, ...]:
@@ -102,7 +143,7 @@ class LoopSystem:
 
     @property
     def planar(self) -> bool:
-        """Whether all coordinates act in one plane; those of the joints along its normal are no columns then."""
+        """Whether all coordinates act in one plane; coordinates along the normal of the plane are no columns then."""
         return self.loop_class.plane is not None
 
     @cached_property
@@ -136,43 +177,45 @@ class LoopSystem:
 
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
-        """See `LoopClass`; without those of balls that are driven."""
+        """`LoopClass.spins`, but for those of balls that are driven."""
         free = [columns[0] not in self.driven for columns in self.balls]
         return tuple(spin for spin in self.loop_class.spins if free[spin[0]] and free[spin[1]])
 
     @property
     def spinning(self) -> bool:
-        """Whether the spin of any rod is left to the solver."""
+        """Whether the loops leave the spin of any rod to least-norm steps: of a rod that is not cut at both balls."""
         return any(ball in self.turned_balls for one, other, *_ in self.spins for ball in (one, other))
 
     @property
     def uncut(self) -> LoopSystem:
-        """The same with no loop cut."""
+        """The same system with no loop cut at a ball."""
         return replace(self, loop_class=self.loop_class._replace(cut_at_balls=False))
 
     @cached_property
-    def rotations(self) -> tuple[int, ...]:
-        """For each loop in space the number of its equations of rotation."""
-        one = self.loop_class.schoenflies
-        return tuple(0 if cut else 1 if loop in one else 3 for loop, cut in enumerate(self.cuts))
-
-    @cached_property
-    def translations(self) -> tuple[int, ...]:
-        """For each loop in space the number of its equations of translation, or of the length of a rod."""
-        return tuple(CENTRE if len(cut) < 2 else LENGTH for cut in self.cuts)
+    def sections(self) -> Sections:
+        """Which loops in space have which equations."""
+        one, about_point = self.loop_class.schoenflies, self.loop_class.spherical
+        uncut = [loop for loop, cut in enumerate(self.cuts) if not cut]
+        spherical = tuple(loop for loop in uncut if loop in about_point)
+        return Sections(
+            rotation=tuple(loop for loop in uncut if loop not in one and loop not in about_point),
+            spherical=spherical,
+            one_rotation=tuple(loop for loop in uncut if loop in one),
+            translation=tuple(loop for loop, cut in enumerate(self.cuts) if len(cut) < 2 and loop not in spherical),
+            rod_length=tuple(loop for loop, cut in enumerate(self.cuts) if len(cut) > 1),
+        )
 
     @cached_property
     def rows(self) -> tuple[tuple[int, ...], ...]:
         """For each loop its rows of the Jacobian: see `Closure.residual`."""
         if self.planar:
-            return tuple(tuple(range(IN_PLANE * loop, IN_PLANE * (loop + 1))) for loop in range(len(self.loops)))
+            return tuple(tuple(range(IN_SUBGROUP * loop, IN_SUBGROUP * (loop + 1))) for loop in range(len(self.loops)))
         rows: list[tuple[int, ...]] = [()] * len(self.loops)
         first = 0
-        for counts, size in product((self.rotations, self.translations), (3, 1)):
-            for loop, count in enumerate(counts):
-                if count == size:
-                    rows[loop] += tuple(range(first, first + size))
-                    first += size
+        for loops, size in zip(self.sections, EQUATIONS_OF, strict=True):
+            for loop in loops:
+                rows[loop] += tuple(range(first, first + size))
+                first += size
         return tuple(rows)
 
     @cached_property
@@ -182,12 +225,13 @@ class LoopSystem:
 
     @cached_property
     def free(self) -> tuple[int, ...]:
-        """Columns to be solved for."""
+        """Columns that are not driven."""
         return tuple(column for column in range(self.columns) if column not in self.driven)
 
     @cached_property
     def used(self) -> tuple[int, ...]:
-        """The columns that are solved for: no others of the Jacobian count."""
+        """Columns that the equations are solved for: those that are not driven, but for the turns of balls at which a
+        loop is cut."""
         follows = {column for cut in self.cuts for ball in cut for column in self.balls[ball]}
         return tuple(column for column in self.free if column not in follows)
 

@@ -1,0 +1,109 @@
+"""What pages hold that is not written by hand: the notebooks as they are stored, and the constants of the code.
+
+Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows; nothing is run.
+A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings,
+and "exports that no other page has" by the references of what else can be imported from jaxkin.
+"""
+
+from __future__ import annotations
+
+import ast
+import base64
+import json
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.files import Files
+
+ROOT = Path(__file__).parent.parent
+NOTEBOOKS = ROOT / "notebooks"
+FENCE = "`````"
+"""Longer than any fence inside a cell or an output."""
+PICTURES = {"image/png": "png", "image/gif": "gif"}
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages of the notebooks, and the pictures beside them."""
+    from mkdocs.structure.files import File  # here: tests that read constants need no mkdocs
+
+    for path in sorted(NOTEBOOKS.glob("*.ipynb")):
+        page, pictures = notebook_page(path)
+        files.append(File.generated(config, f"notebooks/{path.stem}.md", content=page))
+        for name, content in pictures.items():
+            files.append(File.generated(config, f"notebooks/{name}", content=content))
+    for path in sorted(NOTEBOOKS.glob("pictures/*.png")):
+        files.append(File.generated(config, f"notebooks/pictures/{path.name}", abs_src_path=str(path)))
+    return files
+
+
+def on_page_markdown(markdown: str, **_) -> str:
+    """Put constants and references in the place of the comments that ask for them."""
+    markdown = markdown.replace("<!-- exports that no other page has -->", "\n\n".join(other_exports()))
+    return re.sub(r"<!-- constants of (.*?) -->", lambda match: constants_of(match[1].split()), markdown)
+
+
+def other_exports() -> list[str]:
+    """References of the names that `jaxkin` exports and no page of the API has."""
+    pages = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md"))
+    listed = set(re.findall(r"^::: jaxkin\.(\w+)", pages, re.M))
+    text = (ROOT / "jaxkin" / "__init__.py").read_text(encoding="utf-8")
+    imports = [node for node in ast.parse(text).body if isinstance(node, ast.ImportFrom)]
+    exports = [alias.asname or alias.name for node in imports for alias in node.names]
+    return [f"::: jaxkin.{name}" for name in exports if not name.startswith("_") and name not in listed]
+
+
+def constants_of(folders: list[str]) -> str:
+    """Tables of the constants in some folders, one a module."""
+    tables = []
+    for path in (path for folder in folders for path in sorted((ROOT / folder).rglob("*.py"))):
+        if rows := constants(path):
+            cells = "\n".join(f"| `{name}` | `{value}` | {text} |" for name, value, text in rows)
+            heading = f"**`{path.relative_to(ROOT).as_posix()}`**"
+            tables.append(f"{heading}\n\n| constant | value | why |\n|---|---|---|\n{cells}")
+    return "\n\n".join(tables)
+
+
+def constants(path: Path) -> list[tuple[str, str, str]]:
+    """Name, value and docstring of the constants of a module that are numbers; without a docstring it is empty."""
+    found = []
+    body = ast.parse(path.read_text(encoding="utf-8")).body
+    for statement, following in zip(body, [*body[1:], None], strict=True):
+        if not isinstance(statement, ast.Assign) or not isinstance(statement.targets[0], ast.Name | ast.Tuple):
+            continue
+        name, value = ast.unparse(statement.targets[0]), ast.unparse(statement.value)
+        if re.fullmatch(r"\(?_?[A-Z][A-Z0-9_, ]*\)?", name) and not re.search(r"[\[{'\"]", value):
+            documented = isinstance(following, ast.Expr) and isinstance(following.value, ast.Constant)
+            text = " ".join(str(following.value.value).split()) if documented else ""
+            found.append((name, value, text.replace("|", "\\|")))
+    return found
+
+
+def notebook_page(path: Path) -> tuple[str, dict[str, bytes]]:
+    """The notebook in Markdown, and its pictures by file name."""
+    parts: list[str] = []
+    pictures: dict[str, bytes] = {}
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        source = "".join(cell["source"]).strip()
+        if cell["cell_type"] == "markdown":
+            parts.append(source)
+            continue
+        if source:
+            parts.append(fenced("python", source))
+        for output in cell["outputs"]:
+            data = output.get("data", {"text/plain": output.get("text", "")})
+            kind = next((kind for kind in PICTURES if kind in data), None)
+            if kind is not None:
+                name = f"{path.stem}-{len(pictures) + 1}.{PICTURES[kind]}"
+                pictures[name] = base64.b64decode("".join(data[kind]))
+                parts.append(f"![Picture {len(pictures)} of this notebook]({name})")
+            elif text := "".join(data["text/plain"]).rstrip():
+                parts.append(fenced("text", text))
+    return "\n\n".join(parts) + "\n", pictures
+
+
+def fenced(language: str, text: str) -> str:
+    """A block of code or of output."""
+    return f"{FENCE}{language}\n{text}\n{FENCE}"

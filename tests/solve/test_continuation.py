@@ -1,0 +1,115 @@
+"""Parts of the continuation, one by one: the order of its predictor, and the limits of a branch."""
+
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.solve.continuation.branch import trace_branch
+from jaxkin.solve.continuation.fronts import ContinuationProblem
+from jaxkin.solve.continuation.predictor import hermite, predict_state
+from jaxkin.solve.continuation.step import NEAR_LIMIT
+from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.range.solve_range import scaled
+from jaxkin.solve.status import Status
+from jaxkin.solve.system.state import State
+from reference.mechanisms import planar_fourbar
+
+STEPS = np.array([0.1, 0.05, 0.025])
+
+
+def rocker(theta):
+    """Angle of the rocker of the four-bar 100, 40, 120, 80 by the law of cosines."""
+    x, y = 100 - 40 * jnp.cos(theta), -40 * jnp.sin(theta)
+    square = x * x + y * y
+    return jnp.arctan2(-y, -x) - jnp.arccos((80**2 + square - 120**2) / (160 * jnp.sqrt(square)))
+
+
+@jax.jit
+def pose(theta):
+    """States of input and rocker, and their derivatives with respect to the input."""
+    x = jnp.stack([theta, rocker(theta)])
+    slope = jnp.stack([jnp.ones_like(theta), jax.vmap(jax.grad(rocker))(theta)])
+    no_balls = jnp.zeros((0, 4, len(theta)))
+    return State(x, no_balls), State(slope, no_balls)
+
+
+def assert_order(errors, order):
+    """Halved steps divide the error by two to the order; the next order adds a few per cent at these steps."""
+    np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), order, atol=0.15)
+
+
+def test_the_cubic_predictor_is_of_fourth_order():
+    here = jnp.full(len(STEPS), 1.3)
+    state, tangent = pose(here)
+    before, before_tangent = pose(here - STEPS)
+    never = jnp.zeros(len(STEPS), bool)
+    predicted = jax.jit(predict_state)(
+        state, tangent, before, before_tangent, jnp.asarray(STEPS), jnp.asarray(STEPS), never
+    )
+    assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 4)
+
+
+def test_the_tangent_is_of_second_order_and_needs_no_pose_before():
+    here = jnp.full(len(STEPS), 1.3)
+    state, tangent = pose(here)
+    nothing = jax.tree.map(jnp.zeros_like, state)
+    always = jnp.ones(len(STEPS), bool)
+    predicted = jax.jit(predict_state)(
+        state, tangent, nothing, nothing, jnp.ones(len(STEPS)), jnp.asarray(STEPS), always
+    )
+    assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 2)
+
+
+def test_interpolation_between_samples_is_of_fourth_order():
+    here, width = jnp.full(len(STEPS), 1.3), jnp.asarray(STEPS)
+    (left, left_slope), (right, right_slope) = pose(here), pose(here + STEPS)
+    middle = jax.jit(hermite)(left, left_slope, right, right_slope, width, jnp.full(len(STEPS), 0.5))
+    assert_order(np.abs(middle.x[1] - rocker(here + 0.5 * STEPS)), 4)
+
+
+def test_where_a_slope_says_nothing_the_secant_is_taken():
+    """At a change point the slope may be that of the other branch: here of the wrong sign."""
+    state, before = (State(jnp.array([[x]]), jnp.zeros((0, 4, 1))) for x in (0.0, -0.1))
+    wrong = State(jnp.array([[-1.0]]), jnp.zeros((0, 4, 1)))
+    step, never = jnp.array([0.1]), jnp.array([False])
+    predicted = jax.jit(predict_state)(state, wrong, before, wrong, step, step, never)
+    np.testing.assert_allclose(predicted.x, 0.1, rtol=1e-15)
+
+
+@pytest.fixture(scope="module")
+def traced_rocker():
+    """Samples of a double rocker 100, 95, 60, 80 that is assembled at 1 rad, over a full turn."""
+    (element,) = plan_drive(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).elements
+    geometry, _ = scaled(element.system, element.joints)
+
+    @partial(jax.jit, **jit_options())
+    def trace(geometry, values):
+        path = lambda at: (at[None], jnp.ones_like(at)[None])  # noqa: E731
+        return trace_branch(ContinuationProblem(element.system, geometry, path, SolverOptions(max_steps=200)), values)
+
+    return trace(geometry, jnp.linspace(0.0, 2 * np.pi, 9))
+
+
+def test_a_branch_is_followed_to_its_limits(traced_rocker):
+    """Coupler and rocker in line, stretched or folded, by the law of cosines; as near as is documented.
+
+    A pose may close beyond the limit by its residual, at most 1e-12 of the size.
+    """
+    at, status = np.asarray(traced_rocker.at), np.asarray(traced_rocker.table[:, -1])
+    at = at[np.isfinite(at) & (status == Status.CLOSED)]
+    for reach, limit in ((60.0 + 80.0, at.max()), (80.0 - 60.0, at.min())):
+        expected = np.arccos((95.0**2 + 100.0**2 - reach**2) / (2 * 95.0 * 100.0)) - 1.0
+        assert -1e-11 <= abs(expected) - abs(limit) <= NEAR_LIMIT
+    assert not traced_rocker.complete and not traced_rocker.repeats
+
+
+def test_samples_are_in_order_and_begin_at_the_assembled_pose(traced_rocker):
+    first, last = int(traced_rocker.first), int(traced_rocker.last)
+    at = np.asarray(traced_rocker.at)
+    assert np.all(np.diff(at[first : last + 1]) >= 0) and 0.0 in at[first : last + 1]
+    assert np.all(np.isinf(at[:first])) and np.all(np.isinf(at[last + 1 :]))
