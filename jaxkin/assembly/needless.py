@@ -15,6 +15,7 @@ import numpy as np
 
 from jaxkin.assembly.spinning import SAME, Spin, spins
 from jaxkin.geometry.part import Part
+from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.linkage.linkage import SpinningPart
@@ -173,7 +174,7 @@ class _Judged(NamedTuple):
 
         near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
         used = [neighbour for neighbour in near if neighbour not in idle]
-        if not all(only("T_phi", used[0], other) for other in used[1:]):
+        if not all(only(LOWER_PAIRS[1, 0][1], used[0], other) for other in used[1:]):
             return []
         return [neighbour for neighbour in near if only(spin.movement, neighbour, part)]
 

@@ -15,10 +15,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose, frame
+from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.from_contacts import forwards
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import freedoms
 from jaxkin.mobility.twists import constraints, middle
 
@@ -35,7 +38,7 @@ SAME = 1e-6
 class Spin:
     """What a part can do by itself."""
 
-    kind: str
+    kind: JointKind
     movement: str
     """The lower pair that it amounts to: revolute, cylindrical or planar."""
     frame: Pose
@@ -88,9 +91,9 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     point = np.cross(axis, turn[3:]) / np.linalg.norm(turn[:3])
     pitched = len(free) == 1 and abs(turn[3:] @ axis) > SAME
     if len(free) <= 2 and np.all(along > 1 - SAME) and not pitched:
-        kind, movement = (("revolute", "T_phi"), ("cylindrical", "T_z_phi"))[len(free) - 1]
+        kind, movement = LOWER_PAIRS[1, len(free) - 1]
     elif len(free) == 3 and np.all(along < SAME):
-        kind, movement, point = "planar", "T_xy_phi", np.zeros(3)
+        (kind, movement), point = LOWER_PAIRS[1, 2], np.zeros(3)
     else:
         return None
     return Spin(kind, movement, forwards(frame(centre + size * point, axis)))
@@ -107,6 +110,10 @@ def _is_round(part: Part, spin: Spin) -> bool:
     except QhullError:  # a sheet seen from its edge
         return False
     corners = outline[hull.vertices]
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2 if spin.movement == "T_xy_phi" else np.zeros(2)
+    centre = (
+        (corners.min(axis=0) + corners.max(axis=0)) / 2
+        if MOVEMENTS[spin.movement].turns_and_slides == (1, 2)
+        else np.zeros(2)
+    )
     inner = -(hull.equations[:, :2] @ centre + hull.equations[:, 2])
     return bool(inner.min() > ROUND * np.linalg.norm(corners - centre, axis=1).max())

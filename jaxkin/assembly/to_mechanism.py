@@ -14,9 +14,11 @@ from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
+from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
@@ -127,7 +129,13 @@ def _ties(assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str]) -> 
     """A joint without freedoms from the first part of each rigid group to each of the others."""
     centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
     return [
-        joint(f"{first}-{part}", (first, part), "fixed", ("I",), [frame(centres[part], np.array([0.0, 0.0, 1.0]))])
+        joint(
+            f"{first}-{part}",
+            (first, part),
+            JointKind.FIXED,
+            (LOWER_PAIRS[0, 0][1],),
+            [frame(centres[part], np.array([0.0, 0.0, 1.0]))],
+        )
         for part, first in body.items()
         if part != first and part not in fixed
     ]

@@ -44,6 +44,9 @@ class ContactState:
     """`(face 1, face 2, displacements) -> gaps`: how far the faces are apart on surfaces that still touch. None where
     the surfaces only turn on each other, about one axis or centre, and where that is not found out: (i), (l), (m), (p).
     """
+    lengths: tuple[str | None, ...] = ()
+    """Names of the lengths between successive frames of the chain, in turn; None where a gap has no length to be set:
+    half-angles of cones, since the frames alone do not hold them."""
 
 
 # fmt: off
@@ -51,31 +54,37 @@ STATES: tuple[ContactState, ...] = (
     ContactState("a", "plane on plane", ("plane", "plane"), OUTSIDE, "surface",
                  (("n1", "f1"),), ("T_xy_phi",), 3, touch.plane_plane, separation.on_plane),
     ContactState("b", "cylinder on plane", ("plane", "cylinder"), OUTSIDE, "line",
-                 (("n1", "f1"), ("a2", "a2")), ("T_xy_phi", "T_phi"), 4, touch.plane_cylinder, separation.on_plane),
+                 (("n1", "f1"), ("a2", "a2")), ("T_xy_phi", "T_phi"), 4, touch.plane_cylinder, separation.on_plane,
+                 lengths=("radius",)),
     ContactState("c", "cone on plane", ("plane", "cone"), OUTSIDE, "line",
                  (("n1", "f1"), ("a2", "a2")), ("T_xy_phi", "T_phi"), 4, rulings.plane_cone, separation.on_plane),
     ContactState("d", "ball on plane", ("plane", "sphere"), OUTSIDE, "point",
-                 (("n1", "f1"), ("n1", "c2")), ("T_xy_phi", "T_theta_phi"), 5, touch.plane_sphere, separation.on_plane),
+                 (("n1", "f1"), ("n1", "c2")), ("T_xy_phi", "T_theta_phi"), 5, touch.plane_sphere, separation.on_plane,
+                 lengths=("radius",)),
     ContactState("e", "cylinder in cylinder", ("cylinder", "cylinder"), INSIDE, "surface",
                  (("a1", "a1"),), ("T_z_phi",), 2, touch.cylinder_in_cylinder, separation.along_axis),
     ContactState("f", "cylinder along cylinder", ("cylinder", "cylinder"), OUTSIDE + INSIDE, "line",
                  (("a1", "a1"), ("a2", "a2")), ("T_z_phi", "T_phi"), 3,
-                 touch.cylinder_along_cylinder, separation.along_axis),
+                 touch.cylinder_along_cylinder, separation.along_axis,
+                 lengths=("distance",)),
     ContactState("g", "cylinder across cylinder", ("cylinder", "cylinder"), OUTSIDE, "point",
                  (("a1", "a1"), ("m", "p"), ("a2", "a2")), ("T_phi", "T_xy_phi", "T_phi"), 5,
-                 touch.cylinder_across_cylinder, separation.across),
+                 touch.cylinder_across_cylinder, separation.across,
+                 lengths=("radius 1", "radius 2")),
     ContactState("h", "cone along cylinder", ("cylinder", "cone"), OUTSIDE + INSIDE, "line",
                  (("a1", "a1"), ("a2", "a2")), ("T_z_phi", "T_phi"), 3,
                  rulings.cylinder_along_cone, separation.along_axis),
     ContactState("i", "cone across cylinder", ("cylinder", "cone"), OUTSIDE, "point",
                  (("a1", "a1"), ("m", "p"), ("a2", "a2")), ("T_phi", "T_xy_phi", "T_phi"), 5,
-                 rulings.cylinder_across_cone),
+                 rulings.cylinder_across_cone,
+                 lengths=("radius 1", None)),
     ContactState("j", "ball filling its bore", ("cylinder", "sphere"), HOLLOW_1, "circle",
                  (("a1", "a1"), ("a1", "c2")), ("T_z", "T_theta_phi_psi"), 4,
                  touch.sphere_in_bore, separation.along_axis),
     ContactState("j", "ball on cylinder", ("cylinder", "sphere"), OUTSIDE + HOLLOW_1, "point",
                  (("a1", "a1"), ("a1", "c2")), ("T_z_phi", "T_theta_phi_psi"), 5,
-                 touch.cylinder_sphere, separation.along_axis),
+                 touch.cylinder_sphere, separation.along_axis,
+                 lengths=("distance",)),
     ContactState("k", "cone in cone", ("cone", "cone"), INSIDE, "surface",
                  (("a1", "a1"),), ("T_phi",), 1, rulings.cone_in_cone),
     ContactState("l", "cone along cone", ("cone", "cone"), OUTSIDE + INSIDE, "line",
@@ -87,11 +96,13 @@ STATES: tuple[ContactState, ...] = (
                  (("a1", "c2"),), ("T_theta_phi_psi",), 3, rulings.sphere_in_seat),
     ContactState("n", "ball on cone", ("cone", "sphere"), OUTSIDE + HOLLOW_1, "point",
                  (("a1", "a1"), ("v1 - p", "p"), ("a1", "c2")), ("T_phi", "T_z", "T_theta_phi_psi"), 5,
-                 rulings.cone_sphere, separation.on_ruling),
+                 rulings.cone_sphere, separation.on_ruling,
+                 lengths=(None, "radius")),
     ContactState("o", "ball in socket", ("sphere", "sphere"), INSIDE, "surface",
                  (("any", "c1"),), ("T_theta_phi_psi",), 3, touch.sphere_in_sphere),
     ContactState("p", "ball on ball", ("sphere", "sphere"), OUTSIDE + INSIDE, "point",
-                 (("m", "c1"), ("m", "c2")), ("T_theta_phi", "T_theta_phi_psi"), 5, touch.sphere_on_sphere),
+                 (("m", "c1"), ("m", "c2")), ("T_theta_phi", "T_theta_phi_psi"), 5, touch.sphere_on_sphere,
+                 lengths=("distance",)),
 )
 # fmt: on
 

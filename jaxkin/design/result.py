@@ -14,6 +14,7 @@ from jaxkin._files import whole
 from jaxkin.design.objectives import Objective
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.status import Status
@@ -171,7 +172,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
             Joint(
                 name,
                 tuple(parts),
-                kind,
+                JointKind(kind),
                 tuple(movements),
                 *(arrays[f"{i} {leaf}"] for leaf in ("frames_1", "frames_2", "pitch")),
             )

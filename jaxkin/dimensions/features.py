@@ -10,6 +10,7 @@ from __future__ import annotations
 from itertools import combinations
 from typing import Literal, NamedTuple
 
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
@@ -44,38 +45,13 @@ class Length(NamedTuple):
     quantity: Quantity
 
 
-# Movement -> what it is to the part on either side: (kind, axis of the frame, marked).
-_FEATURES: dict[str, tuple[Kind, int, bool]] = {
-    "T_z": ("axis", 2, False),
-    "T_phi": ("axis", 2, True),
-    "T_screw": ("axis", 2, True),
-    "T_z_phi": ("axis", 2, False),
-    "T_xy_phi": ("plane", 2, False),
-    "T_theta_phi": ("point", 2, False),
-    "T_theta_phi_psi": ("point", 2, False),
-}
-
-# Contact state -> names of the lengths between the frames of its chain (Table 1), in turn; half-angles of cones are not
-# offered, since the frames alone do not hold them.
-_BETWEEN: dict[str, tuple[str | None, ...]] = {
-    "contact b": ("radius",),
-    "contact d": ("radius",),
-    "contact f": ("distance",),
-    "contact g": ("radius 1", "radius 2"),
-    "contact i": ("radius 1", None),
-    "contact j": ("distance",),
-    "contact n": (None, "radius"),
-    "contact p": ("distance",),
-}
-
-
 def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
     """For each row of the incidence matrix (all fixed parts are one) its features, in the order of the joints."""
     row_of = linkage.structure.row_of
     found: dict[str, list[Feature]] = {row: [] for row in linkage.structure.parts}
     for column, joint in enumerate(linkage.joints):
         rows = [row_of[part] for part in joint.parts]
-        if rows[0] == rows[1] or joint.movements == ("I",):
+        if rows[0] == rows[1] or not joint.freedoms:
             continue
         found[rows[0]].append(_feature(column, joint, "frames_1", 0))
         found[rows[1]].append(_feature(column, joint, "frames_2", len(joint.movements) - 1))
@@ -97,23 +73,26 @@ def length_table(linkage: Linkage) -> dict[Key, Length]:
                     key = (row, names[features[a].joint], names[features[b].joint], "offset")
                     table[key] = Length(features, a, b, "offset")
     for column, joint in enumerate(linkage.joints):
-        for i, name in enumerate(_BETWEEN.get(joint.kind, ())):
-            filled = joint.kind == "contact j" and joint.movements[0] == "T_z"  # the ball's centre is on the axis
-            if name is None or i + 1 >= len(joint.movements) or filled:
+        state = joint.contact_state
+        for i, name in enumerate(state.lengths if state else ()):
+            if name is None:
                 continue
             body = (_feature(column, joint, "frames_2", i), _feature(column, joint, "frames_1", i + 1))
             quantity: Quantity = "distance" if name == "distance" else "radius"
             table[joint.name, name] = Length(body, 0, 1, quantity)
-        if "T_screw" in joint.movements:
+        if any(MOVEMENTS[name].has_pitch for name in joint.movements):
             table[joint.name, "pitch"] = Length((), column, column, "pitch")
     return table
 
 
 def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
-    if joint.kind == "universal":  # Ry(phi) Rx(theta): part 1 holds the y axis of the cross, part 2 its x axis
-        return Feature(column, side, frame, "axis", 1 if side == "frames_1" else 0, True)
-    kind, axis, marked = _FEATURES[joint.movements[frame]]
-    return Feature(column, side, frame, kind, axis, marked)
+    movement = MOVEMENTS[joint.movements[frame]]
+    left = movement.feature
+    if len(joint.movements) == 1 and movement.features_alone:
+        left = movement.features_alone[0 if side == "frames_1" else 1]
+    if left is None:
+        raise ValueError(f"joint {joint.name!r} has the movement {joint.movements[frame]}, which leaves no feature")
+    return Feature(column, side, frame, left.kind, left.axis, left.marked)
 
 
 def _has_offset(along: Feature, of: Feature) -> bool:

@@ -1,43 +1,106 @@
 """The paper's allowable movements T_z, T_phi, T_z_phi, T_xy_phi, T_theta_phi, T_theta_phi_psi (Section 3) in JAX.
 
 Each movement displaces a local frame; `x, y, z` are translations along and `theta, phi, psi` rotations about its axes.
-The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is written
-once, as a product of elementary ones (`MOVEMENTS`); displacements and all that the solver needs follow from that.
+The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is one row of
+`MOVEMENTS`: it is written as a product of elementary motions, from which displacements, screws and closure equations
+follow, and the row says all else that differs from movement to movement. No other table is keyed by movements.
 `T_screw`, the helical pair, and `I`, no movement, are not in the paper.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.trig import cos_sin
 
 
 @dataclass(frozen=True)
 class ElementaryMotion:
-    """An elementary movement along or about one axis of the local frame."""
+    """A translation along, a rotation about or a screw motion about one axis of the local frame."""
 
     kind: Literal["translate", "rotate", "screw"]
     """A screw turns by its coordinate q and advances by pitch q / 2 pi."""
     axis: int
     """0, 1, 2 for x, y, z."""
     coordinate: int
-    """Which coordinate of the movement drives it."""
+    """Which coordinate of the movement drives the motion."""
 
 
-@dataclass(frozen=True)
+class InvariantFeature(NamedTuple):
+    """The point, axis or plane that a movement leaves in place: lengths of a part are measured between such features.
+
+    An axis that is `marked` has a place along it too: that of a hinge does, that of a pin that slides does not.
+    """
+
+    kind: Literal["point", "axis", "plane"]
+    axis: int = 2
+    """Which axis of the frame (0, 1, 2 for x, y, z) is the axis, or the normal of the plane."""
+    marked: bool = False
+
+
+class AngleLock(NamedTuple):
+    """Where the angles of two successive movements lock: a ball has rolled a quarter turn, contact states (d), (p).
+
+    A ball turns in place of the angles then (`jaxkin.solve.system.loop_system`).
+    """
+
+    follower: str
+    """Key of the movement that follows this one in the chain."""
+    ball: int
+    """The movement in whose frame the ball turns: 0 for this one, 1 for the follower."""
+    columns: tuple[int, ...]
+    """Columns that turn the ball about x, y, z, counted from the first of this movement. A third turn that is missing
+    is left to the movement behind."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Movement:
-    """An allowable movement: the names of its coordinates and its elementary movements, leftmost factor first."""
+    """All that is to be said of an allowable movement: a row of `MOVEMENTS`."""
 
-    coordinates: tuple[str, ...]
-    elements: tuple[ElementaryMotion, ...]
+    coordinates: tuple[str, ...] = ()
+    elements: tuple[ElementaryMotion, ...] = ()
+    """The elementary motions of which the movement is the product, leftmost factor first."""
     ball: bool = False
-    """True where the elements are the angles of a ball: solved without angles, since they lock at phi = 90 deg."""
+    """True where the motions are the angles of a ball: solved without angles, since they lock at phi = 90 deg."""
+    pair: str | None = None
+    """Name of the lower pair that has this movement, a `JointKind`; None where no lower pair has it."""
+    feature: InvariantFeature | None = None
+    """What the movement leaves in place on both parts; None for no movement at all."""
+    features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
+    """What the movement leaves in place on part 1 and on part 2 where it is a joint by itself, if not `feature`."""
+    surface: Literal["plane", "cylinder", "cone", "sphere"] | None = None
+    """The kind of surface that the movement maps onto itself; of several movements the one with most freedoms says so.
+    """
+    aligned: frozenset[Literal["axis", "direction", "centre"]] = frozenset()
+    """Where the frame has to be aligned with others for the loops to close: "axis", the line along z; "direction",
+    the direction of z; "centre", the origin."""
+    figures: tuple[tuple[Figure, ...], tuple[Figure, ...]] = ((), ())
+    """What is drawn on the side of part 1 (bearing, rail, plate) and of part 2 (pin, slider, puck, ball)."""
+    without_normal: str | None = None
+    """What is left of the movement where its translation along z is one along the normal of a planar loop and rests."""
+    lock: AngleLock | None = None
+
+    @property
+    def has_pitch(self) -> bool:
+        """Whether the movement advances by a pitch, which is a length then."""
+        return any(element.kind == "screw" for element in self.elements)
+
+    @property
+    def only_slides(self) -> bool:
+        """Whether the movement is one translation along z and nothing else."""
+        return self.elements == (_translate(2, 0),)
+
+    @property
+    def turns_and_slides(self) -> tuple[int, int]:
+        """Number of rotations, and of translations."""
+        kinds = [element.kind for element in self.elements]
+        return kinds.count("rotate"), kinds.count("translate")
 
 
 def _translate(axis: int, coordinate: int) -> ElementaryMotion:
@@ -49,15 +112,81 @@ def _rotate(axis: int, coordinate: int) -> ElementaryMotion:
 
 
 MOVEMENTS: dict[str, Movement] = {
-    "I": Movement((), ()),
-    "T_z": Movement(("z",), (_translate(2, 0),)),
-    "T_phi": Movement(("phi",), (_rotate(2, 0),)),
-    "T_screw": Movement(("phi",), (ElementaryMotion("screw", 2, 0),)),
-    "T_z_phi": Movement(("z", "phi"), (_translate(2, 0), _rotate(2, 1))),
-    "T_xy_phi": Movement(("x", "y", "phi"), (_translate(0, 0), _translate(1, 1), _rotate(2, 2))),
-    "T_theta_phi": Movement(("theta", "phi"), (_rotate(1, 1), _rotate(0, 0))),
-    "T_theta_phi_psi": Movement(("theta", "phi", "psi"), (_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)), ball=True),
+    "I": Movement(pair="fixed"),
+    "T_z": Movement(
+        coordinates=("z",),
+        elements=(_translate(2, 0),),
+        pair="prismatic",
+        feature=InvariantFeature("axis"),
+        aligned=frozenset({"direction"}),
+        figures=((ROD,), (BoxFigure((3.6, 3.6, 6.0)),)),
+        without_normal="I",
+    ),
+    "T_phi": Movement(
+        coordinates=("phi",),
+        elements=(_rotate(2, 0),),
+        pair="revolute",
+        feature=InvariantFeature("axis", marked=True),
+        surface="cone",
+        aligned=frozenset({"axis", "direction"}),
+        figures=((CylinderFigure(2, 2.0, 2.4),), (CylinderFigure(2, 1.2, 4.4),)),
+    ),
+    "T_screw": Movement(
+        coordinates=("phi",),
+        elements=(ElementaryMotion("screw", 2, 0),),
+        pair="screw",
+        feature=InvariantFeature("axis", marked=True),
+        aligned=frozenset({"axis", "direction"}),
+        figures=((ROD,), (CylinderFigure(2, 2.4, 3.0),)),
+    ),
+    "T_z_phi": Movement(
+        coordinates=("z", "phi"),
+        elements=(_translate(2, 0), _rotate(2, 1)),
+        pair="cylindrical",
+        feature=InvariantFeature("axis"),
+        surface="cylinder",
+        aligned=frozenset({"axis", "direction"}),
+        figures=((ROD,), (CylinderFigure(2, 1.6, 6.0),)),
+        without_normal="T_phi",
+    ),
+    "T_xy_phi": Movement(
+        coordinates=("x", "y", "phi"),
+        elements=(_translate(0, 0), _translate(1, 1), _rotate(2, 2)),
+        pair="planar",
+        feature=InvariantFeature("plane"),
+        surface="plane",
+        aligned=frozenset({"direction"}),
+        figures=((BoxFigure((18.0, 18.0, 0.8)),), (CylinderFigure(2, 3.0, 1.8),)),
+        lock=AngleLock("T_theta_phi", ball=1, columns=(3, 4, 2)),
+    ),
+    "T_theta_phi": Movement(
+        coordinates=("theta", "phi"),
+        elements=(_rotate(1, 1), _rotate(0, 0)),
+        feature=InvariantFeature("point"),
+        # Ry(phi) Rx(theta), the universal joint: part 1 holds the y axis of the cross, part 2 its x axis
+        features_alone=(InvariantFeature("axis", 1, marked=True), InvariantFeature("axis", 0, marked=True)),
+        aligned=frozenset({"direction", "centre"}),
+        figures=((CylinderFigure(1, 0.9, 6.0),), (CylinderFigure(0, 0.8, 6.0),)),
+        lock=AngleLock("T_theta_phi_psi", ball=0, columns=(0, 1)),
+    ),
+    "T_theta_phi_psi": Movement(
+        coordinates=("theta", "phi", "psi"),
+        elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
+        ball=True,
+        pair="spherical",
+        feature=InvariantFeature("point"),
+        surface="sphere",
+        aligned=frozenset({"centre"}),
+        figures=((CylinderFigure(2, 1.8, 2.0),), (BallFigure(2.2),)),
+    ),
 }
+"""Key of a movement -> its row. Joints (`jaxkin.joints.pairs`) and contact states (`jaxkin.contacts.states`) name the
+movements of their chains by these keys."""
+
+
+def symmetry_of(surface: str) -> str:
+    """Name the movement that maps a kind of surface ("plane", "cylinder", "cone", "sphere") onto itself."""
+    return next(name for name, movement in MOVEMENTS.items() if movement.surface == surface)
 
 
 def is_length(coordinate: str) -> bool:

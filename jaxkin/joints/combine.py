@@ -16,26 +16,25 @@ from dataclasses import dataclass
 import numpy as np
 
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, Vector, frame
-from jaxkin.joints.regularise import AXIS, CENTRE, Noise, movements
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.regularise import Noise, movements
 from jaxkin.joints.screws import Screws, chain, complement, freedoms, misfit
 
-# Freedoms of rotation and of pure translation tell the lower pairs apart: (kind, movement).
 LOWER_PAIRS = {
-    (0, 0): ("fixed", "I"),
-    (0, 1): ("prismatic", "T_z"),
-    (1, 0): ("revolute", "T_phi"),
-    (1, 1): ("cylindrical", "T_z_phi"),
-    (1, 2): ("planar", "T_xy_phi"),
-    (3, 0): ("spherical", "T_theta_phi_psi"),
+    movement.turns_and_slides: (JointKind(movement.pair), name)
+    for name, movement in MOVEMENTS.items()
+    if movement.pair and not movement.has_pitch
 }
+"""Number of rotations and of translations, which tell the lower pairs apart -> kind and movement of the pair."""
 
 
 @dataclass(frozen=True, eq=False)
 class LowerPair:
     """One of the six lower pairs of the four surfaces, between two parts."""
 
-    kind: str
+    kind: JointKind
     movement: str
     """Key of `MOVEMENTS`."""
     frame: Pose
@@ -48,9 +47,9 @@ class LowerPair:
 def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
     """The lower pair that the contacts of two parts amount to; None if there is none.
 
-    The contacts may name the two parts in either order, since a lower pair allows the inverse of what it allows. The
-    origin of the pair is the nearest place to the origin of
-    the first contact, where the pair leaves it free, and x is that of the first contact frame with the same z axis.
+    The contacts may name the two parts in either order, since a lower pair allows the inverse of what it allows. Where
+    the pair leaves its origin free, the origin is the place nearest to the origin of the first contact; x is that of
+    the first contact frame with the same z axis.
     """
     centre, size = contacts[0].frames[0, :3, 3], noise.size
     scaled = [_scaled(contact.frames, centre, size) for contact in contacts]
@@ -83,7 +82,7 @@ def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
     return result
 
 
-def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[str, str, Pose] | None:
+def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Pose] | None:
     """The lower pair with as many freedoms of rotation and of translation, through the same axis or centre."""
     directions, strengths, mixes = np.linalg.svd(twists[:3], full_matrices=True)
     rotations = int(np.sum(strengths > tolerance))
@@ -97,11 +96,12 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[st
         z = directions[:, 0]
     elif slides.size:
         z = slides[:, 0]
-    if movement in AXIS + CENTRE:
+    aligned = MOVEMENTS[movement].aligned
+    if aligned & {"axis", "centre"}:
         # A turn w about the point p moves the origin of the world by v = p x w.
         crosses = np.vstack([-_cross_matrix(w) for w in turns[:3].T])
         point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
-        origin = point + z * ((origin - point) @ z) if movement in AXIS else point
+        origin = point + z * ((origin - point) @ z) if "axis" in aligned else point
     same = [pose for pose in frames if np.linalg.norm(np.cross(pose[:3, 2], z)) <= tolerance]
     return kind, movement, frame(origin, same[0][:3, 2], same[0][:3, 0]) if same else frame(origin, z)
 

@@ -13,6 +13,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Pose, Vector
 from jaxkin.joints.combine import combine as combine_contacts
 from jaxkin.joints.joint import Joint, joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, align, movements, regularise
 
 NEARLY = 3e-4
@@ -140,7 +141,7 @@ def _labels(name: str, members: Sequence[int], contacts: Sequence[Contact]) -> l
 def _contact_joint(contact: Contact, name: str, pair: tuple[str, str]) -> Joint:
     # one frame means a group of displacements: its inverse is the same joint, and either part may come first
     parts = pair if len(contact.frames) == 1 else contact.parts
-    return joint(name, parts, f"contact {contact.state}", movements(contact), contact.frames)
+    return joint(name, parts, JointKind.of_state(contact.state), movements(contact), contact.frames)
 
 
 def _aligned(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, ...], float, float]:

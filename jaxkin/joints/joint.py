@@ -18,9 +18,14 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
+from jaxkin.contacts.states import STATES, ContactState
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.kinds import JointKind
 
 Array = np.ndarray | jax.Array
+
+_CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state for state in STATES}
+"""The movements tell a contact on a circle, (j) and (n), from the contact at a point with the same letter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +34,7 @@ class Joint:
 
     name: str
     parts: tuple[str, str]
-    kind: str
+    kind: JointKind
     """"revolute", "prismatic", ..., or "contact b" for a contact state of the paper."""
     movements: tuple[str, ...]
     """Keys of `MOVEMENTS`, one a frame."""
@@ -63,6 +68,11 @@ class Joint:
         return tuple(groups)
 
     @property
+    def contact_state(self) -> ContactState | None:
+        """The row of the paper's Tables 1 and 2 that the joint is; None for a joint that is no contact state."""
+        return _CONTACT_STATES.get((self.kind, self.movements))
+
+    @property
     def freedoms(self) -> int:
         """Number of coordinates."""
         return len(self.coordinates)
@@ -76,7 +86,7 @@ jax.tree_util.register_dataclass(
 def joint(
     name: str,
     parts: tuple[str, str],
-    kind: str,
+    kind: JointKind,
     movements: tuple[str, ...],
     frames: Sequence[Array] | Array,
     pitch: float | int | Array = 0.0,

@@ -17,33 +17,36 @@ from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import Joint, joint
+from jaxkin.joints.kinds import JointKind
 
 Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 
 def revolute(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
     """A hinge about the axis through the point. Coordinate: phi."""
-    return joint(name, (part1, part2), "revolute", ("T_phi",), [_frame(name, point, axis)])
+    return joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [_frame(name, point, axis)])
 
 
 def prismatic(name: str, part1: str, part2: str, *, axis: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
     """A slide along the axis; the point only says where it is drawn. Coordinate: z."""
-    return joint(name, (part1, part2), "prismatic", ("T_z",), [_frame(name, point, axis)])
+    return joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [_frame(name, point, axis)])
 
 
 def cylindrical(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
     """A pin that slides in its hole, contact state (e). Coordinates: z, phi."""
-    return joint(name, (part1, part2), "cylindrical", ("T_z_phi",), [_frame(name, point, axis)])
+    return joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [_frame(name, point, axis)])
 
 
 def planar(name: str, part1: str, part2: str, *, normal: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
     """A plane on a plane, contact state (a), about the point. Coordinates: x, y, phi."""
-    return joint(name, (part1, part2), "planar", ("T_xy_phi",), [_frame(name, point, normal, "normal")])
+    return joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [_frame(name, point, normal, "normal")])
 
 
 def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
     """A ball in its socket, contact state (o), about axes parallel to the world's. Coordinates: theta, phi, psi."""
-    return joint(name, (part1, part2), "spherical", ("T_theta_phi_psi",), [_frame(name, point, (0.0, 0.0, 1.0))])
+    return joint(
+        name, (part1, part2), JointKind.SPHERICAL, ("T_theta_phi_psi",), [_frame(name, point, (0.0, 0.0, 1.0))]
+    )
 
 
 def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple) -> Joint:
@@ -65,19 +68,19 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
     x = x / xp.linalg.norm(x)
     columns = [xp.append(column, 0.0) for column in (x, y, xp.cross(x, y))]
     pose = xp.stack([*columns, pose[:, 3]], axis=1)
-    return joint(name, (part1, part2), "universal", ("T_theta_phi",), [pose])
+    return joint(name, (part1, part2), JointKind.UNIVERSAL, ("T_theta_phi",), [pose])
 
 
 def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float | int | jax.Array) -> Joint:
     """A helical pair that advances by `pitch` a turn (positive: right-handed). Coordinate: phi."""
     if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
         raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
-    return joint(name, (part1, part2), "screw", ("T_screw",), [_frame(name, point, axis)], pitch)
+    return joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [_frame(name, point, axis)], pitch)
 
 
 def fixed(name: str, part1: str, part2: str) -> Joint:
     """No movement at all. No coordinates."""
-    return joint(name, (part1, part2), "fixed", ("I",), [np.eye(4)])
+    return joint(name, (part1, part2), JointKind.FIXED, ("I",), [np.eye(4)])
 
 
 def contact_joint(
@@ -111,7 +114,7 @@ def contact_joint(
                 f"joint {name!r}: frame {number} is no rigid pose: its first three columns must be perpendicular unit "
                 f"vectors, right-handed, its last row 0, 0, 0, 1; got {np.asarray(pose).tolist()}"
             )
-    return joint(name, (part1, part2), f"contact {state}", movements, frames)
+    return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
 
 
 def _is_rigid(pose: np.ndarray) -> bool:

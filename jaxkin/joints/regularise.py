@@ -16,20 +16,13 @@ from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.states import find_state
+from jaxkin.geometry.movements import MOVEMENTS, symmetry_of
 from jaxkin.geometry.pose import frame
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.joints.axes import align_positions
 from jaxkin.joints.directions import align_directions
 
 Frames = Float[np.ndarray, "frames 4 4"]
-
-# What a movement depends on: where its z axis is, or only where that points; where its origin is.
-AXIS = ("T_phi", "T_screw", "T_z_phi")
-DIRECTION = (*AXIS, "T_z", "T_xy_phi", "T_theta_phi")
-CENTRE = ("T_theta_phi", "T_theta_phi_psi")
-
-# The movement that leaves a surface where it is: a surface is settled like a frame with this movement.
-SYMMETRY = {"plane": "T_xy_phi", "cylinder": "T_z_phi", "cone": "T_phi", "sphere": "T_theta_phi_psi"}
 
 _MOST = 1e-4
 """Radians, as of `Assembly.contacts`."""
@@ -84,7 +77,7 @@ def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
     Applied again it changes nothing, and the result moves and scales with the input, both up to rounding.
     """
     names = [name for contact in contacts for name in movements(contact)]
-    names += [SYMMETRY[surface.kind] for contact in contacts for surface in contact.surfaces]
+    names += [symmetry_of(surface.kind) for contact in contacts for surface in contact.surfaces]
     given = [pose for contact in contacts for pose in contact.frames]
     given += [_surface_frame(surface) for contact in contacts for surface in contact.surfaces]
     frames = np.array(given, float).reshape(-1, 4, 4)
@@ -104,7 +97,10 @@ def movements(contact: Contact) -> tuple[str, ...]:
 
 def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frames, float, float]:
     """Frames aligned with each other as far as their movements depend on them; largest change of angle and length."""
-    has_axis, has_direction, has_centre = (np.isin(movements, kind) for kind in (AXIS, DIRECTION, CENTRE))
+    has_axis, has_direction, has_centre = (
+        np.array([what in MOVEMENTS[name].aligned for name in movements], bool)
+        for what in ("axis", "direction", "centre")
+    )
     z, origin = frames[:, :3, 2].copy(), frames[:, :3, 3].copy()
     z[has_direction] = align_directions(z[has_direction], noise.angle)
     origin[has_axis], origin[has_centre] = align_positions(

@@ -31,7 +31,11 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tupl
     if len(ball_of) < 2:
         return ()
     ends_of = [tuple(body_of[part] for part in joint.parts) for joint in joints]
-    slides = [index for index, joint in enumerate(joints) if joint.movements == ("T_z",)]
+    slides = [
+        index
+        for index, joint in enumerate(joints)
+        if len(joint.movements) == 1 and MOVEMENTS[joint.movements[0]].only_slides
+    ]
     found = []
     for bodies in connected(chain.from_iterable(ends_of), [ends_of[index] for index in slides]):
         held = [index for index, (a, b) in enumerate(ends_of) if (a in bodies) != (b in bodies)]

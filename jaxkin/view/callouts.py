@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region
 from jaxkin.view.sheet import MARGIN, Place, Sheet
@@ -46,10 +47,10 @@ def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) ->
     """A chain line along the z axis of each joint; a dot for a ball, and no line for what cannot move at all."""
     taken: list[np.ndarray] = []
     for index, joint in enumerate(mechanism.all_joints):
-        if joint.movements == ("I",):
+        if not joint.freedoms:
             continue
         pose = np.asarray(joint.frames_1, float)[0]
-        half = 0.0 if joint.movements[0] == "T_theta_phi_psi" else 0.09 * size
+        half = 0.0 if MOVEMENTS[joint.movements[0]].ball else 0.09 * size
         ends = _pixels(sheet, pose[:3, 3] + np.outer([-half, half], pose[:3, 2]), corner)
         sheet.axes.plot(*ends.T, color="white", linewidth=3.0, zorder=5)
         sheet.axes.plot(*ends.T, zorder=6, **CHAIN)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.figures import BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose
@@ -25,42 +26,6 @@ _LAYER, _POST = 2.4, 1.1
 """Distance of two layers of parts, and radius of the posts between them."""
 
 Triangles = Float[np.ndarray, "triangles 3 3"]
-
-
-class _Round(NamedTuple):
-    """A cylinder centred on a joint, along an axis of its frame."""
-
-    axis: int
-    radius: float
-    length: float
-
-
-class _Block(NamedTuple):
-    """A block centred on a joint, with its edges along the axes of the frame."""
-
-    extents: tuple[float, float, float]
-
-
-class _Ball(NamedTuple):
-    radius: float
-
-
-_Shape = _Round | _Block | _Ball
-
-_ROD = _Round(2, 0.7, 32.0)
-"""About half as long as the mechanism, since the joint does not know how far it will slide."""
-
-_SHAPES: dict[str, tuple[tuple[_Shape, ...], tuple[_Shape, ...]]] = {
-    "I": ((), ()),
-    "T_z": ((_ROD,), (_Block((3.6, 3.6, 6.0)),)),
-    "T_phi": ((_Round(2, 2.0, 2.4),), (_Round(2, 1.2, 4.4),)),
-    "T_screw": ((_ROD,), (_Round(2, 2.4, 3.0),)),
-    "T_z_phi": ((_ROD,), (_Round(2, 1.6, 6.0),)),
-    "T_xy_phi": ((_Block((18.0, 18.0, 0.8)),), (_Round(2, 3.0, 1.8),)),
-    "T_theta_phi": ((_Round(1, 0.9, 6.0),), (_Round(0, 0.8, 6.0),)),
-    "T_theta_phi_psi": ((_Round(2, 1.8, 2.0),), (_Ball(2.2),)),
-}
-"""What a movement looks like on the side of part 1 (bearing, rail, plate) and of part 2 (pin, slider, puck, ball)."""
 
 
 def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
@@ -86,7 +51,7 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
             place = pose[:3, 3] / radius
             end = place + layers[part] * up
             pose[:3, 3] = place + lower * up
-            pieces[part] += [_shape(shape, pose) for shape in _SHAPES[joint.movements[index]][index]]
+            pieces[part] += [_shape(shape, pose) for shape in MOVEMENTS[joint.movements[index]].figures[index]]
             if np.any(end != pose[:3, 3]):
                 pieces[part].append(_rod(pose[:3, 3], end, _POST))
             ends[part].append(end)
@@ -104,7 +69,7 @@ def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
         name: (np.array(joint.frames_1[0], float), np.array(joint.frames_2[-1], float))
         for name, joint in mechanism.joints.items()
     }
-    somewhere = {name: joint for name, joint in mechanism.joints.items() if joint.movements != ("I",)}
+    somewhere = {name: joint for name, joint in mechanism.joints.items() if joint.freedoms}
     for name, joint in mechanism.joints.items():
         if name not in somewhere:
             near = [other for other, neighbour in somewhere.items() if set(joint.parts) & set(neighbour.parts)]
@@ -157,15 +122,15 @@ def _distinct(points: list[Float[np.ndarray, "3"]]) -> list[Float[np.ndarray, "3
     return kept
 
 
-def _shape(shape: _Shape, pose: Pose) -> Triangles:
+def _shape(shape: Figure, pose: Pose) -> Triangles:
     from trimesh.creation import box, cylinder, icosphere
 
     match shape:
-        case _Round(axis, width, length):
+        case CylinderFigure(axis, width, length):
             turn = np.eye(4)
             turn[:3, :3] = np.roll(np.eye(3), axis - 2, axis=0)  # z of the cylinder onto the axis, handedness kept
             return cylinder(width, length, sections=32, transform=pose @ turn).triangles
-        case _Block(extents):
+        case BoxFigure(extents):
             return box(extents=extents, transform=pose).triangles
-        case _Ball(width):
+        case BallFigure(width):
             return icosphere(subdivisions=3, radius=width).triangles + pose[:3, 3]

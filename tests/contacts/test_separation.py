@@ -11,6 +11,7 @@ from jaxkin.contacts.hulls import PlaneMotion, gaps_between_hulls, hull
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import displacements
 
 LENGTH = 1e-4
@@ -25,7 +26,7 @@ def test_what_is_told_is_lost(pair, solids):
         assert contact.state in "iklmnop"
         return
     faces = [pair.face1, pair.face2] if contact.parts[0] == "one" else [pair.face2, pair.face1]
-    held = joint("j", ("one", "two"), "contact", state.movements, contact.frames)
+    held = joint("j", ("one", "two"), JointKind.of_state(state.letter), state.movements, contact.frames)
     names = [name for movement in state.movements for name in MOVEMENTS[movement].coordinates]
     rng = np.random.default_rng(5)
     reach = np.array([8.0 if is_length(name) else np.pi for name in names])

@@ -13,6 +13,7 @@ from jaxkin.geometry.pose import apply, perpendicular, rotation
 from jaxkin.geometry.rigid import as_matrices
 from jaxkin.geometry.surfaces import Cone, Cylinder, Sphere
 from jaxkin.joints.joint import joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.joint_motion import joint_motion
 
 displacements = jax.jit(joint_motion)
@@ -22,7 +23,7 @@ KINDS = ("plane", "cylinder", "cone", "sphere")
 
 def chain(movements, frames, q):
     """Displacements of surface 2 (ERRATA of Table 2) for a batch of q."""
-    contact = joint("contact", ("p1", "p2"), "contact", movements, frames)
+    contact = joint("contact", ("p1", "p2"), JointKind.CONTACT_A, movements, frames)
     return np.asarray(as_matrices(displacements(contact, jnp.asarray(q))))
 
 

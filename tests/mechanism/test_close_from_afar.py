@@ -10,6 +10,7 @@ import jaxkin as jk
 from jaxkin.examples import path
 from jaxkin.geometry.pose import apply, inverse
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import revolute
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism import reassembly
@@ -71,7 +72,7 @@ def test_loops_open_by_half_a_turn_close(angle):
         weld[0, :3, 3] = halves[1].frames_1[0, :3, 3]
         turned = weld.copy()
         turned[0, :3, :3] = Rotation.from_rotvec(angle * axis).as_matrix()
-        halves.append(Joint("weld", ("half", "rod"), "fixed", ("I",), weld, turned, np.array(0.0)))
+        halves.append(Joint("weld", ("half", "rod"), JointKind.FIXED, ("I",), weld, turned, np.array(0.0)))
         mechanism = Mechanism.build(fixed=["ground"], joints=halves)
         found = mechanism.close()
         assert found.closed and found.residual_before > 2.5

@@ -15,9 +15,6 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import LoopGroup
 
-WITHOUT_NORMAL = {"T_z": "I", "T_z_phi": "T_phi"}
-"""What is left of a movement whose translation along z is one along the normal of the plane."""
-
 Columns = tuple[tuple[int, int], ...]
 """(joint, coordinate) of each."""
 
@@ -53,7 +50,10 @@ def solved_coordinates(
         for name in linkage.joints[index].movements:
             count = len(MOVEMENTS[name].coordinates)
             whole = plane.issuperset((index, first + k) for k in range(count))
-            chain.append(name if whole else WITHOUT_NORMAL[name])
+            left = name if whole else MOVEMENTS[name].without_normal
+            if left is None:
+                raise ValueError(f"the movement {name} has no translation along the normal of a plane that could rest")
+            chain.append(left)
             first += count
         movements.append(tuple(chain))
     inside, outside = ([place for place in every if (place in plane) == yes] for yes in (True, False))

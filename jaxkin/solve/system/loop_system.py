@@ -38,23 +38,6 @@ EQUATIONS_OF = (3, 3, 1, 3, 1)
 """Number of equations of a loop in each of the `Sections`."""
 
 
-class BallInstead(NamedTuple):
-    """The ball by which a pair of movements is solved in place of its angles."""
-
-    frame: int
-    """Which of the two frames the ball turns in: 0 or 1."""
-    columns: tuple[int, ...]
-    """The columns that turn the ball about x, y, z of that frame, counted from the first column of the pair."""
-
-
-LOCKING = {
-    ("T_xy_phi", "T_theta_phi"): BallInstead(1, (3, 4, 2)),
-    ("T_theta_phi", "T_theta_phi_psi"): BallInstead(0, (0, 1)),
-}
-"""Pairs of movements whose angles lock where a ball has rolled a quarter turn: contact states (d) and (p). Of (p) the
-line of centres turns about two axes only: a turn about the line itself is one of the ball behind it."""
-
-
 class PlacedMovement(NamedTuple):
     """A movement of a joint."""
 
@@ -121,9 +104,10 @@ class LoopSystem:
             for frame, name in enumerate(movements):
                 if MOVEMENTS[name].ball:
                     pairs[joint, frame] = (column, column + 1, column + 2)
-                instead = LOCKING.get((name, movements[frame + 1] if frame + 1 < len(movements) else "I"))
-                if instead and not given:  # the angles of a ball cannot be driven one by one
-                    locking[joint, frame + instead.frame] = tuple(column + k for k in instead.columns)
+                lock = MOVEMENTS[name].lock
+                follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
+                if lock and follows and not given:  # the angles of a ball cannot be driven one by one
+                    locking[joint, frame + lock.ball] = tuple(column + k for k in lock.columns)
                 column += len(MOVEMENTS[name].coordinates)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
 

@@ -1,0 +1,36 @@
+"""Solids that show what a movement does; the rows of `MOVEMENTS` hold them, `jaxkin.view.sticks` draws them.
+
+All measures are multiples of the radius of a drawn bar.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class CylinderFigure(NamedTuple):
+    """A cylinder centred on a joint, along an axis of its frame."""
+
+    axis: int
+    """0, 1, 2 for x, y, z."""
+    radius: float
+    length: float
+
+
+class BoxFigure(NamedTuple):
+    """A box centred on a joint, with its edges along the axes of the frame."""
+
+    extents: tuple[float, float, float]
+
+
+class BallFigure(NamedTuple):
+    """A ball centred on a joint."""
+
+    radius: float
+
+
+Figure = CylinderFigure | BoxFigure | BallFigure
+
+ROD = CylinderFigure(2, 0.7, 32.0)
+"""What slides is drawn on a rod: about half as long as the mechanism, since the joint does not know how far it will
+slide."""
