@@ -147,3 +147,22 @@ class ContractedGraph:
             signs = {j: there.get(j, 0) - back.get(j, 0) for j in {**there, **back}}
             circuits.append((Step(joint, 1), *(Step(j, sign) for j, sign in signs.items() if sign)))
         return circuits
+
+
+class CycleSpace:
+    """Circuits that are linearly independent over the field of two elements, as for circuits they then are over any."""
+
+    def __init__(self) -> None:
+        self._rows: dict[int, int] = {}
+        """Sums of circuits, one bit a joint, by their highest bit."""
+
+    def add(self, circuit: Circuit) -> bool:
+        """Add a circuit; False where it is a sum of circuits that were added before."""
+        row = sum(1 << joint for joint, _ in circuit)
+        while row:
+            top = row.bit_length()
+            if top not in self._rows:
+                self._rows[top] = row
+                return True
+            row ^= self._rows[top]
+        return False

@@ -33,7 +33,7 @@ class LoopClass(NamedTuple):
 
 
 def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopClass, ...] | None:
-    """The class of each loop group; None where the frames are traced, or those of many mechanisms."""
+    """Find the class of each structure element; None where the frames are traced, or those of many mechanisms."""
     if not all(isinstance(joint.frames_1, np.ndarray | jax.Array) for joint in joints):
         return None
     if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
@@ -56,7 +56,10 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
 def renumbered(
     loop_class: LoopClass, loops: Sequence[Circuit], chosen: Sequence[Circuit], joints: Sequence[Joint]
 ) -> LoopClass:
-    """The class of some `loops` for others of the same joints; those that are new among `chosen` need numbers."""
+    """Number the loops of a class anew: `chosen` instead of `loops`, of the same joints.
+
+    Loops that are new among `chosen` are classified by the numbers of their joint frames.
+    """
     if tuple(chosen) == tuple(loops):
         return loop_class
 

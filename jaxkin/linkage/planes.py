@@ -20,10 +20,10 @@ PARALLEL = 1e-12
 
 
 def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
-    """The coordinates of the joints, counted through, that act in the plane; None where there is no such plane.
+    """Find the coordinates of the joints, counted through, that act in one plane; None where there is no such plane.
 
     Translations along the normal are allowed and left out: they commute with all others. Where lengths were changed
-    along the normal these may be needed, and the element counts as spatial.
+    along the normal such translations may be needed, and the structure element counts as spatial.
     """
     if traced(joints) or (axes := _axes(joints)) is None:
         return None
@@ -46,16 +46,16 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
 
 
 def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
-    """Whether all joints that turn at all do so about one direction; where that is traced, no."""
+    """Tell whether all joints that turn at all turn about one direction; no where the frames are traced."""
     axes = None if traced(joints) else _axes(joints)
     return axes is not None and _one_direction(axes[0])
 
 
 def turn_about_one_point(joints: Sequence[Joint]) -> bool:
-    """Whether all joints turn about axes through one point, and nothing slides; where that is traced, no.
+    """Tell whether all joints turn about axes through one point, and nothing slides; no where the frames are traced.
 
-    Of the joints on both of their parts, so that the point is the same for all parts however far the joints turn. Axes
-    of one direction only are left to the plane, or to the subgroup of Schoenflies.
+    The axes on both parts of each joint count, and both must be as far from their frames to the point: so it is one
+    point of all parts, however far the joints turn. Axes of one direction only are planar, or Schoenflies.
     """
     axes = None if traced(joints) else _axes(joints)
     if axes is None or axes[1] or _one_direction(axes[0]):

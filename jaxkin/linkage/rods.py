@@ -1,4 +1,4 @@
-"""Rods between two balls: they spin about the line of the centres, and nothing else moves (host code, numbers only)."""
+"""Rods between two balls, which spin about the line of the centres while all else rests (host code, numbers only)."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ about the line is free whatever the angle: the rod is held by its balls."""
 
 
 def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int, int], ...]:
-    """The spins of rods, as `LoopClass.spins`. `body_of` gives the body of a part, the same for all fixed parts.
+    """Find the rods that spin idly, as `LoopClass.spins`. `body_of` gives the body of a part, one for all fixed parts.
 
     A rod is one part, or several in a row that slide along the line only, such as the halves of a leg, held by two
-    balls and nothing else, on two different bodies: between two balls on the same body its turn is of use.
+    balls and nothing else, on two different bodies: between two balls on the same body the turn of the rod is of use.
     """
     ball_of, balls = {}, 0
     for index, joint in enumerate(joints):

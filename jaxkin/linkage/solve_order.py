@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.joints.screws import Screws
-from jaxkin.linkage.contracted_graph import ContractedGraph, Ends
+from jaxkin.linkage.contracted_graph import ContractedGraph, CycleSpace, Ends
 from jaxkin.linkage.first_order import EQUATIONS, Columns, Noise, independent, loop_jacobian, null_space, without
 from jaxkin.topology.graph import Circuit
 
@@ -53,7 +53,7 @@ class Group:
 def solve_order(
     ends: Ends, loops: Sequence[Circuit], columns: Columns, screws: Screws, driven: Collection[int], noise: Noise
 ) -> tuple[Group, ...]:
-    """The groups of one structure element, each as small as was found, every group after those that it needs.
+    """Find the groups of one structure element, each as small as was found, every group after those that it needs.
 
     `ends` are the parts of the joints by number, `loops` those of the structure, `screws` (6, columns) those of the
     coordinates at a closed pose in world coordinates, `driven` the columns that are given. Single loops that can be
@@ -71,11 +71,12 @@ def solve_order(
 def keep_freedoms_together(
     groups: Sequence[Group], columns: Columns, screws: Screws, noise: Noise
 ) -> tuple[Group, ...]:
-    """The groups, those merged of which one determines nothing but how far another one has to move.
+    """Merge a group that leaves coordinates undetermined with the later groups that these coordinates move.
 
-    Coordinates that the loops do not determine take the values of least norm. Solved group by group that is the least
-    norm over the whole element only if no later group moves with what an earlier one leaves free (first order, at the
-    pose of `screws`). Groups between them that one needs and that need the other are merged as well.
+    Undetermined coordinates take the values of least norm. Solved group by group, these are the values of least norm
+    over the whole element only if no later group moves with the coordinates that an earlier group leaves undetermined
+    (to first order, at the pose of `screws`). Groups that need the earlier group and that the later group needs are
+    merged as well.
     """
     found = list(groups)
     number = 0
@@ -91,7 +92,7 @@ def keep_freedoms_together(
 
 
 def _feels(groups: Sequence[Group], number: int, columns: Columns, screws: Screws, noise: Noise) -> int | None:
-    """The first later group whose loops do not stay closed while a group moves as it is free to; None if all do."""
+    """Find the first later group whose loops open while a group moves as its loops allow; None if all stay closed."""
     group = groups[number]
     if not group.free or number + 1 == len(groups):
         return None
@@ -112,7 +113,7 @@ def _needed(groups: Sequence[Group], number: int) -> set[int]:
 def _merged(
     groups: Sequence[Group], chosen: Sequence[int], columns: Columns, screws: Screws, noise: Noise
 ) -> list[Group]:
-    """The groups with some of them made one, in an order in which each still follows those that it needs."""
+    """Merge the chosen groups into one; in the order that is returned every group still follows those that it needs."""
     first = [k for k in range(len(groups)) if k not in chosen]
     parts = [groups[k] for k in chosen]
     joints = tuple(sorted(joint for part in parts for joint in part.joints))
@@ -142,7 +143,7 @@ def _direct(groups: Sequence[Group], after: Sequence[int]) -> tuple[int, ...]:
 def order_by_counting(
     loops: Sequence[Circuit], unknown: Mapping[int, Sequence[int]], equations: Sequence[int | None]
 ) -> tuple[Group, ...]:
-    """The groups of one structure element by counting, for joint frames whose numbers are not there.
+    """Find the groups of one structure element by counting, for joint frames whose numbers are not there.
 
     `unknown` are the unknown columns of each joint. A loop follows from the loops before it where it brings as many
     unknown coordinates as it has `equations`; None where counting says nothing, as in space, where equations that seem
@@ -189,7 +190,7 @@ class _Order:
         self.motions = self._open_motions()
         """Rates that the loops leave to the open columns."""
         self.sets_tried = 0
-        self.loops, self.basis = loops, _CycleSpace()
+        self.loops, self.basis = loops, CycleSpace()
         self.given = [loop for loop in loops if not any(unknown[joint] for joint, _ in loop)]
         """Loops of the structure in which all coordinates are given."""
         for loop in self.given:
@@ -281,22 +282,3 @@ class _Order:
 
     def _weight(self, joints: Collection[int]) -> tuple[int, list[int]]:
         return sum(len(self.unknown[joint]) for joint in joints), sorted(joints)
-
-
-class _CycleSpace:
-    """Circuits that are linearly independent over the field of two elements, as for circuits they then are over any."""
-
-    def __init__(self) -> None:
-        self._rows: dict[int, int] = {}
-        """Sums of circuits, one bit a joint, by their highest bit."""
-
-    def add(self, circuit: Circuit) -> bool:
-        """Add a circuit; False where it is a sum of circuits that were added before."""
-        row = sum(1 << joint for joint, _ in circuit)
-        while row:
-            top = row.bit_length()
-            if top not in self._rows:
-                self._rows[top] = row
-                return True
-            row ^= self._rows[top]
-        return False

@@ -80,7 +80,7 @@ def test_a_joint_moved_along_its_axis_on_one_part_is_not_of_the_class():
     first, *others = mechanism.all_joints
     shifted = np.array(first.frames_2)
     shifted[..., :3, 3] += 1e-3 * shifted[..., :3, 2]
-    moved = mechanism.linkage.with_joints([replace(first, after=shifted), *others])
+    moved = mechanism.linkage.with_joints([replace(first, frames_2=shifted), *others])
     assert moved.classes[0].spherical == ()
 
 

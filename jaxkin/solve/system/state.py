@@ -1,9 +1,10 @@
 """The configuration of a loop system: its coordinates, with the turn of every ball pair as a unit quaternion.
 
-The three angles of a ball lock at phi = 90 deg, so the solver never uses them: a ball turns by `exp(delta)` applied on
-the left of its present turn, and its angles are only computed at the end (`joint_coordinates`). The line between the
-centres of two balls, state (p), turns about the two axes at right angles to it, wherever it points: `exp(delta)` on the
-right, no turn about the line itself. Structure of arrays: poses stand last.
+The three angles of a ball lock at phi = 90 deg, so the solver never uses the angles: a step multiplies the turn of a
+ball by `exp(delta)` on the left, and the angles are computed at the end only (`closure.joint_coordinates`). The line
+between the centres of two balls, contact state (p), turns about the two axes at right angles to the line, wherever it
+points: its turn is multiplied by `exp(delta)` on the right, without a turn about the line itself. Structure of arrays:
+the poses are the last axis of every array.
 """
 
 from __future__ import annotations
@@ -24,15 +25,16 @@ Rotations = Float[Array, "3 3 poses"]
 
 
 class State(NamedTuple):
-    """Coordinates of all joints (radians, scaled lengths; the columns of balls are unused) and turns of the balls."""
+    """A configuration of a loop system, of many poses."""
 
     x: Coordinates
+    """Coordinates of all joints, radians and lengths over the characteristic length; zero for balls not driven."""
     turns: Quaternions
     """Quaternions (w, x, y, z) of part 2 relative to part 1, of `LoopSystem.turned_balls`."""
 
 
 def assembled(system: LoopSystem, poses: int, dtype) -> State:
-    """The assembled pose: no displacement anywhere."""
+    """Make the state of the assembled pose, where no joint is displaced, for so many poses."""
     turn = jnp.array([1.0, 0.0, 0.0, 0.0], dtype)[None, :, None]
     return State(
         jnp.zeros((system.columns, poses), dtype), jnp.broadcast_to(turn, (len(system.turned_balls), 4, poses))
@@ -40,7 +42,8 @@ def assembled(system: LoopSystem, poses: int, dtype) -> State:
 
 
 def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
-    """The state moved by `delta`: added to coordinates, a rotation vector on the left of each ball's turn."""
+    """Move a state by `delta`: added to the coordinates; of a ball the rotation vector by which its turn is multiplied
+    on the left."""
     if not system.turned_balls:
         return State(state.x + delta, state.turns)
     turns = multiply(exponential(_of_balls(system, state, delta)), jnp.moveaxis(state.turns, 0, 1))
@@ -49,7 +52,7 @@ def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
 
 
 def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
-    """The derivative of `retract(state, t delta)` at t = 0, as a tangent of the state's arrays."""
+    """Differentiate `retract(state, t delta)` by t at t = 0: the tangent of the state's arrays."""
     if not system.turned_balls:
         return State(delta, jnp.zeros_like(state.turns))
     spin = _of_balls(system, state, delta)
@@ -58,13 +61,14 @@ def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
 
 
 def difference(a: State, b: State) -> Float[Array, " poses"]:
-    """Largest difference of two states: of coordinates, and of turns as an angle (twice that of the quaternions)."""
+    """Measure how far two states are apart, pose by pose: the largest difference of a coordinate, or of a turn as an
+    angle, which is twice the difference of the quaternions."""
     largest = jnp.max(jnp.abs(a.x - b.x), axis=0)
     return jnp.maximum(largest, 2 * jnp.max(jnp.abs(a.turns - b.turns), axis=(0, 1), initial=0.0))
 
 
 def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]) -> State:
-    """The state with the driven coordinates set; a ball is driven by its three angles theta, phi, psi."""
+    """Set the driven coordinates of a state; a ball is driven by its three angles theta, phi, psi."""
     if not system.driven:
         return state
     state = State(jnp.where(is_driven(system), _spread(system, inputs), state.x), state.turns)
@@ -78,9 +82,10 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
 def driven_rate(
     system: LoopSystem, state: State, direction: Float[Array, "driven poses"]
 ) -> tuple[Coordinates, Coordinates]:
-    """The change of the driven coordinates in a direction of the inputs, and the same in columns of the Jacobian.
+    """Differentiate the driven coordinates along the inputs: as coordinates, and as columns of the Jacobian.
 
-    They differ for a driven ball, which turns by `z psi' + Rz (y phi' + Ry x theta')` while its angles change.
+    The two differ for a driven ball: its columns turn it about world axes, and while its angles change it turns by
+    `z psi' + Rz (y phi' + Ry x theta')`.
     """
     change = jnp.where(is_driven(system), _spread(system, direction), 0.0)
     columns = change
@@ -99,7 +104,7 @@ def driven_rate(
 
 
 def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordinates:
-    """The inputs in their columns; anything in the others, zeros where nothing is driven."""
+    """Spread inputs to their columns; the other columns hold any number, or zero where nothing is driven."""
     if not system.driven:
         return jnp.zeros((system.columns, inputs.shape[-1]), inputs.dtype)
     which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
@@ -107,23 +112,23 @@ def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordin
 
 
 def driven(system: LoopSystem, x: Coordinates) -> Float[Array, "driven poses"]:
-    """The driven ones of the coordinates."""
+    """Pick the driven ones among coordinates."""
     return jnp.stack([x[column] for column in system.driven]) if system.driven else x[:0]
 
 
 def is_driven(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
-    """Which coordinates are given. A mask costs the compiled program less than picking rows and putting them back."""
+    """Mask the driven columns: in a compiled program a mask costs less than rows that are picked and put back."""
     return np.isin(np.arange(system.columns), system.driven)[:, None]
 
 
 def turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
-    """The columns of balls that are solved for: their turns hold what they did."""
+    """Mask the columns of balls that are not driven: the turn of such a ball is in `State.turns`, not in `State.x`."""
     turning = [column for columns in system.balls for column in columns if column not in system.driven]
     return np.isin(np.arange(system.columns), turning)[:, None]
 
 
 def _of_balls(system: LoopSystem, state: State, delta: Coordinates) -> Float[Array, "3 balls poses"]:
-    """Rotation vectors of the balls, applied on the left; none for those that are driven."""
+    """Pick the rotation vectors of the balls, to be applied on the left; zero for balls that are driven."""
     balls = [system.balls[ball] for ball in system.turned_balls]
     none = system.columns
     which = np.array([(*columns, none)[:3] if columns[0] not in system.driven else [none] * 3 for columns in balls])
