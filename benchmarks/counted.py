@@ -94,7 +94,7 @@ def counted() -> Iterator[Count]:
         (levenberg_marquardt, "lax", _with(corrected)),
         (newton, "lax", _with(improved)),
         (branch, "lax", _with(followed)),
-        (polish, "correct", told(polish.correct)),
+        (polish, "levenberg_marquardt", told(polish.levenberg_marquardt)),
         (polish, "newton", told(polish.newton)),
         (programs, "COMPILER_OPTIONS", programs.COMPILER_OPTIONS | FAST_COMPILATION),
     ]

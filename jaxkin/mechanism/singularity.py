@@ -13,7 +13,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import loop_freedoms
-from jaxkin.solve.closure.smallest_singular_value import least_singular_value
+from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             least = jnp.minimum(
-                least, least_singular_value(system, rank, block_joints(linkage.solved_joints, loop_group), rows)
+                least, smallest_singular_value(system, rank, block_joints(linkage.solved_joints, loop_group), rows)
             )
     return least
 

@@ -42,7 +42,7 @@ def test_the_same_least_squares_problem(make, driven):
     # sums of some thirty products of numbers of order one
     np.testing.assert_allclose(*normal, atol=1e-13)
     np.testing.assert_allclose(*gradients, atol=1e-13)
-    np.testing.assert_allclose(one.gap, other.gap, atol=1e-14)
+    np.testing.assert_allclose(one.residual_norm, other.residual_norm, atol=1e-14)
     np.testing.assert_allclose(one.merit, other.merit, atol=1e-14)
 
 

@@ -10,7 +10,7 @@ from jaxkin.geometry.pose import rotation
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure import closure as module
 from jaxkin.solve.closure import spatial
-from jaxkin.solve.closure.joint_coordinates import as_state, read_off
+from jaxkin.solve.closure.joint_coordinates import as_state, joint_coordinates
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import angles, assembled, from_angles, matrix, multiply, retract
 from reference.movements import matrix as movement_matrix
@@ -74,7 +74,7 @@ def test_gap_is_equation_12_of_the_products_of_the_papers_matrices(loop):
     geometry, length = loop_geometry(system, before, after, pitch)
     lengths = jnp.where(jnp.array(system.is_length), length, 1.0)[:, None]
     state = as_state(system, before, after, q)
-    found = closure(system, geometry, state._replace(x=state.x / lengths)).gap
+    found = closure(system, geometry, state._replace(x=state.x / lengths)).residual_norm
 
     def joint(index):
         return displacement(system, before, after, pitch, q, index)
@@ -105,7 +105,7 @@ def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
         return closed.residual[:, 0]
 
     geometry_closed = close_behind(system, geometry, state)
-    np.testing.assert_allclose(closure(system, geometry_closed, state).gap, 0.0, atol=1e-13)
+    np.testing.assert_allclose(closure(system, geometry_closed, state).residual_norm, 0.0, atol=1e-13)
     free = [column for column in range(system.columns)]
     jacobian = jax.jit(jax.jacfwd(end))(jnp.zeros((system.columns, 1)))[..., 0]
     found = closure(system, geometry_closed, state).jacobian[..., 0]
@@ -148,12 +148,14 @@ def test_balls_roll_anywhere_and_are_read_off_right(off):
         state = step(system, state, jnp.asarray(0.3 * rng.normal(size=(system.columns, 50))))
     again = as_state(system, before, before, read(system, before, before, state))
     geometry, _ = loop_geometry(system, before, before, (jnp.zeros(()),) * 2)
-    one, other = (closure(system, geometry, each).gap for each in (state, again))
+    one, other = (closure(system, geometry, each).residual_norm for each in (state, again))
     np.testing.assert_allclose(one, other, rtol=1e-13)
 
 
 def read(system, before, after, state):
-    return read_off(system, before, after, state.x, {ball: matrix(turn) for ball, turn in enumerate(state.turns)})
+    return joint_coordinates(
+        system, before, after, state.x, {ball: matrix(turn) for ball, turn in enumerate(state.turns)}
+    )
 
 
 def nudge(rng, size):

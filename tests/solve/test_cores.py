@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from jaxkin.joints.pairs import revolute
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.execution.cores import shard_count
 from jaxkin.solve.options import SolverOptions

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.closure.rod_spin import turn_between, without_spin
+from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, turn_between
 from jaxkin.solve.execution.programs import solve
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.range.solve_range import scaled
@@ -137,7 +137,7 @@ def test_rods_are_spun_to_where_their_balls_turn_least(sides):
 
     least = min(turned(spun(phi)) for phi in np.linspace(-np.pi, np.pi, 2001))
     given = {ball: jnp.asarray(turn.as_matrix())[..., None] for ball, turn in enumerate(turns)}
-    found = without_spin(system, jnp.asarray(lines)[None], given)
+    found = remove_spin_from_rotations(system, jnp.asarray(lines)[None], given)
     rested = [Rotation.from_matrix(np.asarray(found[ball])[..., 0]) for ball in (0, 1)]
     # the best of 2001 is off by (pi / 1000)^2 at most, and never better
     assert least - 1e-5 < turned(rested) <= least + 1e-14

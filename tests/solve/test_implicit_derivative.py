@@ -74,9 +74,9 @@ def test_with_respect_to_a_length(closed, length):
     element, state, theta, beta, psi = closed
     start = planar.fourbar(np.array([START]))
     joint, side, angle, hand_made = {
-        "crank": (1, "before", START, -np.cos(theta - beta)),
-        "coupler": (2, "before", start.coupler[0], -np.ones(len(TURN))),
-        "rocker": (2, "after", start.rocker[0], np.cos(psi - beta)),
+        "crank": (1, "frames_1", START, -np.cos(theta - beta)),
+        "coupler": (2, "frames_1", start.coupler[0], -np.ones(len(TURN))),
+        "rocker": (2, "frames_2", start.rocker[0], np.cos(psi - beta)),
     }[length]
     change = moved(element, joint, side, [np.cos(angle), np.sin(angle)])
     found = rocker_rate(element, state, np.zeros((1, len(TURN))), change)

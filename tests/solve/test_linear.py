@@ -4,7 +4,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
-from jaxkin.solve.linear.least_norm import inverse, least_norm, refined_least_norm, solve_blocks
+from jaxkin.solve.linear.blocks import inverse_jacobian, solve_blocks
+from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_refined
 from reference.matrices import block_triangular
 
 
@@ -18,9 +19,27 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     right = np.einsum("pij,pj->pi", jacobian, rng.normal(size=(7, columns)))
     expected = np.stack([np.linalg.pinv(j, rcond=1e-10) @ r for j, r in zip(jacobian, right, strict=True)])
     batched = jnp.moveaxis(jnp.asarray(jacobian), 0, -1)
-    found = refined_least_norm(batched, jnp.asarray(right).T, 1e-14, range(columns))
+    found = solve_least_norm_refined(batched, jnp.asarray(right).T, 1e-14, range(columns))
     # rounding is amplified by the square of the condition number, here below 1e3
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize(("rows", "poses"), [(3, 3), (9, 3), (9, 1024), (12, 3), (13, 3), (39, 3), (40, 3)])
+@pytest.mark.parametrize("lacking", [0, 1])
+def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, lacking):
+    """On both sides of each limit between the algorithms, of full rank and of one less."""
+    rng = np.random.default_rng(100 * rows + lacking)
+    columns, few = rows + 2, 3  # a few different systems, so that numpy is not what takes the time
+    values = np.linspace(1.0, 2.0, rows) * (np.arange(rows) >= lacking)
+    left, across = (np.linalg.qr(rng.normal(size=(few, n, n)))[0] for n in (rows, columns))
+    jacobian = (left * values) @ across[:, :rows]
+    right = np.einsum("pij,pj->pi", jacobian, rng.normal(size=(few, columns)))
+    expected = np.einsum("pij,pj->pi", np.linalg.pinv(jacobian, rcond=1e-10), right)
+    which = np.arange(poses) % few
+    batched, sides = jnp.asarray(np.moveaxis(jacobian[which], 0, -1)), jnp.asarray(right[which].T)
+    found = solve_least_norm(batched, sides, 1e-14, range(columns))
+    # a damping of 1e-14, and condition numbers of two; without full rank rounding of r over the damping, times J^T
+    np.testing.assert_allclose(found.T, expected[which], atol=1e-11 if not lacking else 1e-6)
 
 
 def test_an_idle_coordinate_stays_exactly_at_rest():
@@ -30,7 +49,7 @@ def test_an_idle_coordinate_stays_exactly_at_rest():
     jacobian = jacobian @ np.linalg.qr(rng.normal(size=(6, 6)))[0]
     null = np.linalg.svd(jacobian)[2][4:]
     batched = jnp.asarray(jacobian)[..., None]
-    x = least_norm(batched, jnp.asarray(jacobian @ rng.normal(size=6))[:, None], 1e-14, range(6))
+    x = solve_least_norm(batched, jnp.asarray(jacobian @ rng.normal(size=6))[:, None], 1e-14, range(6))
     np.testing.assert_allclose(null @ np.asarray(x)[:, 0], 0.0, atol=1e-13)
 
 
@@ -41,7 +60,7 @@ def test_only_used_columns_are_solved_for():
     jacobian[:, 8:] = 0.0
     right = jnp.asarray(rng.normal(size=(6, 7)))
     damping = jnp.full(7, 1e-3)
-    one, other = (least_norm(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
+    one, other = (solve_least_norm(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
     np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)
 
 
@@ -66,6 +85,6 @@ def test_the_inverse_does_what_solutions_are(poses):
     jacobian, blocks = block_triangular(rng, poses)
     right = jnp.asarray(rng.normal(size=(9, poses)))
     expected = solve_blocks(jnp.asarray(jacobian), right, 1e-14, blocks, regular=True)
-    found = jnp.einsum("pcr,rp->cp", inverse(jnp.asarray(jacobian), 1e-14, blocks), right)
+    found = jnp.einsum("pcr,rp->cp", inverse_jacobian(jnp.asarray(jacobian), 1e-14, blocks), right)
     # the same operations in another order, of blocks whose conditions multiply up to 1e6
     np.testing.assert_allclose(found, expected, atol=1e-11 * np.abs(expected).max())

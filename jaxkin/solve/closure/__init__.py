@@ -1,1 +1,1 @@
-"""The closure equations (Eq. 10 to 12): residual, Jacobian, and coordinates read off a closed pose."""
+"""Evaluate the closure equations (Eq. 10 to 12): residual, Jacobian, and joint coordinates of a solved state."""

@@ -1,7 +1,7 @@
-"""Closure of the loops (Eq. 10): residual and Jacobian, with only the equations that the loops need.
+"""Evaluate the closure of loops (Eq. 10 to 12): residual and Jacobian, with only the equations that the loops need.
 
-Loops whose joints all move in parallel planes have three equations each, all others six at most: `planar` and
-`spatial`. What `gap` reports, and what decides whether a pose is closed, is Eq. 12 over all twelve.
+A loop whose joints all move in parallel planes has three equations (`planar`), any other at most six (`spatial`), of
+the twelve of Eq. 11. The residual norm, which decides whether a pose is closed (Eq. 13), is always over all twelve.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ Given = Array | np.ndarray
 
 class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
-    """Rotation of each loop in space that is whole, translation of each, or difference in length from a rod; of planar
-    loops one after the other."""
+    """Of loops in space: rotation of those that are not cut at a ball, translation of all but rods, and for each rod
+    the difference of its length from that between its balls. Of planar loops: turn and two translations of each."""
     jacobian: Float[Array, "equations columns poses"]
     merit: Float[Array, " poses"]
-    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: half the square of the residual nearby."""
-    gap: Float[Array, " poses"]
+    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: nearby half the square of `residual`."""
+    residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
 
 
 def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
-    """Residual and Jacobian of all loops, lengths over the characteristic length."""
+    """Evaluate residual, Jacobian and norms of all loops, lengths over the characteristic length."""
     if isinstance(geometry, Planar):
         residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x)
         return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
@@ -44,20 +44,21 @@ def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
 
 
 def loop_geometry(
-    system: LoopSystem, before: tuple[Given, ...], after: tuple[Given, ...], pitch: tuple[Given, ...]
+    system: LoopSystem, frames_1: tuple[Given, ...], frames_2: tuple[Given, ...], pitch: tuple[Given, ...]
 ) -> tuple[Geometry, Float[Array, ""]]:
-    """The constants of the loops from the frames of the joints, one entry a joint, and the characteristic length.
+    """Compute the constants of the loops from the frames of the joints, and the characteristic length.
 
-    Frames are taken from their centroid and lengths over their root-mean-square distance from it, so that the result
-    depends on neither unit nor origin. Both are held constant in derivatives: they cancel.
+    All arguments have one entry a joint. The origin is moved to the centroid of the frames on part 1, and lengths are
+    divided by the root-mean-square distance of these from it (the characteristic length), so that no result depends on
+    unit or origin. Both are held constant in derivatives, in which they cancel.
     """
-    before, after, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (before, after, pitch))
-    origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in before]))
+    frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
+    origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in frames_1]))
     centre = jnp.mean(origins, axis=0)
     radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
     length = jnp.where(radius > 0, radius, 1.0)
 
-    frames = jnp.concatenate([*before, *after])
+    frames = jnp.concatenate([*frames_1, *frames_2])
     frames = frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
     frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)

@@ -1,9 +1,9 @@
-"""The paper's coordinates of a solved state, and the way back (Table 2).
+"""Convert between joint coordinates (Table 2) and the state of the solver.
 
-Balls are solved as quaternions. So are the two pairs of movements that lock where a ball has rolled a quarter turn: of
-a ball on a plane, (d), the turn about the normal and the two angles become one ball; of a ball on a ball, (p), the line
-of the centres turns about axes at right angles to it, and what it has turned about itself is of no account. The angles
-read off here give the same displacement to rounding, also where the two frames do not lie quite as Table 1 says.
+In the state balls are quaternions. So are the two pairs of movements that lock where a ball has rolled a quarter turn.
+Of a ball on a plane, (d), the turn about the normal and the two angles become one ball. Of a ball on a ball, (p), the
+line of centres turns about axes at right angles to it; its turn about itself changes nothing. The angles computed here
+give the same displacement as the quaternions to rounding, also where the two frames deviate a little from Table 1.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry
-from jaxkin.solve.closure.rod_spin import rested, without_spin
+from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, remove_spin_from_state
 from jaxkin.solve.closure.spatial import Spatial, cut_turns
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
@@ -23,16 +23,19 @@ Frames = tuple[Float[Array, "_ 4 4"], ...]
 
 
 def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
-    """The turns of all balls by number: those at which loops are cut turn as these want it, rods do not spin."""
+    """Compute the rotation matrices of all balls, by number, without passive spin of rods.
+
+    A ball at which a loop is cut gets the rotation that closes the loop.
+    """
     turns = _all_turns(system, geometry, state)
-    return without_spin(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
+    return remove_spin_from_rotations(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
 
 
-def at_rest(system: LoopSystem, geometry: Geometry, state: State) -> State:
-    """The state with no spin left in any rod: a smooth function of the input, as that of the solver is not."""
+def remove_passive_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
+    """Remove the passive spin of all rods: the result is a smooth function of the input, unlike the solver's state."""
     if not isinstance(geometry, Spatial) or not system.spinning:
         return state
-    return rested(system, geometry.lines, _all_turns(system, geometry, state), state)
+    return remove_spin_from_state(system, geometry.lines, _all_turns(system, geometry, state), state)
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
@@ -41,10 +44,13 @@ def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
     return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
 
 
-def read_off(
-    system: LoopSystem, before: Frames, after: Frames, x: Coordinates, turns: dict[int, Rotations]
+def joint_coordinates(
+    system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates, turns: dict[int, Rotations]
 ) -> Coordinates:
-    """Displacements of all joints from those that are not of balls, and turns of balls; lengths as in the frames."""
+    """Compute the displacements of all joints from `x`, in the unit of the frames, and the rotations of the balls.
+
+    The entries of `x` that belong to balls are replaced by their angles.
+    """
     turns = dict(turns)
     pairs = []
     for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
@@ -52,13 +58,13 @@ def read_off(
             continue
         if len(columns) == 2:
             behind, _ = system.places[joint, frame + 1]
-            found, turns[behind] = _line(_between(before[joint], after[joint], frame), turns[ball], turns[behind])
+            found, turns[behind] = _line(_between(frames_1[joint], frames_2[joint], frame), turns[ball], turns[behind])
         elif columns == tuple(range(columns[0], columns[0] + 3)):
             pairs.append((ball, columns))
             continue
         else:
             first = columns[2] - 2
-            found, moved = _on_plane(_between(before[joint], after[joint], frame - 1), turns[ball])
+            found, moved = _on_plane(_between(frames_1[joint], frames_2[joint], frame - 1), turns[ball])
             x = x.at[first : first + 2].add(moved)
         x = x.at[np.array(columns)].set(found, unique_indices=True)
     if pairs:
@@ -67,14 +73,14 @@ def read_off(
     return x
 
 
-def unwrapped(system: LoopSystem, x: Coordinates) -> Coordinates:
-    """Displacements without leaps in the angles of balls from pose to pose."""
+def unwrap_ball_angles(system: LoopSystem, x: Coordinates) -> Coordinates:
+    """Unwrap the angles of balls by multiples of 2 pi, so that they do not jump from pose to pose."""
     which = np.flatnonzero(turning(system))
     return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x
 
 
-def as_state(system: LoopSystem, before: Frames, after: Frames, x: Coordinates) -> State:
-    """The state with these displacements of all joints."""
+def as_state(system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates) -> State:
+    """Compute the state from the displacements `x` of all joints: the inverse of `joint_coordinates`."""
     turns = []
     for (joint, frame), (ball, columns) in system.places.items():
         if ball not in system.turned_balls:
@@ -86,17 +92,17 @@ def as_state(system: LoopSystem, before: Frames, after: Frames, x: Coordinates) 
             turns.append(from_angles(chosen))
         else:
             theta, phi, about_normal = chosen
-            between = _between(before[joint], after[joint], frame - 1)
+            between = _between(frames_1[joint], frames_2[joint], frame - 1)
             half, none = 0.5 * about_normal, jnp.zeros_like(theta)
             turn = jnp.stack([jnp.cos(half), *(jnp.sin(half) * between[2, :3, None])])
             turns.append(multiply(turn, from_angles(jnp.stack([theta, phi, none]))))
             first = columns[2] - 2
-            x = x.at[first : first + 2].add(_turned(about_normal, between) - between[:2, 3, None])
+            x = x.at[first : first + 2].add(_rotated_origin(about_normal, between) - between[:2, 3, None])
     return State(x, jnp.stack(turns) if turns else jnp.zeros((0, 4, x.shape[1]), x.dtype))
 
 
 def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tuple[Array, Rotations]:
-    """theta, phi that carry the second centre of (p) to where it is, and the turn of the ball that goes with them."""
+    """Compute theta, phi of the line of centres of (p), and the rotation of its ball that goes with these angles."""
     a, b, c = centre = between[:3, 3]
     x, y, z = jnp.einsum("ijp,j->ip", line, centre)
     square = x * x + z * z
@@ -108,12 +114,12 @@ def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tup
     none = jnp.zeros_like(theta)
     rest = jnp.einsum("jip,jkp->ikp", matrix(from_angles(jnp.stack([theta, phi, none]))), line)
     inner = between[:3, :3]
-    turned = jnp.einsum("ji,jkp,kl,lmp->imp", inner, rest, inner, ball)
-    return jnp.stack([theta, phi]), turned
+    rotation = jnp.einsum("ji,jkp,kl,lmp->imp", inner, rest, inner, ball)
+    return jnp.stack([theta, phi]), rotation
 
 
 def _on_plane(between: Float[Array, "4 4"], ball: Rotations) -> tuple[Array, Float[Array, "2 poses"]]:
-    """theta, phi and the turn about the normal of (d), and what that turn makes of the displacements x, y."""
+    """Compute theta, phi and the turn about the normal of (d), and by what that turn changes the displacements x, y."""
     inner = between[:3, :3]
     turn = jnp.einsum("ij,jkp->ikp", inner, ball)
     wx, wy, wz = turn[:, 0]
@@ -130,23 +136,25 @@ def _on_plane(between: Float[Array, "4 4"], ball: Rotations) -> tuple[Array, Flo
     upright = matrix(from_angles(jnp.stack([none, none, about_normal])))
     rolled = jnp.einsum("jip,kjp,klp->ilp", leaned, upright, turn)
     theta = jnp.arctan2(rolled[2, 1], rolled[1, 1])
-    return jnp.stack([theta, phi, about_normal]), between[:2, 3, None] - _turned(about_normal, between)
+    return jnp.stack([theta, phi, about_normal]), between[:2, 3, None] - _rotated_origin(about_normal, between)
 
 
 def _direction(sin: Array, cos: Array, undefined: Array) -> Array:
-    """The angle; zero, without a derivative, where it is undefined."""
+    """Compute atan2(sin, cos); zero with zero derivative where the angle is undefined."""
     angle = jnp.arctan2(jnp.where(undefined, 0.0, sin), jnp.where(undefined, 1.0, cos))
     return jnp.where(undefined, 0.0, angle)
 
 
-def _turned(angle: Float[Array, " poses"], between: Float[Array, "4 4"]) -> Float[Array, "2 poses"]:
-    """Where the turn about z carries the second frame of a pair to, along x and y."""
+def _rotated_origin(angle: Float[Array, " poses"], between: Float[Array, "4 4"]) -> Float[Array, "2 poses"]:
+    """Rotate the origin of the second frame of a pair about z: its x and y."""
     cos, sin, (x, y) = jnp.cos(angle), jnp.sin(angle), between[:2, 3]
     return jnp.stack([cos * x - sin * y, sin * x + cos * y])
 
 
-def _between(before: Float[Array, "frames 4 4"], after: Float[Array, "frames 4 4"], frame: int) -> Float[Array, "4 4"]:
-    """The pose of the next frame of a chain in this one."""
-    here, there = jnp.asarray(after[frame], float), jnp.asarray(before[frame + 1], float)
-    turned = here[:3, :3].T
-    return there.at[:3, :3].set(turned @ there[:3, :3]).at[:3, 3].set(turned @ (there[:3, 3] - here[:3, 3]))
+def _between(
+    frames_1: Float[Array, "frames 4 4"], frames_2: Float[Array, "frames 4 4"], frame: int
+) -> Float[Array, "4 4"]:
+    """Compute the pose of the next frame of a chain relative to this one."""
+    here, there = jnp.asarray(frames_2[frame], float), jnp.asarray(frames_1[frame + 1], float)
+    inverse = here[:3, :3].T
+    return there.at[:3, :3].set(inverse @ there[:3, :3]).at[:3, 3].set(inverse @ (there[:3, 3] - here[:3, 3]))

@@ -1,9 +1,9 @@
-"""Closure of planar loops: every joint turns about the normal of one plane, or slides in it.
+"""Evaluate the closure of planar loops (Eq. 10): every joint turns about the normal of one plane, or slides in it.
 
-Three equations a loop instead of six: the turns add up to none, and the links, each at its absolute angle, to nothing.
-The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of them (for links that
-slide, in their products with the coordinate as well), so that a loop is two products of matrices. Coordinates along
-the normal (those of cylindrical joints) commute with all of this: they rest, and are no columns of the system.
+A loop has three equations instead of six: the turns add up to zero, and so do the links, each at its absolute angle.
+The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of the angles (for links
+that slide, also in their products with the coordinate), so that a loop is two products of matrices. Coordinates along
+the normal (those of cylindrical joints) commute with all of this: they stay, and are no columns of the system.
 """
 
 from __future__ import annotations
@@ -23,9 +23,11 @@ from jaxkin.solve.closure.spatial import Spatial
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
-MANY, FEW = 512, 32
-"""From so many poses on sums written out of up to so many terms, which vector units run through, are faster than a
-product of matrices; for fewer poses they are not worth the time that they take to compile."""
+MIN_UNROLLED_SUM_POSES = 512
+"""Poses from which on the sum over the terms is written out, for the vector units to run through, where it is faster
+than a product of matrices; for fewer poses it is not worth the time that it takes to compile."""
+MAX_UNROLLED_SUM_TERMS = 32
+"""Terms of a sum that is written out, at most: compile time grows with their number."""
 
 
 class Planar(NamedTuple):
@@ -35,21 +37,24 @@ class Planar(NamedTuple):
     """
 
     sense: Float[Array, "loops links"]
-    """Of the coordinate by which each link turns against the one before it: -1 or 1; 0 where it slides."""
+    """Sign of the coordinate by which a link turns relative to the previous one: -1 or 1; 0 for a link that slides."""
     moved: Float[Array, "loops 2 terms"]
-    """What the terms give to where the loop ends: links from each joint to the next, as in the assembled pose."""
+    """Coefficients of the terms in the end point of the loop: the links from joint to joint in the assembled pose."""
     jacobian: Float[Array, "loops rows terms"]
-    """What they give to the derivatives of the turn, and of both translations, by the coordinates."""
+    """Coefficients of the terms in the derivatives of the turn and of both translations by the coordinates."""
     begun: Float[Array, "2 loops"]
-    """Cosine and sine of the turn that the loop leaves open at the assembled pose: none unless lengths were changed."""
+    """Cosine and sine of the rotation left open in the assembled pose: 1 and 0 unless dimensions were changed."""
     off: Float[Array, ""]
-    """Square of what leads out of the plane: no motion in the plane closes that."""
+    """Squared residual out of the plane (Eq. 12), which no motion in the plane can close."""
 
 
 def planar_closure(
     system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
 ) -> tuple[Array, Array, Array, Array]:
-    """Residual (turn and two translations a loop), Jacobian, and squares of Eq. 12: see `closure.Closure`."""
+    """Evaluate residual (turn and two translations a loop), Jacobian, and squares of rotation and translation (Eq. 12).
+
+    See `closure.Closure`.
+    """
     poses = x.shape[-1]
     padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
     both = cos_sin(_sums(geometry.sense[..., None] * padded[_kept(system).turner.T]))
@@ -73,15 +78,18 @@ def planar_closure(
 
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
-    """Where the loops end in the plane, over the characteristic length: `Planar.moved` times its terms (Eq. 10)."""
-    if terms[0].shape[-1] < MANY or sum(some.shape[0] * some.shape[1] for some in terms) > FEW:
+    """Compute the end points of the loops in the plane: `Planar.moved` times the terms (translation part of Eq. 10)."""
+    if (
+        terms[0].shape[-1] < MIN_UNROLLED_SUM_POSES
+        or sum(some.shape[0] * some.shape[1] for some in terms) > MAX_UNROLLED_SUM_TERMS
+    ):
         return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
     single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
     return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))
 
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
-    """The constants in the plane of the first joint that turns, from those in space."""
+    """Compute the constants in the plane of the first joint that turns from the constants in space."""
     table, kept = chain_tables(system), _kept(system)
     loops = np.arange(len(system.loops))
 
@@ -109,7 +117,7 @@ def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
     turns = jnp.cumsum(sense[..., None] * one_hot.swapaxes(0, 1), axis=1)
 
     arrival = jnp.einsum("di,li->dl", plane, last[:, :3, 3])
-    centre = jnp.where(used_, centre, arrival[:, None])  # steps that fill up the shorter loops stand at the end
+    centre = jnp.where(used_, centre, arrival[:, None])  # padding of shorter loops lies at their end point
     links = (jnp.concatenate([centre[:, 1:], arrival[:, None]], axis=1) - centre).swapaxes(1, 2)
     direction = jnp.einsum("di,kli->dlk", plane, axis) * (sign * jnp.asarray((1 - turning) * used)).T
 
@@ -129,21 +137,21 @@ def _by_terms(
     coordinate: Float[Array, "loops links columns"],
     first: Float[Array, "2 loops"],
 ) -> tuple[Float[Array, "loops 2 terms"], Float[Array, "loops rows terms"]]:
-    """`Planar.moved` and `.jacobian` from the links, the directions in which they slide, and where each loop begins."""
+    """Compute `Planar.moved` and `.jacobian` from links, directions of slides, and the first point of each loop."""
 
-    def turned(vectors: Array) -> list[Array]:
-        """What cosine and sine of the angle of each link give to the coordinates of vectors that turn with it."""
+    def rotating(vectors: Array) -> list[Array]:
+        """Compute the coefficients of cosine and sine of the angle of each link in a vector that turns with it."""
         along, across = vectors
         return [jnp.stack([along, across]), jnp.stack([-across, along])]
 
     parts = [links, slides] if _slides(system) else [links]
-    moving = jnp.concatenate([by for vectors in parts for by in turned(vectors)], axis=-1)
-    # a turn carries all links behind it, at right angles to where they lie
+    moving = jnp.concatenate([by for vectors in parts for by in rotating(vectors)], axis=-1)
+    # a turn moves the links behind it at right angles to their direction
     behind = jnp.concatenate([turns] * (2 * len(parts)), axis=1)
     derivative = jnp.einsum("dlt,ltc->ldct", jnp.stack([-moving[1], moving[0]]), behind)
     if _slides(system):
         along = jnp.einsum(
-            "dlt,ltc->ldct", jnp.concatenate(turned(slides), axis=-1), jnp.concatenate([coordinate] * 2, 1)
+            "dlt,ltc->ldct", jnp.concatenate(rotating(slides), axis=-1), jnp.concatenate([coordinate] * 2, 1)
         )
         derivative = derivative.at[..., : along.shape[-1]].add(along)
     by_one = jnp.pad(turns[:, None, -1, :, None], [(0, 0), (0, 2), (0, 0), (0, 0)])
@@ -153,9 +161,9 @@ def _by_terms(
     return moved.swapaxes(0, 1), jacobian.reshape(len(system.loops), 3 * system.columns, -1)
 
 
-def _sums(turned: Float[Array, "loops links poses"]) -> Float[Array, "loops links poses"]:
-    """Absolute angles of the links from those against the one before: one after another, as few as they are."""
-    return jnp.stack(list(accumulate(jnp.moveaxis(turned, 1, 0))), axis=1)
+def _sums(angles: Float[Array, "loops links poses"]) -> Float[Array, "loops links poses"]:
+    """Sum the relative angles of the links to absolute ones; written out, since links are few."""
+    return jnp.stack(list(accumulate(jnp.moveaxis(angles, 1, 0))), axis=1)
 
 
 def _slides(system: LoopSystem) -> bool:
@@ -163,14 +171,14 @@ def _slides(system: LoopSystem) -> bool:
 
 
 class _Kept(NamedTuple):
-    """Which elementary steps of the loops move in the plane."""
+    """The elementary motions of the loops that lie in the plane."""
 
     step: np.ndarray
-    """(links, loops): numbers of the steps; the number of steps, which is none, where a loop is shorter."""
+    """(links, loops): numbers of the steps; padded with the number of steps where a loop is shorter."""
     turner: np.ndarray
-    """(links, loops): column of the coordinate by which a link turns; the number of columns, which is none."""
+    """(links, loops): column of the coordinate by which a link turns; the number of columns if there is none."""
     slider: np.ndarray
-    """(links, loops): column of the coordinate by which a link slides; the number of columns, which is none."""
+    """(links, loops): column of the coordinate by which a link slides; the number of columns if there is none."""
     reference: tuple[int, int]
     """Step and loop of a turn, whose axis is the normal."""
 

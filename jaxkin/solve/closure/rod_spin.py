@@ -1,10 +1,9 @@
-"""Idle spins: a rod between two balls may turn about the line of their centres, and nothing else moves.
+"""Remove the passive spin of rods between two balls: the rotation about the line of their centres, which no loop fixes.
 
-The loops say nothing about such a spin, and least-norm steps leave some of it behind. What counts is that the balls
-turn as little as they can, counted from the assembled pose: with the turn `(w, v)` of either ball and the line `n`,
-which is fixed in the rod, the sum of their `|v|^2` is least. Spun by `phi` it is a constant less
-`(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and `b = sum w^2 - (v.n)^2`. So the same input gives the same pose
-by whatever way; after a thousand turns no spin is left behind.
+Least-norm steps leave some spin behind. Of all spins the one is chosen at which the balls turn least from the assembled
+pose: with the quaternion `(w, v)` of either ball and the line `n`, fixed in the rod, the sum of their `|v|^2` is least.
+After a spin by `phi` the sum is a constant less `(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and
+`b = sum w^2 - (v.n)^2`. So equal inputs give equal poses by whatever path, also after a thousand turns.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Rotations, State, matrix, multiply
 
 Lines = Float[Array, "spins 2 3"]
-"""For each spin the line through its two balls, in the frames that they have on the rod, signed as it turns them."""
+"""For each rod the unit vector from ball to ball, in the frames of both balls on the rod, signed as the spin."""
 
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
-    """The lines from the frames of the joints; those on their first parts come first, joint by joint."""
+    """Compute the lines from the frames of the joints: all frames on part 1, joint by joint, then all on part 2."""
     of_ball, first = [], 0
     for chain in system.chains:
         of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
@@ -43,21 +42,23 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
 def _spins(
     system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
 ) -> tuple[list[tuple[int, int]], Float[Array, "4 ends poses"]]:
-    """Of both balls of each rod: number and side, and the turns about the line that leave no spin behind."""
+    """Compute number and side of both balls of each rod, and the quaternions about the line that remove its spin."""
     ends = [(ball, side) for one, other, *sides in system.spins for ball, side in zip((one, other), sides, strict=True)]
     turn = jnp.stack([turns[ball] for ball, _ in ends], axis=2)
     n = lines.reshape(-1, 3).T[..., None]
     along = reduce(add, (n[i] * each for i, each in enumerate(vee(turn))))
     aside = [turn[i, i] - n[i] * reduce(add, (turn[i, j] * n[j] for j in range(3))) for i in range(3)]
     a, b = (each[::2] + each[1::2] for each in (along, 0.5 * reduce(add, aside)))
-    undefined = a * a + b * b < 1e-30  # both balls have made half a turn across the line
+    undefined = a * a + b * b < 1e-30  # both balls have made half a turn about an axis at right angles to the line
     phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
     cos, sin = (jnp.repeat(each, 2, axis=0) for each in cos_sin(0.5 * phi))
     return ends, jnp.concatenate([cos[None], sin * n])
 
 
-def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]) -> dict[int, Rotations]:
-    """The turns of all balls, by number, with every rod spun to where its balls turn least."""
+def remove_spin_from_rotations(
+    system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
+) -> dict[int, Rotations]:
+    """Remove the spin of all rods from the rotation matrices of the balls, by number."""
     turns = dict(turns)
     if not system.spins:
         return turns
@@ -69,8 +70,8 @@ def without_spin(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations
     return turns
 
 
-def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
-    """The state with every rod spun so, of which there is one at least. `turns` are those of all its balls."""
+def remove_spin_from_state(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], state: State) -> State:
+    """Remove the spin of all rods, at least one, from a state; `turns` are the rotation matrices of all its balls."""
     quaternions = dict(zip(system.turned_balls, state.turns, strict=True))
     ends, spins = _spins(system, lines, turns)
     for number, (ball, side) in enumerate(ends):
@@ -80,17 +81,17 @@ def rested(system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations], sta
 
 
 def vee(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
-    """Half of what is not symmetric, as a vector: the sine of the angle along the axis, `2 w v` of a quaternion."""
+    """Compute the axial vector of (R - R^T)/2: the axis times the sine of the angle, or `2 w v` of a quaternion."""
     (_, xy, xz), (yx, _, yz), (zx, zy, _) = rotation
     return 0.5 * jnp.stack([zy - yz, xz - zx, yx - xy])
 
 
 def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"]) -> Float[Array, "3 3 *poses"]:
-    """A rotation matrix, [column, row], that turns one direction into another, with whatever spin about it."""
+    """Compute a rotation matrix [column, row] that turns the direction `one` into `other`, with any spin."""
     one, other = one / lengths(one), other / lengths(other)
     cos, cross = jnp.sum(one * other, axis=0), jnp.cross(one, other, axis=0)
     near = jnp.concatenate([1 + cos[None], cross])
-    # there is no least turn to the opposite: what is nearer to that makes half a turn beforehand, across itself
+    # the least rotation to the opposite direction is not unique: beyond 90 deg turn by 180 deg about a normal first
     x, y, z = one
     below = 1 + jnp.abs(z)
     across = jnp.stack([1 - x * x / below, -x * y / below, jnp.where(z < 0, x, -x)])
@@ -102,6 +103,6 @@ def turn_between(one: Float[Array, "3 *poses"], other: Float[Array, "3 *poses"])
 
 
 def lengths(vectors: Float[Array, "3 *entries"]) -> Float[Array, " *entries"]:
-    """Lengths of vectors; for one of no length a positive number, whose derivative is zero."""
+    """Compute the lengths of vectors; for a zero vector 1e-15, with zero derivative."""
     square = jnp.sum(vectors * vectors, axis=0)
     return jnp.sqrt(jnp.where(square > 0, square, 1e-30))

@@ -1,7 +1,7 @@
-"""How near to singular poses are: the smallest singular value of the closure Jacobian that is not zero everywhere.
+"""Compute the smallest singular value of the closure Jacobian that is not zero everywhere: the distance to singularity.
 
-Where the loops close to a residual `r`, the pose is right to about `r` over this value, and derivatives grow as one
-over it. At a dead point or a change point it is zero: rounding in the closure then leaves its square root in the pose.
+A pose whose residual norm is `r` is right to about `r` over this value, and its derivatives grow as one over it. At a
+dead point or a change point it is zero: there rounding of the closure leaves its square root in the pose.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ from jaxkin.solve.system.loop_system import LoopSystem
 
 
 @partial(jax.jit, static_argnums=(0, 1))
-def least_singular_value(
+def smallest_singular_value(
     system: LoopSystem, rank: int, joints: Joints, displacements: Float[Array, "columns poses"]
 ) -> Float[Array, " poses"]:
-    """The singular value of that rank (from 1) of the Jacobian with respect to the free coordinates.
+    """Compute the singular value number `rank` (from 1, descending) of the Jacobian by the free coordinates.
 
     Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
     """

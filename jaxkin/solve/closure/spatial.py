@@ -1,7 +1,7 @@
-"""Closure of loops in space (Eq. 10 and 11): residual and Jacobian of all poses at once.
+"""Evaluate the closure of loops in space (Eq. 10 and 11): residual and Jacobian of all poses at once.
 
-A loop is travelled step by step. `R, t` is the displacement accumulated so far; every step leaves one column of the
-Jacobian behind: the twist that it gives to the end of the loop. Of the twelve equations of Eq. 11 at most six are
+The steps (elementary motions) of a loop are composed one by one to its displacement `R, t`. Each step gives one column
+of the Jacobian: the twist of the end of the loop. Of the twelve equations of Eq. 11 at most six are
 independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
 sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
 cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. One that
@@ -41,13 +41,13 @@ class Spatial(NamedTuple):
     """The constant pose behind the last step."""
     pitch: Float[Array, " joints"]
     lines: Lines
-    """Of idle spins: see `spins`."""
+    """Lines of the passive spins: see `rod_spin`."""
     centres: Float[Array, "3 spherical"]
     """Points about which the spherical loops turn, of `LoopSystem.sections`."""
 
 
 def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
-    """Residual, Jacobian, and squares of Eq. 12 from rotation and translation: see `closure.Closure`.
+    """Evaluate residual, Jacobian, and the squares of rotation and translation in Eq. 12: see `closure.Closure`.
 
     Columns follow `LoopSystem`, those of balls turn about world axes.
     """
@@ -73,7 +73,7 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
         residual += [*_of_loops(weighted)]
         rows.append(slopes)
     if schoenflies.size:
-        # the twist of a joint that turns holds the direction
+        # the twist of a joint that turns is about the one direction of the loop
         turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
         direction = twists[turning[schoenflies], :3, schoenflies]
         turns = _of_loops(vee(rotation[:, :, schoenflies].swapaxes(0, 1)))
@@ -118,7 +118,7 @@ def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 p
 def _of_rods(
     rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
 ) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
-    """By how much both chains between the balls of a rod differ in length, and what the columns give to that."""
+    """Compute the difference in length of both chains between the balls of a rod, and its derivatives."""
     apart = translation[:, rods]
     length = lengths(apart)
     along = jnp.moveaxis(apart / length, 0, 2)
@@ -127,7 +127,10 @@ def _of_rods(
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
-    """Of each ball at which a loop is cut the rotation matrix, [row, column], that closes it; a rod spins somehow."""
+    """Compute the rotation matrix, [row, column], of each ball at which a loop is cut that closes the loop.
+
+    The spin of a rod that is cut at both balls is arbitrary.
+    """
     if not any(system.cuts):
         return {}
     table = chain_tables(system)
@@ -190,7 +193,7 @@ def _travel(
 
 
 def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
-    """Rotation matrices [column, row] of the balls that the steps turn; no turn for all other steps."""
+    """Compute the rotation matrices [column, row] of the balls of the steps; the identity for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
     turns = jnp.concatenate([state.turns, still])[table.ball]
@@ -200,7 +203,7 @@ def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 cha
 
 
 def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:
-    """Rotation and translation followed by a constant pose, chain by chain."""
+    """Compose rotation and translation with a constant pose that follows, chain by chain."""
     columns = [sum(rotation[j] * pose[:, j, c, None] for j in range(3)) for c in range(4)]
     return jnp.stack(columns[:3]), translation + columns[3]
 
@@ -210,7 +213,7 @@ def _product(a: Rotation, b: Rotation) -> Rotation:
 
 
 def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
-    """The constants of the loops from the frames of the joints: those before, those after, and none."""
+    """Compute the constants of the loops from the frames of the joints: on part 1, on part 2, and the identity."""
     table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
@@ -236,7 +239,7 @@ def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Ar
 
 
 def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
-    """Inverses of rigid poses."""
+    """Invert rigid poses."""
     turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
     moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
     return poses.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)

@@ -17,8 +17,8 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
-from jaxkin.solve.correctors.levenberg_marquardt import choose
-from jaxkin.solve.linear.least_norm import placed
+from jaxkin.solve.correctors.levenberg_marquardt import select_poses
+from jaxkin.solve.linear.least_norm import scatter_rows
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rate, retract, turning
@@ -87,7 +87,7 @@ def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " pos
     half = len(which) + 4 * balls
     state, slope = (
         State(
-            placed(part[: len(which)], which, system.columns),
+            scatter_rows(part[: len(which)], which, system.columns),
             part[len(which) : half].reshape(balls, 4, number.shape[0]),
         )
         for part in (column, column[half:])
@@ -109,7 +109,9 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
     number = jnp.clip(jnp.searchsorted(samples.at, values, side="left") - 1, samples.first, samples.last - 1)
     left, right = _sample(system, samples, number), _sample(system, samples, number + 1)
     between, from_left, trusted = _trusted_side(left, right, values)
-    state = choose(between, _interpolated(system, left, right, values), choose(from_left, left.state, right.state))
+    state = select_poses(
+        between, _interpolated(system, left, right, values), select_poses(from_left, left.state, right.state)
+    )
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
     if system.periodic:
         state = State(state.x + turns * samples.winding[:, None], state.turns)

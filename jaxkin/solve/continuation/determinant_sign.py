@@ -13,7 +13,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.linear.least_norm import Matrix
+from jaxkin.solve.linear.gram import Matrix
 from jaxkin.solve.system.equation_blocks import EquationBlock
 
 Square = Float[Array, "n n poses"]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import jax
 from jaxtyping import Array, Bool, Float
 
-from jaxkin.solve.correctors.levenberg_marquardt import choose
+from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.system.state import State, difference
 
 SMOOTH = 0.25
@@ -45,7 +45,7 @@ def predict_state(
     curve = jax.tree.map(cubic, state, tangent, before, before_tangent)
     smooth = difference(curve, straight) <= SMOOTH * difference(straight, state)
     linear = jax.tree.map(lambda x, d: x + moved * d, state, tangent)
-    return choose(along_tangent, linear, choose(smooth, curve, straight))
+    return select_poses(along_tangent, linear, select_poses(smooth, curve, straight))
 
 
 def hermite(
@@ -69,4 +69,4 @@ def hermite(
     curve = jax.tree.map(blend, left, left_slope, right, right_slope)
     chord = jax.tree.map(lambda a, b: a + t * (b - a), left, right)
     smooth = difference(curve, chord) <= SMOOTH * difference(left, right)
-    return choose(smooth, curve, chord)
+    return select_poses(smooth, curve, chord)

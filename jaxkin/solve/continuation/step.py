@@ -34,10 +34,15 @@ from jaxkin.solve.continuation.fronts import (
     stopped_at_limit,
 )
 from jaxkin.solve.continuation.predictor import predict_state
-from jaxkin.solve.correctors.levenberg_marquardt import Corrected, choose, correct, floor
+from jaxkin.solve.correctors.levenberg_marquardt import (
+    LevenbergMarquardtResult,
+    damping_floor,
+    levenberg_marquardt,
+    select_poses,
+)
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import solve_blocks
+from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -111,7 +116,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     distance = jnp.abs(attempt.moved)
     # a target nearer than the shortest step, just inside a limit
     beside_limit = attempt.beyond & (fronts.status == Status.CLOSED.value) & (distance <= NEAR_LIMIT)
-    status = classify(found.gap, found.stationary, ~fronts.anchored | beside_limit)
+    status = classify(found.residual_norm, found.stationary, ~fronts.anchored | beside_limit)
     closed = is_closed(status)
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
@@ -126,14 +131,14 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
     return Fronts(
-        state=choose(final, found.state, fronts.state),
+        state=select_poses(final, found.state, fronts.state),
         status=jnp.where(uncertain, status, fronts.status),  # a branch is kept while it is followed
-        residual_norm=jnp.where(final, found.gap, fronts.residual_norm),
+        residual_norm=jnp.where(final, found.residual_norm, fronts.residual_norm),
         jacobian=jnp.where(final, found.closure.jacobian, fronts.jacobian),
         at=jnp.where(final, attempt.at, fronts.at),
         slope=jnp.where(final, slope, fronts.slope),
-        before=choose(good, fronts.state, fronts.before),
-        before_tangent=choose(good, attempt.tangent, fronts.before_tangent),
+        before=select_poses(good, fronts.state, fronts.before),
+        before_tangent=select_poses(good, attempt.tangent, fronts.before_tangent),
         width=jnp.where(good & (attempt.moved != 0), attempt.moved, fronts.width),
         determinant_ratio=jnp.where(good, ratio, fronts.determinant_ratio),
         has_before=(fronts.has_before | good) & (stage == FOLLOWING) & ~entered,
@@ -175,21 +180,21 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, sloped, travel)
 
 
-def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> Corrected:
+def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
     """Bring the predicted states to closure by Newton's method, or where that fails by the damped corrector."""
     system, geometry, _, options, follow_limits = problem
     predicted = attempt.predicted
     target_residual = rounding_residual(predicted.x.dtype, TARGET_ROUNDINGS)
-    state, closed, residual_norm = newton(system, geometry, predicted, target_residual, foresee=True)
-    quick = Corrected(state, closed, residual_norm, jnp.zeros(residual_norm.shape, bool))
+    state, closed, residual_norm = newton(system, geometry, predicted, target_residual, extrapolate_residual=True)
+    quick = LevenbergMarquardtResult(state, closed, residual_norm, jnp.zeros(residual_norm.shape, bool))
     closes = residual_norm <= target_residual
     near = closes & (difference(state, predicted) <= MAX_START_DISTANCE)
     left_open = attempt.beyond | attempt.closing & ~near | attempt.following & ~closes
 
-    def damped() -> Corrected:
+    def damped() -> LevenbergMarquardtResult:
         steps = jnp.where(attempt.beyond, options.limit_steps, options.corrector_steps)
         steps = jnp.where(attempt.closing, options.rescue_steps, steps)
-        return choose(left_open, correct(system, geometry, predicted, steps, target_residual), quick)
+        return select_poses(left_open, levenberg_marquardt(system, geometry, predicted, steps, target_residual), quick)
 
     return lax.cond(any_in_lockstep(left_open) & follow_limits, damped, lambda: quick)
 
@@ -249,7 +254,7 @@ def reach(
         lambda fronts: substep(problem, fronts, distance),
         assembled_fronts(system, targets.shape[-1], targets.dtype),
     )
-    return fronts.state, fronts.status, closure(system, geometry, fronts.state).gap
+    return fronts.state, fronts.status, closure(system, geometry, fronts.state).residual_norm
 
 
 def input_slopes(
@@ -258,4 +263,4 @@ def input_slopes(
     """Derivative of all coordinates of closed states while the inputs change in a direction (least norm)."""
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - solve_blocks(closed.jacobian, right, floor(right.dtype), equation_blocks(system))
+    return change - solve_blocks(closed.jacobian, right, damping_floor(right.dtype), equation_blocks(system))

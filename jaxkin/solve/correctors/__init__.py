@@ -1,1 +1,17 @@
-"""Steps from a pose nearby to a closed one: Newton, Levenberg-Marquardt, chord steps, least residual."""
+"""Correct poses near closure to closed ones.
+
+Damped or truncated Gauss-Newton iterations stand in five places, since each needs what the others must not have:
+
+| where | damping | why it is not one of the others |
+|---|---|---|
+| `correctors.newton` | none | the common case, at a fraction of the cost of the damped corrector |
+| `correctors.chord_newton` | none | many neighbours share one inverse: no Jacobian, no elimination per pose |
+| `correctors.levenberg_marquardt` | vanishes with the residual | safe from afar and at singular poses |
+| `correctors.least_residual` | cutoff at the play | loops do not close: a damped step would follow the play |
+| `mobility.host_closure` | as `levenberg_marquardt` | numpy, one pose: analyses before a sweep compile nothing |
+| `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
+| `dimensions.rearrange` | its own | unknowns are positions of features, not coordinates of joints |
+| `design.least_squares` | Nielsen's rule, within bounds | unknowns are dimensions; a residual is a whole sweep |
+
+The host versions are kept apart because compiling a corrector takes longer than all host analyses of a mechanism.
+"""

@@ -1,7 +1,8 @@
-"""Poses of least residual of loops that do not close, begun at the poses of joints nearby whose loops do.
+"""Find the poses of least residual of loops that cannot close because the frames of their joints are inexact.
 
-The two sets of joints differ by their play. Singular values of the closure Jacobian that the play may have brought
-about hold nothing: along their directions the pose stays where the loops that close have it.
+The iteration begins at the closed poses of ideal joints, which differ from the given ones by the play. A singular value
+of the closure Jacobian that is no larger than what the play may bring about holds no coordinate: along its direction
+the pose stays where the ideal joints have it.
 """
 
 from __future__ import annotations
@@ -15,15 +16,15 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD
 from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, read_off, unwrapped
+from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.correctors.levenberg_marquardt import free_jacobian
 from jaxkin.solve.range.solve_range import Joints, scaled
 from jaxkin.solve.status import Scalar, Status
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import retract
 
-STEPS = 4
-"""Gauss-Newton steps: each gains as many digits as the play has, and the first leaves its square."""
+LEAST_RESIDUAL_STEPS = 4
+"""Gauss-Newton steps: the error after the first is the square of the play, and each gains as many digits again."""
 
 
 @partial(jax.jit, static_argnums=0)
@@ -33,12 +34,13 @@ def least_residual(
     ideal: Joints,
     displacements: Float[Array, "columns poses"],
     status: Int[Array, " poses"],
-    largest: Scalar,
+    max_residual: Scalar,
 ) -> tuple[Float[Array, "columns poses"], Int[Array, " poses"], Float[Array, " poses"]]:
-    """Displacements of least residual from those of the `ideal` joints; status and closure gap of the given `joints`.
+    """Compute displacements of least residual of `joints` from the closed `displacements` of the `ideal` joints.
 
-    Displacements are in radians and lengths of the mechanism, and their derivatives those of the ideal joints. Poses
-    that were CLOSED are MISFIT where their gap is more than the `largest` of a closed pose.
+    Returns displacements, status and residual norm (square root of Eq. 12 of the given joints). Displacements are in
+    radians and lengths of the mechanism; their derivatives are those of the ideal joints. A pose that was CLOSED is
+    MISFIT where its residual norm is above `max_residual`.
     """
     begun = lax.stop_gradient(displacements)
     joints, ideal = lax.stop_gradient((joints, ideal))
@@ -53,16 +55,18 @@ def least_residual(
         delta = jnp.einsum("pce,ep->cp", jnp.linalg.pinv(jacobian, rtol=cutoff), found.residual)
         return retract(system, state, -delta)
 
-    state = lax.fori_loop(0, STEPS, step, state)
-    found = read_off(system, joints.frames_1, joints.frames_2, state.x * lengths, ball_turns(system, geometry, state))
-    gap = closure(system, geometry, state).gap
-    misfit = (status == Status.CLOSED.value) & (gap > largest)
+    state = lax.fori_loop(0, LEAST_RESIDUAL_STEPS, step, state)
+    found = joint_coordinates(
+        system, joints.frames_1, joints.frames_2, state.x * lengths, ball_turns(system, geometry, state)
+    )
+    residual_norm = closure(system, geometry, state).residual_norm
+    misfit = (status == Status.CLOSED.value) & (residual_norm > max_residual)
     status = jnp.where(misfit, Status.MISFIT.value, status)
-    return displacements + lax.stop_gradient(unwrapped(system, found) - begun), status, gap
+    return displacements + lax.stop_gradient(unwrap_ball_angles(system, found) - begun), status, residual_norm
 
 
 def _play(joints: Joints, ideal: Joints, length: Array) -> Array:
-    """The largest difference of the frames, lengths over the characteristic one."""
+    """Measure the play: the largest difference of an entry of the frames, lengths over the characteristic length."""
     differences = [
         (jnp.asarray(one) - jnp.asarray(other)) / jnp.array([1.0, 1.0, 1.0, length])
         for one, other in zip((*joints.frames_1, *joints.frames_2), (*ideal.frames_1, *ideal.frames_2), strict=True)

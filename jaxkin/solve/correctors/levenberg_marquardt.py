@@ -1,8 +1,8 @@
-"""The damped corrector: brings poses onto closed loops by least-norm Gauss-Newton steps, many poses at once.
+"""The damped corrector: close poses by least-norm Gauss-Newton steps, many poses at once (Levenberg-Marquardt).
 
-Levenberg-Marquardt with a damping that vanishes with the residual (Fan and Yuan 2005), so that convergence stays
-quadratic where the Jacobian is singular but the equations consistent. A step that does not lessen the merit is refused
-and the damping raised; each pose is accepted, refused and finished on its own.
+The damping vanishes with the residual (Fan and Yuan 2005), so that convergence stays quadratic where the Jacobian is
+singular but the equations are consistent. A step that does not lower the merit is refused and the damping raised. Each
+pose accepts, refuses and ends its iteration on its own.
 """
 
 from __future__ import annotations
@@ -16,23 +16,23 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import least_norm
+from jaxkin.solve.linear.least_norm import solve_least_norm
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven, retract
 
-LONGEST_STEP = 0.5
-"""Radians, or characteristic lengths: what a linear model of a rotation is good for."""
-STAGNANT = 1e-9
-"""Relative decrease of the merit in one step below which it has reached its least value."""
+MAX_DAMPED_STEP = 0.5
+"""Longest step, in radians or characteristic lengths: farther away the linear model of a rotation is no longer good."""
+STAGNANT_DECREASE = 1e-9
+"""Relative decrease of the merit in one step below which the merit has reached its minimum."""
 
 
-class Corrected(NamedTuple):
+class LevenbergMarquardtResult(NamedTuple):
     state: State
     closure: Closure
-    gap: Float[Array, " poses"]
+    residual_norm: Float[Array, " poses"]
     stationary: Bool[Array, " poses"]
-    """The residual cannot be lessened any more to first order."""
+    """Whether no free coordinate can reduce the residual to first order (J^T r = 0)."""
 
 
 class _Iterate(NamedTuple):
@@ -44,29 +44,33 @@ class _Iterate(NamedTuple):
     trial: State
 
 
-def free_jacobian(system: LoopSystem, closed: Closure) -> Float[Array, "equations columns poses"]:
-    """The Jacobian with zeros for what is given: least-norm steps leave that alone."""
-    return jnp.where(is_driven(system), 0.0, closed.jacobian)
+def free_jacobian(system: LoopSystem, evaluation: Closure) -> Float[Array, "equations columns poses"]:
+    """Set the columns of driven coordinates to zero: least-norm steps do not move these."""
+    return jnp.where(is_driven(system), 0.0, evaluation.jacobian)
 
 
-def floor(dtype) -> float:
-    """Least damping, over the mean square of the rows of J: what it leaves out is what counts as zero for the rank."""
+def damping_floor(dtype) -> float:
+    """Compute the least damping, relative to the mean square of the rows of J: the squared tolerance of the rank."""
     return (DOUBLE if jnp.finfo(dtype).bits == 64 else SINGLE).rank ** 2
 
 
-def correct(
+def levenberg_marquardt(
     system: LoopSystem,
     geometry: Geometry,
     state: State,
-    iterations: Int[Array, " poses"] | int,
-    enough: Scalar | float = 0.0,
-) -> Corrected:
-    """Poses brought as near to closure as the damped steps get, or to a gap of `enough`; ends when all are done."""
+    max_steps: Int[Array, " poses"] | int,
+    target_residual: Scalar | float = 0.0,
+) -> LevenbergMarquardtResult:
+    """Minimise the closure residual of every pose until it is at most `target_residual`, stationary, or rounding.
+
+    Each step is delta = -J^T (J J^T + damping)^-1 r, no longer than `MAX_DAMPED_STEP`; no pose takes more than
+    `max_steps`. `target_residual` is compared with the square root of Eq. 12.
+    """
     dtype = state.x.dtype
     eps = float(jnp.finfo(dtype).eps)
 
     def running(iterate: _Iterate) -> Array:
-        return any_in_lockstep((iterate.count <= iterations) & ~iterate.done)
+        return any_in_lockstep((iterate.count <= max_steps) & ~iterate.done)
 
     def step(iterate: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
@@ -74,26 +78,26 @@ def correct(
         first = iterate.count == 0
         better = (trial.merit < iterate.closure.merit) & ~iterate.done
         taken = better | first
-        chosen_state, chosen = choose(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
+        chosen_state, chosen = select_poses(taken, (iterate.trial, trial), (iterate.state, iterate.closure))
         lower, higher = jnp.maximum(0.3 * iterate.trust, 1e-2), jnp.minimum(8 * iterate.trust, 1e12)
         trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
-        damping = trust * jnp.minimum(2 * chosen.merit, 1.0) + floor(dtype)
-        delta = -least_norm(jacobian, chosen.residual, damping, system.used)
+        damping = trust * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
+        delta = -solve_least_norm(jacobian, chosen.residual, damping, system.used)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
-        delta = delta * jnp.minimum(1.0, LONGEST_STEP / jnp.maximum(length, LONGEST_STEP))
+        delta = delta * jnp.minimum(1.0, MAX_DAMPED_STEP / jnp.maximum(length, MAX_DAMPED_STEP))
         # below 32 eps^2 of the merit only rounding is left, as it is in long loops where a step gains nothing
         exhausted = ~taken & ((length < 4 * eps) | (chosen.merit < 0.5 * (64 * eps) ** 2))
-        # a residual that nothing lessens any more, though no damping is in the way: the loops cannot close
-        least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT) * iterate.closure.merit)
+        # the merit stagnates although the damping is small: the loops cannot close
+        least = better & (iterate.trust <= 1) & (trial.merit > (1 - STAGNANT_DECREASE) * iterate.closure.merit)
         done = (
             iterate.done
-            | (chosen.gap <= enough)
+            | (chosen.residual_norm <= target_residual)
             | (chosen.merit < 32 * eps**2)
             | exhausted
             | least
             | ~jnp.isfinite(chosen.merit)
-            | (iterate.count == iterations)
+            | (iterate.count == max_steps)
         )
         return _Iterate(iterate.count + 1, chosen_state, chosen, trust, done, retract(system, chosen_state, delta))
 
@@ -107,23 +111,25 @@ def correct(
     no = jnp.zeros(poses, bool)
     start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state)
     last = lax.while_loop(running, step, start)
-    return Corrected(last.state, last.closure, last.closure.gap, _stationary(system, last.closure))
+    return LevenbergMarquardtResult(
+        last.state, last.closure, last.closure.residual_norm, _stationary(system, last.closure)
+    )
 
 
-def _stationary(system: LoopSystem, closed: Closure) -> Bool[Array, " poses"]:
-    """Whether what is left of the residual cannot be reached by the free coordinates, to first order.
+def _stationary(system: LoopSystem, evaluation: Closure) -> Bool[Array, " poses"]:
+    """Test whether the residual is orthogonal to the range of J: no free coordinate reduces it to first order.
 
-    At a least residual J^T r = 0. Gauss-Newton gets there linearly where the residual is large, so the test is on the
-    angle between the residual and the range of J, which a pose that is still under way does not meet. J of a rod is
-    without the turn of its ball, to which its residual is at right angles: that counts as one.
+    At a least residual J^T r = 0. Where the residual is large, Gauss-Newton converges to it linearly; the test is
+    therefore on the angle between residual and range, which an iterate on its way does not meet. The Jacobian of a rod
+    holds no rotation of its ball, to which its residual is orthogonal: each rod adds 1 to the square of J.
     """
-    jacobian = free_jacobian(system, closed)
-    reach = jnp.sum(jacobian * closed.residual[:, None], axis=0)
+    jacobian = free_jacobian(system, evaluation)
+    reach = jnp.sum(jacobian * evaluation.residual[:, None], axis=0)
     square = jnp.sum(jacobian**2, axis=(0, 1)) + sum(len(cut) > 1 for cut in system.cuts)
-    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * closed.merit + 1e-300))
+    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * evaluation.merit + 1e-300))
     return cosine < 1e-3
 
 
-def choose(mask: Bool[Array, " poses"], yes, no):
-    """Pose by pose the arrays of `yes` where the mask holds, else those of `no`."""
+def select_poses(mask: Bool[Array, " poses"], yes, no):
+    """Select, pose by pose, the arrays of `yes` where the mask holds and those of `no` elsewhere."""
     return tree.map(lambda a, b: jnp.where(mask, a, b), yes, no)

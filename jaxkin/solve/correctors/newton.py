@@ -1,6 +1,7 @@
-"""Newton's method for poses that begin near closure, block after block, without the caution of the damped corrector.
+"""Newton's method for poses that begin near closure: block after block, undamped, without step control.
 
-It costs a fraction of that, and is all that most poses need. What it does not close is left to `correct`.
+An iteration costs a fraction of one of the damped corrector (`levenberg_marquardt`), and a few are all that most poses
+need; the poses that they do not close are left to that one.
 """
 
 from __future__ import annotations
@@ -12,69 +13,85 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
-from jaxkin.solve.correctors.levenberg_marquardt import choose, floor
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import UNROLLED, solve_blocks
+from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
-STEPS = 4
-"""At most: from where the knots put a pose the gap falls to its square, and again."""
-QUADRATIC = 1e-2
-"""A step that leaves less of the gap than this was Newton's: where a motion ends a step leaves a quarter at best."""
+MAX_NEWTON_STEPS = 4
+"""Newton steps at most: each squares the residual of a prediction (1e-2, 1e-4, 1e-8, 1e-16)."""
+MAX_QUADRATIC_RATIO = 1e-2
+"""Ratio of two residual norms below which convergence counts as quadratic. At a limit of the motion, where the Jacobian
+is singular, convergence is linear and the ratio a quarter at best."""
 
 
 class _Iterate(NamedTuple):
     count: Array
     state: State
     closure: Closure
-    foreseen: Float[Array, " poses"]
-    """Gap of the trial as the last two gaps tell; infinite if they do not."""
+    extrapolated: Float[Array, " poses"]
+    """Residual norm of `trial`, extrapolated from the last two; infinite where convergence is not quadratic."""
     trial: State
 
 
 def newton(
-    system: LoopSystem, geometry: Geometry, state: State, enough: Scalar | float, *, foresee: bool = False
+    system: LoopSystem,
+    geometry: Geometry,
+    state: State,
+    target_residual: Scalar | float,
+    *,
+    extrapolate_residual: bool = False,
 ) -> tuple[State, Closure, Float[Array, " poses"]]:
-    """States after as many steps as bring all of them to the gap `enough`, or after the most; their closure and gap.
+    """Take Newton steps until the residual norms of all poses are at most `target_residual`, or `MAX_NEWTON_STEPS`.
 
-    With `foresee` the last step is not looked back at where convergence is quadratic: the states then are one step
-    ahead of the closure returned.
+    Each step solves J delta = -r (Eq. 10, linearised) block after block. Returns the states, their closure and their
+    residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where
+    convergence is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
     """
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
-    costly = any(len(block.rows) > UNROLLED for block in equation_blocks(system))
+    costly = any(len(block.rows) > MAX_UNROLLED_ROWS for block in equation_blocks(system))
 
     def running(at: _Iterate) -> Array:
-        return (at.count <= STEPS) & any_in_lockstep((at.closure.gap > enough) & (at.foreseen > enough))
+        return (at.count <= MAX_NEWTON_STEPS) & any_in_lockstep(
+            (at.closure.residual_norm > target_residual) & (at.extrapolated > target_residual)
+        )
 
     def step(at: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
-        closed = closure(system, geometry, at.trial)
+        evaluation = closure(system, geometry, at.trial)
 
         def solved() -> Array:
-            return solve_blocks(closed.jacobian, closed.residual, floor(dtype), equation_blocks(system), regular=True)
+            return solve_blocks(
+                evaluation.jacobian, evaluation.residual, damping_floor(dtype), equation_blocks(system), regular=True
+            )
 
-        if costly:  # not a last time, when all are closed: to ask costs as much as to solve small systems
-            delta = lax.cond(any_in_lockstep(closed.gap > enough), solved, lambda: jnp.zeros_like(at.trial.x))
+        if costly:  # skip the elimination once all poses are closed; for small systems the test costs as much
+            delta = lax.cond(
+                any_in_lockstep(evaluation.residual_norm > target_residual), solved, lambda: jnp.zeros_like(at.trial.x)
+            )
         else:
             delta = solved()
-        foreseen = infinite
-        if foresee:
-            # Newton's gaps go as the squares of those before: the next is this one times the square of the last ratio
-            shrunk = closed.gap / at.closure.gap
-            foreseen = jnp.where((shrunk < QUADRATIC) & (at.count > 0), shrunk**2 * closed.gap, jnp.inf)
-        # what is closed rests: near a singular pose more steps would lead away, and no pose depends on the others
-        delta = jnp.where(closed.gap > enough, -delta, 0.0)
-        return _Iterate(at.count + 1, at.trial, closed, foreseen, retract(system, at.trial, delta))
+        extrapolated = infinite
+        if extrapolate_residual:
+            # quadratic convergence squares the ratio of residual norms: the next one is ratio^2 times the present one
+            ratio = evaluation.residual_norm / at.closure.residual_norm
+            extrapolated = jnp.where(
+                (ratio < MAX_QUADRATIC_RATIO) & (at.count > 0), ratio**2 * evaluation.residual_norm, jnp.inf
+            )
+        # a closed pose takes no further step: near a singular pose it would lead away; poses must not depend on others
+        delta = jnp.where(evaluation.residual_norm > target_residual, -delta, 0.0)
+        return _Iterate(at.count + 1, at.trial, evaluation, extrapolated, retract(system, at.trial, delta))
 
     nothing = jnp.zeros((system.equations, system.columns, poses), dtype)
     start = Closure(nothing[:, 0], nothing, infinite, infinite)
     last = lax.while_loop(running, step, _Iterate(jnp.asarray(0), state, start, infinite, state))
-    state, gap = last.state, last.closure.gap
-    if foresee:
-        ahead = (gap > enough) & (last.foreseen <= enough)
-        state, gap = choose(ahead, (last.trial, last.foreseen), (state, gap))
-    return state, last.closure, gap
+    state, residual_norm = last.state, last.closure.residual_norm
+    if extrapolate_residual:
+        ahead = (residual_norm > target_residual) & (last.extrapolated <= target_residual)
+        state, residual_norm = select_poses(ahead, (last.trial, last.extrapolated), (state, residual_norm))
+    return state, last.closure, residual_norm

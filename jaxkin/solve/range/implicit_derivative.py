@@ -14,8 +14,8 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure.closure import Geometry, closure
-from jaxkin.solve.correctors.levenberg_marquardt import floor, free_jacobian
-from jaxkin.solve.linear.least_norm import refined_least_norm
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, free_jacobian
+from jaxkin.solve.linear.least_norm import solve_least_norm_refined
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, drive, rate
 
@@ -51,6 +51,6 @@ def _implicit_jvp(system: LoopSystem, primals, tangents):
     if not system.free:
         return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_driven)
     jacobian = free_jacobian(system, closure(system, geometry, safe))
-    delta = -refined_least_norm(jacobian, d_residual, floor(jacobian.dtype), system.used)
+    delta = -solve_least_norm_refined(jacobian, d_residual, damping_floor(jacobian.dtype), system.used)
     d_state = jax.tree.map(jnp.add, d_driven, rate(system, safe, delta))
     return state, jax.tree.map(lambda d: jnp.where(closed, d, 0.0), d_state)

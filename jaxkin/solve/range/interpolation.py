@@ -19,14 +19,14 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import Geometry, closure
-from jaxkin.solve.closure.joint_coordinates import at_rest
+from jaxkin.solve.closure.joint_coordinates import remove_passive_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.step import input_slopes
-from jaxkin.solve.correctors.levenberg_marquardt import floor
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_in_lockstep
-from jaxkin.solve.linear.least_norm import inverse
+from jaxkin.solve.linear.blocks import inverse_jacobian
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
 from jaxkin.solve.status import default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -96,12 +96,12 @@ def interpolate(
 
         def chord_step() -> tuple[State, Array, Array]:
             state = retract(system, predicted, -segments.inverses[number] @ evaluation.residual)
-            return state, closure(system, geometry, state).gap, difference(state, predicted)
+            return state, closure(system, geometry, state).residual_norm, difference(state, predicted)
 
         state, residual_norm, moved = lax.cond(
-            any_in_lockstep(evaluation.gap > sharp),
+            any_in_lockstep(evaluation.residual_norm > sharp),
             chord_step,
-            lambda: (predicted, evaluation.gap, jnp.zeros_like(here)),
+            lambda: (predicted, evaluation.residual_norm, jnp.zeros_like(here)),
         )
         good = segments.trusted[number] & jnp.all((residual_norm <= closes) & (moved <= MAX_CHORD_STEP))
         segment = lax.cond(
@@ -132,14 +132,14 @@ def _solved_segments(
     state = drive(system, prediction.state, nodes[None])
     state, evaluation, _ = newton(system, geometry, state, rounding_residual(values.dtype, CLOSED_ROUNDINGS))
     middles = evaluation.jacobian[..., len(NODES) // 2 :: len(NODES)]
-    inverses = inverse(middles, floor(values.dtype), equation_blocks(system))
+    inverses = inverse_jacobian(middles, damping_floor(values.dtype), equation_blocks(system))
 
     slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
-    state_and_slope = jax.jvp(partial(at_rest, system, geometry), (state,), (slope,))
+    state_and_slope = jax.jvp(partial(remove_passive_spin, system, geometry), (state,), (slope,))
     polynomials = jax.tree.map(partial(_coefficients, half_width), *state_and_slope)
     status = prediction.status.reshape(-1, len(NODES))
     near = difference(state, prediction.state) <= MAX_NODE_CORRECTION
-    good = (evaluation.gap <= default_tolerance(values.dtype)) & near & prediction.covered
+    good = (evaluation.residual_norm <= default_tolerance(values.dtype)) & near & prediction.covered
     trusted = jnp.all((status == status[:, :1]) & good.reshape(status.shape), axis=1)
     return _Segments(first, middle, half_width, status[:, 0], trusted, polynomials, inverses)
 

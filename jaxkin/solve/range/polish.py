@@ -13,7 +13,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.correctors.levenberg_marquardt import choose, correct
+from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt, select_poses
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, MAX_CORRECTION, Poses
@@ -51,7 +51,7 @@ def correct_poses(
         same_branch = near & (prediction.status == Status.CLOSED.value)
         status = classify(residual_norm, stationary, same_branch, tolerance.max_residual)
         status = jnp.where(prediction.covered, status, Status.STALLED.value)
-        return choose(good, found, Poses(corrected, status, residual_norm))
+        return select_poses(good, found, Poses(corrected, status, residual_norm))
 
     return lax.cond(any_in_lockstep(~good) & problem.follow_limits, damped, lambda: found)
 
@@ -75,11 +75,11 @@ def _correct_some(
     def step(carry):
         number, found = carry
         own = jax.tree.map(lambda array: lax.dynamic_slice_in_dim(array, number, size, axis=-1), begin)
-        here = correct(problem.system, problem.geometry, own, problem.options.rescue_steps, target_residual)
+        here = levenberg_marquardt(problem.system, problem.geometry, own, problem.options.rescue_steps, target_residual)
         found = jax.tree.map(
             lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, number, axis=-1),
             found,
-            (here.state, here.gap, here.stationary),
+            (here.state, here.residual_norm, here.stationary),
         )
         return number + size, found
 

@@ -17,14 +17,14 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int, Shaped
 
 from jaxkin.solve.closure.closure import Geometry, closure, loop_geometry
-from jaxkin.solve.closure.joint_coordinates import ball_turns, read_off, unwrapped
+from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
-from jaxkin.solve.correctors.chord_newton import TOGETHER, shared_steps
-from jaxkin.solve.correctors.levenberg_marquardt import choose
+from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
+from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.implicit_derivative import attach_derivative
@@ -104,12 +104,12 @@ def displacements(
         inputs, poses = group
         state = attach_derivative(system, geometry, inputs, poses.state, is_closed(poses.status))
         turns = ball_turns(system, geometry, state)
-        return read_off(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
+        return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
     if not system.balls:
         return read(given)
-    return unwrapped(system, in_groups(read, given, BALL_GROUP))
+    return unwrap_ball_angles(system, in_groups(read, given, BALL_GROUP))
 
 
 def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
@@ -124,7 +124,7 @@ def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
     inputs = shard(asked.inputs, asked.shard_count, asked.shard_start)
     if not system.free:
         state = drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
-        residual_norm = closure(system, geometry, state).gap
+        residual_norm = closure(system, geometry, state).residual_norm
         yes = jnp.ones_like(residual_norm, bool)
         return Poses(state, classify(residual_norm, yes, yes, tolerance.max_residual), residual_norm)
     if options.method != CONTINUATION:
@@ -176,7 +176,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
         def straight() -> Poses:
             other = Poses(*reach(system, geometry, jnp.where(failed, inputs, 0.0), options))
             better = failed & ((other.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
-            return choose(better, other, found)
+            return select_poses(better, other, found)
 
         return lax.cond(any_in_lockstep(failed) & follow_limits, straight, lambda: found)
 
@@ -184,7 +184,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     if len(at) < options.interpolate_from:
         return _stalled_unless(kept, one_by_one((at, inputs)))
     neighbours = partial(_of_neighbours, system, geometry, samples, one_by_one)
-    return _stalled_unless(kept, in_groups(neighbours, (at, inputs), TOGETHER))
+    return _stalled_unless(kept, in_groups(neighbours, (at, inputs), CHORD_BATCH))
 
 
 def _of_neighbours(
@@ -194,7 +194,7 @@ def _of_neighbours(
     at, inputs = group
     prediction = predict(system, samples, at)
     begun = drive(system, prediction.state, inputs)
-    state, residual_norm = shared_steps(system, geometry, begun, rounding_residual(at.dtype, SHARP_ROUNDINGS))
+    state, residual_norm = chord_newton(system, geometry, begun, rounding_residual(at.dtype, SHARP_ROUNDINGS))
     closes = residual_norm <= rounding_residual(at.dtype, CLOSED_ROUNDINGS)
     near = difference(state, begun) <= MAX_CORRECTION
     good = closes & near & prediction.covered & (prediction.status == Status.CLOSED.value)

@@ -16,7 +16,7 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
-from jaxkin.solve.correctors.levenberg_marquardt import choose
+from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.reference_methods.dfp import central_differences, dfp
 from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
 from jaxkin.solve.status import Scalar, Status
@@ -57,10 +57,10 @@ def minimise_each(
             0.5 * max_residual**2,
         )
         state, evaluation = at(free)
-        within = evaluation.gap <= max_residual
+        within = evaluation.residual_norm <= max_residual
         status = jnp.where(within, Status.CLOSED.value, Status.STALLED.value)
-        status = jnp.where(jnp.isfinite(evaluation.gap), status, Status.NONFINITE.value)[0].astype(jnp.int32)
-        return choose(within, state, before), (state, evaluation.gap[0], status)
+        status = jnp.where(jnp.isfinite(evaluation.residual_norm), status, Status.NONFINITE.value)[0].astype(jnp.int32)
+        return select_poses(within, state, before), (state, evaluation.residual_norm[0], status)
 
     _, (states, residual_norm, status) = lax.scan(one, assembled(system, 1, inputs.dtype), inputs.T)
     state = State(states.x[..., 0].T, jnp.moveaxis(states.turns[..., 0], 0, -1))

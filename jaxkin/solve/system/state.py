@@ -1,9 +1,9 @@
 """The configuration of a loop system: its coordinates, with the turn of every ball pair as a unit quaternion.
 
 The three angles of a ball lock at phi = 90 deg, so the solver never uses them: a ball turns by `exp(delta)` applied on
-the left of its present turn, and its angles are only read off at the end (`read_off`). The line between the centres of
-two balls, state (p), turns about the two axes at right angles to it, wherever it points: `exp(delta)` on the right, no
-turn about the line itself. Structure of arrays: poses stand last.
+the left of its present turn, and its angles are only computed at the end (`joint_coordinates`). The line between the
+centres of two balls, state (p), turns about the two axes at right angles to it, wherever it points: `exp(delta)` on the
+right, no turn about the line itself. Structure of arrays: poses stand last.
 """
 
 from __future__ import annotations

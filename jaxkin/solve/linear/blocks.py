@@ -1,0 +1,67 @@
+"""Solve block triangular systems block after block, each by least norm or, if regular and of size three, Cramer's rule.
+
+Where the loops follow from one another, the Jacobian is block lower triangular: see `solve.system.equation_blocks`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.solve.linear.gram import Matrix, Vector
+from jaxkin.solve.linear.least_norm import factor_normal_equations, scatter_rows
+from jaxkin.solve.system.equation_blocks import EquationBlock
+
+
+def solve_blocks(
+    jacobian: Matrix, right: Vector, damping: float, blocks: Sequence[EquationBlock], *, regular: bool = False
+) -> Array:
+    """Solve J x = r block after block, for every pose, without derivatives: (columns, poses).
+
+    Each block has its solution of least norm, with `damping` relative to the mean square of its rows. With `regular`,
+    blocks of three equations in three unknowns are solved undamped by Cramer's rule, which costs less.
+    """
+    return _substitute_forward(jacobian, right[:, None], damping, blocks, regular)[:, 0]
+
+
+def inverse_jacobian(
+    jacobian: Matrix, damping: float, blocks: Sequence[EquationBlock]
+) -> Float[Array, "poses columns rows"]:
+    """Compute the matrix by which `solve_blocks(..., regular=True)` multiplies right-hand sides."""
+    rows, _, poses = jacobian.shape
+    unit = jnp.broadcast_to(jnp.eye(rows, dtype=jacobian.dtype)[..., None], (rows, rows, poses))
+    return jnp.moveaxis(_substitute_forward(jacobian, unit, damping, blocks, True), -1, 0)
+
+
+def _substitute_forward(
+    jacobian: Matrix,
+    right: Float[Array, "rows sides poses"],
+    damping: float,
+    blocks: Sequence[EquationBlock],
+    regular: bool,
+) -> Array:
+    """Solve for several right-hand sides by forward substitution: (columns, sides, poses)."""
+    known: list[int] = []
+    found = jnp.zeros((0, *right.shape[1:]), right.dtype)
+    for block in blocks:
+        rest = right[np.array(block.rows)]
+        if known:
+            rest = rest - jnp.sum(jacobian[np.ix_(block.rows, known)][:, :, None] * found, axis=1)
+        own = jacobian[np.ix_(block.rows, block.columns)]
+        if regular and own.shape[:2] == (3, 3):
+            here = _cramer(own, rest)
+        else:
+            here = jnp.einsum("rcp,rkp->ckp", own, factor_normal_equations(own, damping)(rest))
+        found = jnp.concatenate([found, here])
+        known += block.columns
+    return scatter_rows(found, known, jacobian.shape[1])
+
+
+def _cramer(own: Float[Array, "3 3 poses"], right: Float[Array, "3 sides poses"]) -> Float[Array, "3 sides poses"]:
+    """Solve systems of three equations by Cramer's rule: determinants as triple products of the rows."""
+    a, b, c = own
+    normals = jnp.stack([jnp.cross(b, c, axis=0), jnp.cross(c, a, axis=0), jnp.cross(a, b, axis=0)])
+    return jnp.sum(normals[:, :, None] * right[:, None], axis=0) / jnp.sum(a * normals[0], axis=0)

@@ -1,0 +1,42 @@
+"""Solve (J J^T + damping s 1) y = r by L D L^T factorisation, written out as straight-line code.
+
+J J^T + damping s 1 = L D L^T with L unit lower triangular and D diagonal. Every entry is an array over the poses, so
+that vector units run through the poses; the matrix is positive definite, so no pivoting is needed. The compiled code
+grows with the cube of the rows: for few rows only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import jax.numpy as jnp
+from jaxtyping import Array
+
+from jaxkin.solve.linear.gram import Damping, Matrix, mean_square
+
+
+def factor_ldl(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
+    """Factorise, and return the solution for right-hand sides of (rows, poses) or (rows, sides, poses)."""
+    n = jacobian.shape[0]
+    absolute = damping * mean_square(jnp.sum(jacobian * jacobian, axis=1))
+    lower: dict[tuple[int, int], Array] = {}
+    pivots: list[Array] = []
+    for j in range(n):
+        column = [jnp.sum(jacobian[i] * jacobian[j], axis=0) for i in range(j, n)]
+        column = [
+            entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)
+        ]
+        pivots.append(column[0] + absolute)
+        for i in range(j + 1, n):
+            lower[i, j] = column[i - j] / pivots[j]
+
+    def solve(right: Array) -> Array:
+        y = list(right)
+        for i in range(n):
+            y[i] = y[i] - sum(lower[i, k] * y[k] for k in range(i))
+        x = [entry / pivot for entry, pivot in zip(y, pivots, strict=True)]
+        for i in reversed(range(n)):
+            x[i] = x[i] - sum(lower[k, i] * x[k] for k in range(i + 1, n))
+        return jnp.stack(x)
+
+    return solve

@@ -1,0 +1,100 @@
+"""Newton's step converges quadratically; the damped corrector closes singular systems, or gets as near as it can."""
+
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from jaxkin.joints.pairs import cylindrical
+from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.solve.closure.closure import closure, loop_geometry
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, free_jacobian, levenberg_marquardt
+from jaxkin.solve.correctors.newton import newton
+from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.system.equation_blocks import equation_blocks
+from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.state import assembled, drive, retract
+from reference.mechanisms import planar_fourbar
+
+MAX_STEPS = 60
+
+
+def problem(mechanism, loop_class=None, driven=("A",)):
+    """The system of the only group of loops, with the first coordinate of the joints named driven, and its geometry."""
+    (group,), (own,) = mechanism.structure.loop_groups, mechanism.linkage.classes
+    names = [joint.name for joint in mechanism.all_joints]
+    inputs = tuple((names.index(name), 0) for name in driven)
+    system, _ = block_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
+    joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, group))
+    return system, loop_geometry(system, *joints)[0]
+
+
+def at_inputs(system, inputs):
+    """The assembled pose with other inputs, so that its loops are open."""
+    inputs = jnp.atleast_2d(jnp.asarray(inputs))
+    return drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
+
+
+damped = jax.jit(partial(levenberg_marquardt, max_steps=MAX_STEPS), static_argnums=0)
+
+
+def test_newtons_step_squares_the_residual():
+    """e_(k+1) / e_k^2 is bounded: not so of a linear rate, which takes a third step's ratio to infinity."""
+    system, geometry = problem(planar_fourbar(1.0))
+    state, norms = at_inputs(system, [0.1]), []
+
+    @partial(jax.jit, static_argnums=0)
+    def step(system, geometry, state):
+        found = closure(system, geometry, state)
+        blocks, floor = equation_blocks(system), damping_floor(state.x.dtype)
+        delta = solve_blocks(found.jacobian, found.residual, floor, blocks, regular=True)
+        return retract(system, state, -delta), found.residual_norm
+
+    for _ in range(5):
+        state, norm = step(system, geometry, state)
+        norms.append(float(norm[0]))
+    before, after = np.array(norms[:-1]), np.array(norms[1:])
+    seen = after > 1e-13  # above rounding of 1e-15 a factor of a hundred
+    assert seen.sum() >= 2 and norms[-1] < 1e-11
+    # the constant is half the curvature over the singular values: of order one for links of like lengths
+    assert np.all(after[seen] < 5 * before[seen] ** 2)
+
+
+def test_newton_closes_near_poses_and_extrapolates_no_more_than_it_finds():
+    system, geometry = problem(planar_fourbar(1.0))
+    state = at_inputs(system, np.linspace(-0.1, 0.1, 5))
+    run = jax.jit(newton, static_argnums=(0,), static_argnames="extrapolate_residual")
+    closed, _, norm = run(system, geometry, state, 1e-12)
+    assert np.all(norm <= 1e-12)
+    ahead, _, _ = run(system, geometry, state, 1e-12, extrapolate_residual=True)
+    # residuals of 1e-12 over singular values of some 0.1
+    np.testing.assert_allclose(ahead.x, closed.x, atol=1e-10)
+
+
+def test_the_damped_corrector_closes_a_rank_deficient_system_by_least_norm():
+    """Cylindrical joints with parallel axes, one of them slid by hand: the others may share the slide anyhow."""
+    system, geometry = problem(planar_fourbar(1.0, cylindrical), LoopClass())
+    state = at_inputs(system, [0.2, -0.2])
+    found = damped(system, geometry, state)
+    assert np.all(found.residual_norm < 1e-12)
+    jacobian = np.moveaxis(np.asarray(free_jacobian(system, found.closure)), -1, 0)
+    values = np.linalg.svd(jacobian, compute_uv=False)
+    assert np.all((values > 1e-9 * values[:, :1]).sum(axis=1) < system.equations)
+    # three joints make up for the slide of the driven one: of least norm are equal shares, to rounding
+    slides = np.setdiff1d(np.flatnonzero(system.is_length), system.driven)
+    np.testing.assert_allclose(np.abs(np.asarray(found.state.x)[slides]), 0.2 / 3, atol=1e-12)
+
+
+def test_the_damped_corrector_ends_at_a_stationary_residual_where_loops_cannot_close():
+    """Beyond the limit of a four-bar whose input cannot turn fully: J^T r = 0 with r far from zero."""
+    system, geometry = problem(planar_fourbar(1.0), driven=("D",))
+    found = damped(system, geometry, at_inputs(system, np.linspace(-3.0, 3.0, 13)))
+    open_ = np.asarray(found.residual_norm) > 1e-3
+    assert open_.any() and not open_.all()
+    assert np.all(np.asarray(found.stationary)[open_])
+    jacobian, residual = free_jacobian(system, found.closure), found.closure.residual
+    gradient = jnp.sqrt(jnp.sum(jnp.einsum("ecp,ep->cp", jacobian, residual) ** 2, axis=0))
+    norm = jnp.sqrt(jnp.sum(residual**2, axis=0))
+    # `stationary` asks for an angle of 1e-3 from the normal of the range; J is of order one
+    assert np.all(np.asarray(gradient / norm)[open_] < 1e-2)
