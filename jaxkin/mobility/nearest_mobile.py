@@ -33,7 +33,7 @@ _STRIDE = 0.15
 _DIRECTIONS = 6
 """Directions of the motion in which poses are taken at most."""
 _ITERATIONS = 16
-"""Steps at most: some three where convergence is quadratic, more where products of two errors make it linear."""
+"""Iterations at most. Convergence is quadratic, or linear where products of two errors are left."""
 _COARSE = 1e-5
 """Least singular value of the conditions, over the largest, that counts in the first two iterations: smaller ones come
 from the errors themselves."""
