@@ -24,8 +24,10 @@ class Noise(NamedTuple):
     about itself (a leg that slides along its line) need not be aligned for the loops to move."""
 
 
-DOUBLE, SINGLE = Noise(1e-11, 1e-7, 2e-5), Noise(1e-5, 1e-3, 1e-3)
-"""For mechanisms in float64 and in float32."""
+DOUBLE = Noise(1e-11, 1e-7, 2e-5)
+"""For mechanisms in float64."""
+SINGLE = Noise(1e-5, 1e-3, 1e-3)
+"""For mechanisms in float32."""
 
 SPREAD = 30.0
 """Singular values of a closure Jacobian, over the largest, that an error of the frames may bring about, over that

@@ -22,6 +22,7 @@ STEPS = (0.3, 0.1, 0.03)
 STILL = 0.1
 """Part of the step: loops that come back nearer than this to the assembled pose have not moved."""
 _ITERATIONS = 25
+"""Gauss-Newton steps at most from a pose to the one of least residual near it."""
 _FAR = 0.03
 """Residual over the step that is no misfit any more: the loops cannot be followed so far."""
 

@@ -33,9 +33,12 @@ _STRIDE = 0.15
 _DIRECTIONS = 6
 """Directions of the motion in which poses are taken at most."""
 _ITERATIONS = 16
-_COARSE, _FINE = 1e-5, 1e-9
-"""Singular values of the conditions, over the largest, that count: in the first two iterations those that do not come
-from the errors themselves; then all above rounding, since products of two errors are left (two axes out of parallel, in
+"""Iterations at most. Convergence is quadratic, or linear where products of two errors are left."""
+_COARSE = 1e-5
+"""Least singular value of the conditions, over the largest, that counts in the first two iterations: smaller ones come
+from the errors themselves."""
+_FINE = 1e-9
+"""The same in all later iterations, just above rounding: products of two errors are left (two axes out of parallel, in
 a linkage that would move with either), on which the iteration converges linearly."""
 
 

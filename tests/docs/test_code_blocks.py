@@ -17,7 +17,9 @@ import typer
 import jaxkin as jk
 from documents import PAGES, blocks, name
 
-LONG = {"docs/index.md", "docs/how-to/design.md", "docs/how-to/derivatives.md", "docs/how-to/sweep.md"}
+LONG = {
+    f"docs/{page}.md" for page in ("index", "how-to/by-hand", "how-to/design", "how-to/derivatives", "how-to/sweep")
+}
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
 CONSOLE = ("sh", "console", "bash")
 WITH_CODE = [page for page in PAGES if any(block.language in ("python", "toml", *CONSOLE) for block in blocks(page))]
