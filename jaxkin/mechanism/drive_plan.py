@@ -22,8 +22,8 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.solve.range.solve_range import Joints
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.predictor import hermite, predict_state
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.execution.programs import jit_options
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State
 from reference.mechanisms import planar_fourbar
@@ -85,7 +85,7 @@ def test_where_a_slope_says_nothing_the_secant_is_taken():
 def traced_rocker():
     """Samples of a double rocker 100, 95, 60, 80 that is assembled at 1 rad, over a full turn."""
     (element,) = plan_drive(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).elements
-    geometry, _ = scaled(element.system, element.joints)
+    geometry, _ = scaled_geometry(element.system, element.joints)
 
     @partial(jax.jit, **jit_options())
     def trace(geometry, values):

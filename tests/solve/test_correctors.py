@@ -8,8 +8,8 @@ import numpy as np
 
 from jaxkin.joints.pairs import cylindrical
 from jaxkin.linkage.loop_class import LoopClass
-from jaxkin.solve.closure.closure import closure, loop_geometry
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, free_jacobian, levenberg_marquardt
+from jaxkin.solve.closure.closure import closure, free_jacobian, loop_geometry
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, levenberg_marquardt
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.system.equation_blocks import equation_blocks

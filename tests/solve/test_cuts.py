@@ -7,11 +7,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from jaxkin.linkage.loop_class import LoopClass
-from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.closure.closure import closure, scaled_geometry
 from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, turn_between
 from jaxkin.solve.execution.programs import solve
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.from_linkage import block_joints, block_system
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -86,7 +85,7 @@ def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
 )
 def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, drive):
     cut, _, joints = systems(make(), drive)
-    geometry, _ = scaled(cut, joints)
+    geometry, _ = scaled_geometry(cut, joints)
     rng = np.random.default_rng(3)
     state = retract(cut, assembled(cut, 1, jnp.float64), jnp.asarray(0.3 * rng.normal(size=(cut.columns, 1))))
     along = jnp.asarray(rng.normal(size=(cut.columns, 1)))

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.range.implicit_derivative import attach_derivative
-from jaxkin.solve.range.solve_range import scaled
 from jaxkin.solve.system.state import State
 from reference import planar
 from reference.mechanisms import planar_fourbar
@@ -46,7 +46,7 @@ def rocker_rate(element, state, d_inputs, d_joints, closes=None):
 @partial(jax.jit, static_argnums=0)
 def _all_rates(system, state, joints, closes, d_inputs, d_joints):
     def coordinates(inputs, joints):
-        geometry, _ = scaled(system, joints)
+        geometry, _ = scaled_geometry(system, joints)
         return attach_derivative(system, geometry, inputs, state, closes).x
 
     return jax.jvp(coordinates, (jnp.asarray(TURN)[None], joints), (d_inputs, d_joints))[1]

@@ -16,8 +16,9 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State
+from jaxkin.solve.system.state import State, is_driven
 
 Geometry = Spatial | Planar
 Given = Array | np.ndarray
@@ -63,3 +64,14 @@ def loop_geometry(
     frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
     return planar_geometry(system, space) if system.planar else space, length
+
+
+def scaled_geometry(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
+    """The geometry over the characteristic length, and the factors from its coordinates to those of the mechanism."""
+    geometry, length = loop_geometry(system, *joints)
+    return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
+
+
+def free_jacobian(system: LoopSystem, evaluation: Closure) -> Float[Array, "equations columns poses"]:
+    """Set the columns of driven coordinates to zero: least-norm steps do not move these."""
+    return jnp.where(is_driven(system), 0.0, evaluation.jacobian)

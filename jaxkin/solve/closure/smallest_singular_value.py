@@ -12,10 +12,9 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state
-from jaxkin.solve.correctors.levenberg_marquardt import free_jacobian
-from jaxkin.solve.range.solve_range import Joints, scaled
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
@@ -28,7 +27,7 @@ def smallest_singular_value(
     Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
     """
     system = system.uncut
-    geometry, lengths = scaled(system, joints)
+    geometry, lengths = scaled_geometry(system, joints)
     state = as_state(system, joints.frames_1, joints.frames_2, displacements)
     state = state._replace(x=state.x / lengths)
     jacobian = free_jacobian(system, closure(system, geometry, state))

@@ -17,7 +17,7 @@ from jaxkin.solve.closure.joint_coordinates import ball_turns
 from jaxkin.solve.continuation.branch_samples import MEETING, BranchSamples, sample_rows, winding
 from jaxkin.solve.continuation.fronts import ContinuationProblem, Fronts, arrived, assembled_fronts, stopped_at_limit
 from jaxkin.solve.continuation.step import substep
-from jaxkin.solve.execution.lockstep import any_in_lockstep, write_row
+from jaxkin.solve.lockstep import any_in_lockstep, write_row
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State
 

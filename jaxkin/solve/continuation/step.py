@@ -41,8 +41,8 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
     select_poses,
 )
 from jaxkin.solve.correctors.newton import newton
-from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks

@@ -14,8 +14,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
-from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.blocks import inverse_jacobian
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract

@@ -15,11 +15,10 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD
-from jaxkin.solve.closure.closure import closure
+from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, joint_coordinates, unwrap_ball_angles
-from jaxkin.solve.correctors.levenberg_marquardt import free_jacobian
-from jaxkin.solve.range.solve_range import Joints, scaled
 from jaxkin.solve.status import Scalar, Status
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import retract
 
@@ -44,7 +43,7 @@ def least_residual(
     """
     begun = lax.stop_gradient(displacements)
     joints, ideal = lax.stop_gradient((joints, ideal))
-    geometry, lengths = scaled(system, joints)
+    geometry, lengths = scaled_geometry(system, joints)
     cutoff = jnp.minimum(SPREAD * _play(joints, ideal, jnp.max(lengths)), LARGEST_DOUBT)
     state = as_state(system, joints.frames_1, joints.frames_2, begun)
     state = state._replace(x=state.x / lengths)

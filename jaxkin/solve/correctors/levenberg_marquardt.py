@@ -14,12 +14,12 @@ from jax import lax, tree
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
-from jaxkin.solve.closure.closure import Closure, Geometry, closure
-from jaxkin.solve.execution.lockstep import any_in_lockstep
+from jaxkin.solve.closure.closure import Closure, Geometry, closure, free_jacobian
 from jaxkin.solve.linear.least_norm import solve_least_norm
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, is_driven, retract
+from jaxkin.solve.system.state import State, retract
 
 MAX_DAMPED_STEP = 0.5
 """Longest step, in radians or characteristic lengths: farther away the linear model of a rotation is no longer good."""
@@ -42,11 +42,6 @@ class _Iterate(NamedTuple):
     trust: Float[Array, " poses"]
     done: Bool[Array, " poses"]
     trial: State
-
-
-def free_jacobian(system: LoopSystem, evaluation: Closure) -> Float[Array, "equations columns poses"]:
-    """Set the columns of driven coordinates to zero: least-norm steps do not move these."""
-    return jnp.where(is_driven(system), 0.0, evaluation.jacobian)
 
 
 def damping_floor(dtype) -> float:

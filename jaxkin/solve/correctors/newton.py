@@ -14,9 +14,9 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Closure, Geometry, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
-from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem

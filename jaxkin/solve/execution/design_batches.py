@@ -15,7 +15,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
-from jaxkin.solve.execution.lockstep import in_lockstep
+from jaxkin.solve.lockstep import in_lockstep
 
 Result = TypeVar("Result")
 DESIGN_GROUP = 32

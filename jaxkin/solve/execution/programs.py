@@ -20,8 +20,9 @@ from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.poses import Poses
-from jaxkin.solve.range.solve_range import Joints, displacements, find_poses, shard
+from jaxkin.solve.range.solve_range import displacements, find_poses, shard
 from jaxkin.solve.status import ClosureTolerance, Status
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
 COMPILER_OPTIONS = {

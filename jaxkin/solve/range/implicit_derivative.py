@@ -13,8 +13,8 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float
 
-from jaxkin.solve.closure.closure import Geometry, closure
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, free_jacobian
+from jaxkin.solve.closure.closure import Geometry, closure, free_jacobian
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.linear.least_norm import solve_least_norm_refined
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, drive, rate

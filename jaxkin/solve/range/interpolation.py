@@ -25,8 +25,8 @@ from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.step import input_slopes
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.correctors.newton import newton
-from jaxkin.solve.execution.lockstep import any_in_lockstep
 from jaxkin.solve.linear.blocks import inverse_jacobian
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
 from jaxkin.solve.status import default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks

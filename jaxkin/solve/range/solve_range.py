@@ -16,7 +16,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int, Shaped
 
-from jaxkin.solve.closure.closure import Geometry, closure, loop_geometry
+from jaxkin.solve.closure.closure import Geometry, closure, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
@@ -25,7 +25,7 @@ from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
-from jaxkin.solve.execution.lockstep import any_in_lockstep
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
@@ -33,19 +33,12 @@ from jaxkin.solve.range.polish import correct_poses
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, MAX_CORRECTION, Poses, group_size, in_groups
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
 
 BALL_GROUP = 256
 """Poses whose ball angles are found at once: of all poses at once the matrices leave the cache."""
-
-
-class Joints(NamedTuple):
-    """The joints of a loop system, one entry a joint, as in `Joint`."""
-
-    frames_1: tuple[Float[Array, "frames 4 4"], ...]
-    frames_2: tuple[Float[Array, "frames 4 4"], ...]
-    pitch: tuple[Float[Array, ""], ...]
 
 
 class _Range(NamedTuple):
@@ -76,7 +69,7 @@ def find_poses(
     STALLED.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
-    geometry, lengths = scaled(system, joints)
+    geometry, lengths = scaled_geometry(system, joints)
     asked = _Range(geometry, inputs / driven(system, lengths), tolerance, shard_count, shard_start, follow_limits)
     poses = _found(system, options, asked)
     return poses._replace(status=poses.status.astype(jnp.int32))
@@ -98,7 +91,7 @@ def displacements(
 
     In radians and lengths of the mechanism; displacements of least residual where a pose did not close.
     """
-    geometry, lengths = scaled(system, joints)
+    geometry, lengths = scaled_geometry(system, joints)
 
     def read(group: tuple[Array, Poses]) -> Float[Array, "columns group"]:
         inputs, poses = group
@@ -110,12 +103,6 @@ def displacements(
     if not system.balls:
         return read(given)
     return unwrap_ball_angles(system, in_groups(read, given, BALL_GROUP))
-
-
-def scaled(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
-    """The geometry over the characteristic length, and the factors from its coordinates to those of the mechanism."""
-    geometry, length = loop_geometry(system, *joints)
-    return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 
 def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:

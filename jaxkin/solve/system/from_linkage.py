@@ -10,7 +10,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass, renumbered
-from jaxkin.solve.range.solve_range import Joints
+from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import LoopGroup
