@@ -8,11 +8,20 @@ motion.save("out/")
 
 from jaxkin import design as design
 from jaxkin.assembly.assembly import Assembly as Assembly
+from jaxkin.assembly.blocking_contacts import BlockingContacts as BlockingContacts
+from jaxkin.contacts.contact import Contact as Contact
+from jaxkin.contacts.contact import Contacts as Contacts
+from jaxkin.contacts.states import ContactState as ContactState
 from jaxkin.design.optimize import optimize as optimize
+from jaxkin.design.result import Optimum as Optimum
+from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.rates import Rates as Rates
 from jaxkin.effects.rates import accelerations as accelerations
 from jaxkin.effects.rates import velocities as velocities
+from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
+from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.pairs import contact_joint as contact_joint
@@ -24,15 +33,26 @@ from jaxkin.joints.pairs import revolute as revolute
 from jaxkin.joints.pairs import screw as screw
 from jaxkin.joints.pairs import spherical as spherical
 from jaxkin.joints.pairs import universal as universal
+from jaxkin.linkage.closure_equations import ClosureEquations as ClosureEquations
+from jaxkin.linkage.linkage import Linkage as Linkage
 from jaxkin.mechanism.lost_contacts import LostContact as LostContact
 from jaxkin.mechanism.mechanism import Mechanism as Mechanism
 from jaxkin.mechanism.motion import Motion as Motion
+from jaxkin.mechanism.plan import Plan as Plan
+from jaxkin.mechanism.pose import Pose as Pose
 from jaxkin.mechanism.pose_error import PoseError as PoseError
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
+from jaxkin.mechanism.stream import Stream as Stream
+from jaxkin.mobility.idle import IdleMotion as IdleMotion
+from jaxkin.mobility.mobility import Mobility as Mobility
 from jaxkin.mobility.open_loops import Opening as Opening
 from jaxkin.solve.options import SolverOptions as SolverOptions
 from jaxkin.solve.status import Status as Status
+from jaxkin.topology.elements import StructureElement as StructureElement
+from jaxkin.topology.loops import Loop as Loop
+from jaxkin.topology.structure import LoopGroup as LoopGroup
+from jaxkin.topology.structure import Structure as Structure
 from jaxkin.view import structure as _structure
 
 del _structure

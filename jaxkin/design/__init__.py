@@ -24,6 +24,8 @@ from jaxkin.design.objectives import guidance as guidance
 from jaxkin.design.objectives import path as path
 from jaxkin.design.objectives import stroke_of as stroke_of
 from jaxkin.design.objectives import transmission as transmission
+from jaxkin.design.optimisers import LBFGS as LBFGS
+from jaxkin.design.optimisers import LevenbergMarquardt as LevenbergMarquardt
 from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.design.result import read_optimum as read_optimum

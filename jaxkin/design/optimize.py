@@ -6,7 +6,7 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
@@ -16,6 +16,7 @@ from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.objectives import Objective
+from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import Problem, checked_shape
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
@@ -48,22 +49,18 @@ def optimize(
     extras: Mapping[str, Any] | None = None,
     ties: Mapping[Any, Any] | None = None,
     constraints: Sequence[Constraint] = (),
-    method: Literal["least-squares", "l-bfgs"] | None = None,
     starts: int = 1,
     seed: int = 0,
-    iterations: int = 300,
-    tolerance: float = 1e-9,
-    target: float | None = None,
-    penalty: float | None = None,
-    progress: bool | None = None,
+    solver: Optimiser | None = None,
     options: SolverOptions | None = None,
+    progress: bool | None = None,
 ) -> Optimum:
-    """The design of least loss.
+    """Find the design of least loss.
 
     `loss` is an objective of `jaxkin.design`, or a function `loss(motion)` or `loss(motion, extras)` that returns one
-    number. With `method="least-squares"` it returns residuals, the squares of which are added up: curve fitting then
-    takes a dozen Levenberg-Marquardt steps where L-BFGS takes hundreds, so objectives are solved so by default, and all
-    else by bounded L-BFGS.
+    number. With `solver=jk.design.LevenbergMarquardt()` it returns residuals, the squares of which are added up:
+    objectives are solved so by default, and all else by `jk.design.LBFGS()`. Either says how many iterations, when to
+    stop, and what violations weigh.
 
     What may change: `lengths`, a mapping of keys of `mechanism.lengths` to bounds (lower, upper); `points`, one of
     joints or (part, joint) to bounds of (x, y, z), as in `with_points`; driven displacements and `extras` given as
@@ -79,40 +76,42 @@ def optimize(
 
     where `gap` is the closure residual (Eq. 12, lengths over the size of the loop) of a pose that cannot close,
     `misfit` that of lengths that cannot hold together, and `lack` by how much a constraint is negative. Designs that
-    cannot move everywhere cost something and can be left again by their derivatives. `penalty` is a hundred times the
-    median loss of the starts by default, and made stiffer while the best design violates anything by more than 1e-6.
+    cannot move everywhere cost something and can be left again by their derivatives. The penalty is made stiffer
+    while the best design violates anything by more than 1e-6.
 
-    A start retires when it improves by less than `tolerance` relative over ten iterations, or at its pace will not
-    reach the best one. The search ends when all have, when the best feasible loss is at or below `target`, or after
-    `iterations`. The verdict, `Optimum.moves`, is that of a fine sweep. `options` says how poses are found, as in
-    `Mechanism.sweep`; `method` and `tolerance` are those of the optimiser.
+    A start retires when it improves too little, or at its pace will not reach the best one. The search ends when all
+    have, when the best feasible loss is at or below the target, or after all iterations. The verdict, `Optimum.moves`,
+    is that of a fine sweep. `options` says how poses are found, as in `Mechanism.sweep`. `progress` draws a bar; by
+    default where errors go to a terminal.
 
     Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
     """
-    if method not in (None, "least-squares", "l-bfgs"):
-        raise ValueError(f'method must be "least-squares" or "l-bfgs", got {method!r}')
+    if solver is not None and not isinstance(solver, Optimiser):
+        raise ValueError(f"solver must be jk.design.LevenbergMarquardt(...) or jk.design.LBFGS(...), got {solver!r}")
     if not (callable(loss) or isinstance(loss, Objective)):
         raise ValueError(f"the loss must be an objective of jk.design, or a function of the motion, got {loss!r}")
-    if starts < 1 or iterations < 1:
-        raise ValueError(f"starts and iterations must be at least 1, got {starts} and {iterations}")
+    if starts < 1:
+        raise ValueError(f"starts must be at least 1, got {starts}")
+    if solver is None:
+        solver = LevenbergMarquardt() if isinstance(loss, Objective) else LBFGS()
+    squares = isinstance(solver, LevenbergMarquardt)
     chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})
-    squares = method == "least-squares" or (method is None and isinstance(loss, Objective))
     problem = Problem(loss, squares, mechanism, chosen, tuple(constraints), options_with(options))
     checked_shape(problem, jnp.asarray(chosen.start))
     began = time.perf_counter()
     first = _first(problem)
-    solver = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))
+    downhill = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
-    vectors, weight = _best_of(solver, pool, starts)
-    weight = penalty if penalty is not None else weight
-    _warn_of_idle(solver, vectors, weight, chosen)
+    vectors, weight = _best_of(downhill, pool, starts)
+    weight = solver.penalty if solver.penalty is not None else weight
+    _warn_of_idle(downhill, vectors, weight, chosen)
 
     history: list[np.ndarray] = []
-    bar = _Bar(iterations, progress)
+    bar = _Bar(solver.iterations, progress)
     reason = ""
     for _ in range(ROUNDS):
-        vectors, reason = _search(solver, vectors, weight, iterations, tolerance, target, history, bar)
-        losses, violations = solver.judge(vectors)
+        vectors, reason = _search(downhill, vectors, weight, solver, history, bar)
+        losses, violations = downhill.judge(vectors)
         best = _rank(losses, violations)
         if violations[best] <= MET:
             break
@@ -156,9 +155,9 @@ def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
     return motion, extras
 
 
-def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
+def _best_of(downhill: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
     """The given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
-    losses, violations = solver.judge(pool)
+    losses, violations = downhill.judge(pool)
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2
@@ -166,22 +165,23 @@ def _best_of(solver: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray,
     return pool[np.array(order)], weight
 
 
-def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, target, history, bar):
+def _search(downhill: Solver, vectors, weight: float, stop: Optimiser, history, bar):
     """Designs and why the search ended. A start that is done, or that at its pace will not reach the best one in the
     iterations left, retires and costs nothing more."""
-    state = solver.begin(vectors, weight)
+    state = downhill.begin(vectors, weight)
+    iterations, tolerance, target = stop.iterations, stop.tolerance, stop.target
     active = np.ones(len(vectors), bool)
     last = np.full(len(vectors), np.finfo(float).max)
     for done in range(CHUNK, iterations + CHUNK, CHUNK):
-        state, losses = solver.advance(state, weight, active)
+        state, losses = downhill.advance(state, weight, active)
         history.append(losses)
         now = np.where(active, losses[-1], last)
         least = float(np.min(now))
         bar.show(done, least)
         if target is not None and least <= target:
-            found, violations = solver.judge(solver.vectors(state))
+            found, violations = downhill.judge(downhill.vectors(state))
             if np.any((found <= target) & (violations <= MET)):
-                return solver.vectors(state), f"the target {target:g} was reached after {done} iterations"
+                return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations"
         settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
@@ -189,12 +189,12 @@ def _search(solver: Solver, vectors, weight: float, iterations: int, tolerance, 
         active &= ~(settled | hopeless)
         last = now
         if not active.any():
-            return solver.vectors(state), (
+            return downhill.vectors(state), (
                 f"converged after {done} iterations: every start improved by less than {tolerance:g} relative in "
                 f"{CHUNK} of them, or too slowly to reach the best one"
             )
     improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
-    return solver.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
+    return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
 
 
 def _rank(losses, violations) -> int:
@@ -204,8 +204,8 @@ def _rank(losses, violations) -> int:
     return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))
 
 
-def _warn_of_idle(solver: Solver, vectors, weight: float, chosen: Variables) -> None:
-    slopes = np.asarray(solver.slopes(solver.begin(vectors, weight)))
+def _warn_of_idle(downhill: Solver, vectors, weight: float, chosen: Variables) -> None:
+    slopes = np.asarray(downhill.slopes(downhill.begin(vectors, weight)))
     influence = np.max(np.abs(slopes), axis=0)
     # where terms cancel, as the mean does in a relative error, rounding is left of what is none
     none = (influence <= NO_INFLUENCE * np.max(influence)) & (chosen.upper > chosen.lower)

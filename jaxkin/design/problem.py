@@ -119,5 +119,5 @@ def checked_shape(problem: Problem, vector) -> None:
     if not problem.squares and shape != ():
         raise ValueError(
             f"the loss must return one number, got an array of shape {shape}; return jnp.sum(...) of it, or say "
-            'method="least-squares" if these are residuals whose squares are to be added up'
+            "solver=jk.design.LevenbergMarquardt() if these are residuals whose squares are to be added up"
         )

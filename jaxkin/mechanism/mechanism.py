@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from jaxkin.assembly.blocking_contacts import BlockingContacts
     from jaxkin.mechanism.motion import Motion
     from jaxkin.mechanism.plan import Plan
+    from jaxkin.mechanism.pose import Pose
     from jaxkin.mechanism.reassembly import Reassembly
     from jaxkin.mechanism.stream import Stream
 
@@ -122,6 +123,23 @@ class Mechanism:
         from jaxkin.mechanism.sweep import sweep
 
         return sweep(self, drive, options=options, tolerance=tolerance, method=method, throw=throw)
+
+    def solve(
+        self,
+        drive: Mapping[str, object],
+        *,
+        options: SolverOptions | None = None,
+        tolerance: float | jax.Array | None = None,
+        throw: bool = True,
+    ) -> Pose:
+        """Solve one pose: `drive` gives one displacement for each driven coordinate, all else is as in `sweep`.
+
+        The pose is found along the branch of the assembled pose. Raises PoseError where it is not on that branch; with
+        `throw=False`, which is needed inside `jit`, `vmap` and `grad`, its `status` tells.
+        """
+        from jaxkin.mechanism.pose import Pose, one_pose
+
+        return Pose(self.sweep(one_pose(drive), options=options, tolerance=tolerance, throw=throw))
 
     def stream(
         self,

@@ -101,11 +101,10 @@ def test_a_variable_without_influence_is_named_and_keeps_its_value():
         best = jk.optimize(
             loss,
             START,
-            method="least-squares",
             drive={"A": TURN[:3]},
             lengths={CRANK: (20.0, 60.0)},
             extras={"spare": design.Free(0.5, 0.0, 1.0)},
-            iterations=10,
+            solver=design.LevenbergMarquardt(iterations=10),
         )
     assert best.values["spare"] == 0.5
     assert best.values["(crank, A, B)"] == pytest.approx(30.0, rel=1e-9)
@@ -127,8 +126,8 @@ BAD = {
     "point": (dict(points={"Q": (-1, 1)}), r"Q"),
     "tie": (dict(lengths={CRANK: (20, 60)}, ties={ROCKER: COUPLER}), r"\('coupler', 'B', 'C'\) is no variable"),
     "extra": (dict(extras={"x": 3.0}), r"write jk\.design\.Free"),
-    "method": (dict(lengths={CRANK: (20, 60)}, method="newton"), r'"least-squares" or "l-bfgs", got \'newton\''),
-    "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts and iterations must be at least 1"),
+    "method": (dict(lengths={CRANK: (20, 60)}, solver="newton"), r"LevenbergMarquardt\(...\) or .*, got 'newton'"),
+    "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts must be at least 1"),
     "drive": (dict(drive={"Q": TURN}, lengths={CRANK: (20, 60)}), r"no joint 'Q'"),
 }
 

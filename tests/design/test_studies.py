@@ -118,7 +118,6 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
     best = jk.optimize(
         step,
         leg,
-        method="least-squares",
         drive={"O": lambda extras: extras["first"] + turn},
         lengths={key: (0.7 * float(leg.lengths[key]), 1.3 * float(leg.lengths[key])) for key in keys},
         # hinges of three links are two joints in one place
@@ -129,7 +128,7 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
             "first": design.Free(-2.48, -3.5, -1.5),
         },
         constraints=[lifted],
-        iterations=60,
+        solver=design.LevenbergMarquardt(iterations=60),
     )
     assert best.feasible and best.moves.everywhere
     motion = best.mechanism.sweep({"O": best.extras["first"] + np.linspace(0.0, 2 * np.pi, 361)})

@@ -1,0 +1,37 @@
+"""What users import: everything that a public call returns can be imported from `jaxkin`."""
+
+import inspect
+import re
+
+import pytest
+
+import jaxkin as jk
+
+PUBLIC = {name: getattr(jk, name) for name in dir(jk) if not name.startswith("_")}
+CLASSES = {name: found for name, found in PUBLIC.items() if inspect.isclass(found)}
+
+
+def returned(function) -> set[str]:
+    """The class names in the annotation of what a function returns."""
+    annotation = inspect.get_annotations(function).get("return", "")
+    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", "")
+    return set(re.findall(r"(?<![\w.\"' ])([A-Z]\w+)(?![\w\"'])", re.sub(r"(Float|Int|Bool)\[[^\]]*\]", "", text)))
+
+
+def functions():
+    for name, found in PUBLIC.items():
+        if inspect.isfunction(found):
+            yield name, found
+    for name, owner in CLASSES.items():
+        for member, found in vars(owner).items():
+            found = getattr(found, "fget", None) or getattr(found, "func", None) or getattr(found, "__func__", found)
+            if inspect.isfunction(found) and not member.startswith("_"):
+                yield f"{name}.{member}", found
+
+
+@pytest.mark.parametrize(
+    ("name", "function"), list(functions()), ids=lambda value: value if isinstance(value, str) else ""
+)
+def test_what_a_public_call_returns_is_public(name, function):
+    known = {*PUBLIC, "Mapping", "Sequence", "Iterator", "Array", "Path", "Any", "Figure", "Callable", "None", "Self"}
+    assert returned(function) <= known
