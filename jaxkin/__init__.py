@@ -11,6 +11,7 @@ from jaxkin.assembly.assembly import Assembly as Assembly
 from jaxkin.assembly.blocking_contacts import BlockingContacts as BlockingContacts
 from jaxkin.contacts.contact import Contact as Contact
 from jaxkin.contacts.contact import Contacts as Contacts
+from jaxkin.contacts.states import CONTACT_STATES as CONTACT_STATES
 from jaxkin.contacts.states import ContactState as ContactState
 from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
@@ -47,13 +48,18 @@ from jaxkin.mechanism.stream import Stream as Stream
 from jaxkin.mobility.idle import IdleMotion as IdleMotion
 from jaxkin.mobility.mobility import Mobility as Mobility
 from jaxkin.mobility.open_loops import Opening as Opening
+from jaxkin.solve.options import METHODS as METHODS
 from jaxkin.solve.options import SolverOptions as SolverOptions
 from jaxkin.solve.status import Status as Status
 from jaxkin.topology.elements import StructureElement as StructureElement
 from jaxkin.topology.loops import Loop as Loop
 from jaxkin.topology.structure import LoopGroup as LoopGroup
 from jaxkin.topology.structure import Structure as Structure
+from jaxkin.topology.structure import structure as structure
 from jaxkin.view import structure as _structure
+from jaxkin.view.gallery import draw_gallery as draw_gallery
+from jaxkin.view.inspection import draw_inspection as draw_inspection
+from jaxkin.view.storyboard import storyboard as storyboard
 
 del _structure
 

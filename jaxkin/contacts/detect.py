@@ -17,7 +17,7 @@ from jaxkin.contacts.edges import edge_note
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.reason import reason
 from jaxkin.contacts.region import ContactRegion, contact_region
-from jaxkin.contacts.states import STATES, ContactState
+from jaxkin.contacts.states import CONTACT_STATES, ContactState
 from jaxkin.contacts.tolerance import NEAR, Tolerance, default_length, reach
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.part import Face, Part
@@ -155,7 +155,7 @@ def _near_miss(
 
 def _by_kinds() -> dict[tuple[str, str], list[ContactState]]:
     rows = defaultdict(list)
-    for state in STATES:
+    for state in CONTACT_STATES:
         rows[state.kinds].append(state)
     return rows
 

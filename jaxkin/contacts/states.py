@@ -50,7 +50,7 @@ class ContactState:
 
 
 # fmt: off
-STATES: tuple[ContactState, ...] = (
+CONTACT_STATES: tuple[ContactState, ...] = (
     ContactState("a", "plane on plane", ("plane", "plane"), OUTSIDE, "surface",
                  (("n1", "f1"),), ("T_xy_phi",), 3, touch.plane_plane, separation.on_plane),
     ContactState("b", "cylinder on plane", ("plane", "cylinder"), OUTSIDE, "line",
@@ -112,7 +112,7 @@ def find_state(letter: str, region: str | None = None) -> ContactState:
 
     ValueError if there is no such state, or not with this region.
     """
-    rows: dict[str, ContactState] = {state.region: state for state in STATES if state.letter == letter}
+    rows: dict[str, ContactState] = {state.region: state for state in CONTACT_STATES if state.letter == letter}
     if not rows:
         raise ValueError(f"a contact state is a letter from 'a' to 'p', got {letter!r}")
     if region is None:

@@ -18,13 +18,13 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.contacts.states import STATES, ContactState
+from jaxkin.contacts.states import CONTACT_STATES, ContactState
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.kinds import JointKind
 
 Array = np.ndarray | jax.Array
 
-_CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state for state in STATES}
+_CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state for state in CONTACT_STATES}
 """The movements tell a contact on a circle, (j) and (n), from the contact at a point with the same letter."""
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from jaxkin.contacts.frames import contact_frames
 from jaxkin.contacts.rulings import ruling
-from jaxkin.contacts.states import STATES, find_state
+from jaxkin.contacts.states import CONTACT_STATES, find_state
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import apply, perpendicular, rotation
 from jaxkin.geometry.rigid import as_matrices
@@ -42,12 +42,12 @@ def a_common_point(state, s1, touch):
 
 
 def test_the_table_has_all_sixteen_states_and_two_forms_on_a_circle():
-    assert sorted({state.letter for state in STATES}) == list("abcdefghijklmnop")
-    assert [state.letter for state in STATES if state.region == "circle"] == ["j", "n"]
-    assert len(STATES) == 18
+    assert sorted({state.letter for state in CONTACT_STATES}) == list("abcdefghijklmnop")
+    assert [state.letter for state in CONTACT_STATES if state.region == "circle"] == ["j", "n"]
+    assert len(CONTACT_STATES) == 18
 
 
-@pytest.mark.parametrize("state", STATES, ids=lambda state: f"{state.letter}-{state.region}")
+@pytest.mark.parametrize("state", CONTACT_STATES, ids=lambda state: f"{state.letter}-{state.region}")
 def test_a_row_is_consistent(state):
     assert KINDS.index(state.kinds[0]) <= KINDS.index(state.kinds[1])
     assert len(state.frames) == len(state.movements)

@@ -18,7 +18,7 @@ from jaxkin.geometry.part import size
 from jaxkin.io.mesh import read_mesh
 from tessellation import tessellated, write_stl
 
-STATES = Path(__file__).parents[1] / "contacts" / "data" / "states.step"
+CONTACT_STATES = Path(__file__).parents[1] / "contacts" / "data" / "states.step"
 ANGLES = {"fourbar": 0.2, "slider_crank": 0.3, "cam": 0.1, "eighteen_bars": 0.35, "air_cylinder": 0.25}
 
 
@@ -66,7 +66,7 @@ def test_the_same_joints_and_the_same_motion(name, tmp_path):
 @pytest.mark.long
 def test_every_state_is_found_between_meshes(tmp_path):
     """All 25 variants of the gallery, with the faces that were drawn: planes, cylinders, cones, spheres."""
-    parts, drawn = from_stl(STATES, 0.35, tmp_path)
+    parts, drawn = from_stl(CONTACT_STATES, 0.35, tmp_path)
     for part, there in zip(parts, drawn, strict=True):
         kinds = [Counter(face.surface.kind for face in faces) for faces in (part.faces, there.faces)]
         assert kinds[0] == kinds[1] and not part.notes, part.name

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from jaxkin.contacts.states import STATES
+from jaxkin.contacts.states import CONTACT_STATES
 from jaxkin.geometry.pose import inverse
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 from jaxkin.joints.combine import combine
@@ -149,7 +149,7 @@ def test_order_of_contacts_changes_no_kind(name):
 
 def test_contact_alone_is_a_pair_exactly_where_its_displacements_are_a_group():
     groups = {("a", "surface"), ("e", "surface"), ("k", "surface"), ("o", "surface"), ("n", "circle")}
-    assert groups == {(row.letter, row.region) for row in STATES if len(row.movements) == 1}
+    assert groups == {(row.letter, row.region) for row in CONTACT_STATES if len(row.movements) == 1}
 
 
 def test_origin_is_where_the_first_contact_is():

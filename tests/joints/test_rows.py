@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.contacts.states import STATES
+from jaxkin.contacts.states import CONTACT_STATES
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
@@ -32,12 +32,14 @@ def test_no_other_file_names_the_joint_of_a_contact_state():
 
 
 def test_every_contact_state_has_a_kind_and_every_pair_a_movement():
-    assert {JointKind.of_state(state.letter) for state in STATES} == {k for k in JointKind if k.name[:8] == "CONTACT_"}
+    assert {JointKind.of_state(state.letter) for state in CONTACT_STATES} == {
+        k for k in JointKind if k.name[:8] == "CONTACT_"
+    }
     assert {movement.pair for movement in MOVEMENTS.values() if movement.pair} <= set(JointKind)
     assert str(JointKind.REVOLUTE) == "revolute" and f"{JointKind.CONTACT_B}" == "contact b"
 
 
-@pytest.mark.parametrize("state", STATES, ids=lambda state: f"{state.letter}-{state.region}")
+@pytest.mark.parametrize("state", CONTACT_STATES, ids=lambda state: f"{state.letter}-{state.region}")
 def test_a_contact_state_has_at_most_one_length_between_two_frames(state):
     assert len(state.lengths) <= len(state.movements) - 1
 
