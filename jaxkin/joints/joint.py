@@ -9,8 +9,9 @@ The two copies of a frame move with different parts, so that link lengths can ch
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -98,3 +99,15 @@ def joint(
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
     return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float))
+
+
+def check_joints(given: Any) -> None:
+    """Refuse what is no list of joints: ValueError that says what stands there."""
+    if isinstance(given, Joint):
+        wrong = f"the joint {given.name!r} alone"
+    elif not isinstance(given, Iterable):
+        wrong = repr(given)
+    else:
+        wrong = next((f"{each!r} among them" for each in given if not isinstance(each, Joint)), None)
+    if wrong:
+        raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")

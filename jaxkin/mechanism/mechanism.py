@@ -13,7 +13,7 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
@@ -66,8 +66,7 @@ class Mechanism:
         such number.
         """
         noise = asked_noise(align)
-        if (wrong := _no_joint(joints)) is not None:
-            raise ValueError(f"joints must be a list of joints, such as [jk.revolute(...)], got {wrong}")
+        check_joints(joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         described = [(joint.name, *joint.parts) for joint in joints]
         linkage, notes = aligned(Linkage.of(joints, structure(parts, described, fixed)), noise, unit)
@@ -286,15 +285,6 @@ class Mechanism:
         from jaxkin.mechanism.describe import describe_mechanism
 
         return describe_mechanism(self)
-
-
-def _no_joint(joints: Any) -> str | None:
-    """What stands where joints should, in words; None where all is well."""
-    if isinstance(joints, Joint):
-        return f"the joint {joints.name!r} alone"
-    if not isinstance(joints, Iterable):
-        return repr(joints)
-    return next((f"{each!r} among them" for each in joints if not isinstance(each, Joint)), None)
 
 
 # By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only.

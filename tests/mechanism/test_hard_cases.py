@@ -7,7 +7,8 @@ from jaxkin.solve.status import default_tolerance
 from reference import planar
 from reference.catalogue import antiparallelogram
 from reference.hard_case import HardCase
-from reference.hard_cases import CASES, LIMIT, NON_GRASHOF
+from reference.hard_cases import CASES
+from reference.hard_fourbars import LIMIT, NON_GRASHOF
 from reference.mechanisms import planar_fourbar
 
 
