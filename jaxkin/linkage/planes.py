@@ -58,7 +58,7 @@ def turn_about_one_point(joints: Sequence[Joint]) -> bool:
     point of all parts, however far the joints turn. Axes of one direction only are planar, or Schoenflies.
     """
     axes = None if traced(joints) else _axes(joints)
-    if axes is None or axes[1] or _one_direction(axes[0]):
+    if axes is None or not axes[0] or axes[1] or _one_direction(axes[0]):
         return False
     turning, _ = axes
     sides = np.array([[first, second] for _, first, second in turning]).reshape(-1, 3)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+import jaxkin as jk
 from jaxkin.joints.pairs import revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
@@ -103,3 +104,8 @@ def test_an_axis_that_misses_the_point_is_told():
 
     assert linkage(0.0).linkage.classes[0].spherical == (0,)
     assert linkage(1e-3).linkage.classes[0].spherical == ()
+
+
+def test_slides_alone_turn_about_no_point():
+    slides = [jk.prismatic(name, "base", "table", axis=(1, 0, 0)) for name in "AB"]
+    assert jk.Mechanism.build(fixed=["base"], joints=slides).linkage.classes[0].spherical == ()

@@ -21,7 +21,7 @@ CASES = {
     jansen: ("O", [3, 3, 3]),
     rssr_linkage: ("A", [1]),
     cam: ("shaft", [6]),
-    spherical_linkage: ("A", [6]),
+    spherical_linkage: ("A", [3]),
     sarrus: ("x0", [6]),
     hexapod: ("leg 0", [5]),
 }
