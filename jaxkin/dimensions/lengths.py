@@ -79,6 +79,9 @@ def _unknown(linkage: Linkage, key: Key, row: str, table: dict[Key, Length]) -> 
 def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
     """The mechanism with some lengths changed: see `Mechanism.with_lengths`."""
     changed, misfits = rearranged(linkage, changes)
+    if linkage.ideal:  # the lengths are given to the joints that move as to those that disagree
+        ideal = with_lengths(linkage.with_joints(linkage.ideal), changes)
+        changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
         if not traced(misfit):
             if not float(misfit) <= MISFIT:
@@ -97,7 +100,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
                 else joint
                 for joint in changed.joints
             ]
-            changed = changed.with_joints(joints)
+            changed = changed.with_joints(joints, changed.ideal)
     return changed
 
 

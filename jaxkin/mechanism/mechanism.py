@@ -16,7 +16,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.mobility.alignment import aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.topology.structure import Structure, structure
@@ -209,8 +209,7 @@ class Mechanism:
         """
         from jaxkin.dimensions.lengths import with_lengths
 
-        moved = self.with_linkage(with_lengths(self.linkage, changes))
-        return moved._aligned(SIX_DIGITS) if self.linkage.ideal else moved
+        return self.with_linkage(with_lengths(self.linkage, changes))
 
     def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
