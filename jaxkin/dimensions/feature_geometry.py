@@ -32,53 +32,127 @@ class Between(NamedTuple):
     """Whether the two directions are parallel, or one is a point."""
 
 
-def between(xp, one: Feature, pose1, two: Feature, pose2) -> Between:
-    """How feature `two` at `pose2` lies to feature `one` at `pose1` (4x4 poses)."""
-    p1, p2, u1, u2 = pose1[:3, 3], pose2[:3, 3], pose1[:3, one.axis], pose2[:3, two.axis]
-    side = pose1[:3, (one.axis + 1) % 3]  # where the two coincide, a direction is chosen: an axis of the first frame
-    delta = p2 - p1
-    zero, size = xp.zeros(()), p1 @ p1 + p2 @ p2
-    kinds = (one.kind, two.kind)
-    if "point" in kinds:
-        axis = u1 if two.kind == "point" else u2
-        along = zero if kinds == ("point", "point") else delta @ axis
-        if "plane" in kinds:
-            sign = 1.0 if one.kind == "plane" else -1.0
-            return Between(sign * along, zero, along, sign * axis, side, p2, along * axis, xp.asarray(True))
-        if kinds == ("point", "axis"):  # perpendicular to the axis of the second, which is what moves
-            side = pose2[:3, (two.axis + 1) % 3]
-        across = delta - along * axis if "axis" in kinds else delta
-        length, away = _unit(xp, across, side, size)
-        return Between(length, zero, along if one.kind == "axis" else -along, away, side, p2, across, xp.asarray(True))
+class _Ends(NamedTuple):
+    """Two features where they are; vectors of three numbers."""
 
-    cross = xp.cross(u1, u2)
-    square = cross @ cross
-    parallel = square < 50 * xp.finfo(square.dtype).eps
-    safe = xp.where(parallel, 1.0, square)
-    sine = xp.sqrt(safe)
-    angle = xp.where(parallel, xp.where(u1 @ u2 > 0, 0.0, xp.pi), xp.arctan2(sine, u1 @ u2))
+    origin_2: Any
+    direction_1: Any
+    direction_2: Any
+    delta: Any
+    """From the origin of the first to that of the second."""
+    side_1: Any
+    side_2: Any
+    """Across the direction of either: what is chosen where the two features coincide."""
+    square: Any
+    """Of the distances of both origins from that of the world: what rounding is measured by."""
+
+
+class _Inclination(NamedTuple):
+    """How two directions lie to each other."""
+
+    cross: Any
+    square: Any
+    """Squared sine of their angle; 1 where they are parallel."""
+    angle: Any
+    parallel: Any
+
+
+def between(xp, one: Feature, pose1, two: Feature, pose2) -> Between:
+    """Measure how feature `two` at `pose2` lies to feature `one` at `pose1` (4x4 poses)."""
+    p1, p2 = pose1[:3, 3], pose2[:3, 3]
+    ends = _Ends(
+        p2,
+        pose1[:3, one.axis],
+        pose2[:3, two.axis],
+        p2 - p1,
+        pose1[:3, (one.axis + 1) % 3],
+        pose2[:3, (two.axis + 1) % 3],
+        p1 @ p1 + p2 @ p2,
+    )
+    match one.kind, two.kind:
+        case "point", "point":
+            return _of_points(xp, ends)
+        case ("point", "plane") | ("plane", "point"):
+            return _of_point_and_plane(xp, ends, plane_first=one.kind == "plane")
+        case ("point", "axis") | ("axis", "point"):
+            return _of_point_and_axis(xp, ends, axis_first=one.kind == "axis")
+        case "axis", "axis":
+            return _of_axes(xp, ends)
+    return _with_plane(xp, ends, plane_first=one.kind == "plane")
+
+
+def _of_points(xp, ends: _Ends) -> Between:
+    zero = xp.zeros(())
+    length, away = _unit(xp, ends.delta, ends.side_1, ends.square)
+    return Between(length, zero, -zero, away, ends.side_1, ends.origin_2, ends.delta, xp.asarray(True))
+
+
+def _of_point_and_plane(xp, ends: _Ends, plane_first: bool) -> Between:
+    normal, sign = (ends.direction_1, 1.0) if plane_first else (ends.direction_2, -1.0)
+    along = ends.delta @ normal
+    return Between(
+        sign * along,
+        xp.zeros(()),
+        along,
+        sign * normal,
+        ends.side_1,
+        ends.origin_2,
+        along * normal,
+        xp.asarray(True),
+    )
+
+
+def _of_point_and_axis(xp, ends: _Ends, axis_first: bool) -> Between:
+    axis = ends.direction_1 if axis_first else ends.direction_2
+    side = ends.side_1 if axis_first else ends.side_2  # perpendicular to the axis
+    along = ends.delta @ axis
+    across = ends.delta - along * axis
+    length, away = _unit(xp, across, side, ends.square)
+    offset = along if axis_first else -along
+    return Between(length, xp.zeros(()), offset, away, side, ends.origin_2, across, xp.asarray(True))
+
+
+def _with_plane(xp, ends: _Ends, plane_first: bool) -> Between:
+    """Of a plane and an axis, or of two planes."""
+    lie = _inclination(xp, ends)
+    normal, sign = (ends.direction_1, 1.0) if plane_first else (ends.direction_2, -1.0)
+    along = ends.delta @ normal
+    hinge = xp.where(lie.parallel, ends.side_1, lie.cross / xp.sqrt(lie.square))
+    offset = ends.delta @ ends.direction_1
+    return Between(sign * along, lie.angle, offset, sign * normal, hinge, ends.origin_2, along * normal, lie.parallel)
+
+
+def _of_axes(xp, ends: _Ends) -> Between:
+    """Of two axes: along their common normal, or across them where they are parallel."""
+    lie = _inclination(xp, ends)
+    u1, u2, delta, parallel = ends.direction_1, ends.direction_2, ends.delta, lie.parallel
     across = delta - (delta @ u1) * u1
-    length, level = _unit(xp, across, side, size)
-    if "plane" in kinds:
-        normal, sign = (u1, 1.0) if one.kind == "plane" else (u2, -1.0)
-        distance = sign * (delta @ normal)
-        hinge = xp.where(parallel, side, cross / sine)
-        return Between(distance, angle, delta @ u1, sign * normal, hinge, p2, (delta @ normal) * normal, parallel)
-    common = cross / sine
+    length, level = _unit(xp, across, ends.side_1, ends.square)
+    common = lie.cross / xp.sqrt(lie.square)
     signed = delta @ common
     sign = xp.where(signed < 0, -1.0, 1.0)
-    foot1 = xp.cross(delta, u2) @ cross / safe
-    foot2 = xp.where(parallel, 0.0, xp.cross(delta, u1) @ cross / safe)
+    foot1 = xp.cross(delta, u2) @ lie.cross / lie.square
+    foot2 = xp.where(parallel, 0.0, xp.cross(delta, u1) @ lie.cross / lie.square)
     return Between(
         distance=xp.where(parallel, length, sign * signed),
-        angle=angle,
+        angle=lie.angle,
         offset=xp.where(parallel, delta @ u1, foot1),
         away=xp.where(parallel, level, sign * common),
         hinge=xp.where(parallel, level, common),
-        about=p2 + foot2 * u2,
+        about=ends.origin_2 + foot2 * u2,
         across=xp.where(parallel, across, signed * common),
         parallel=parallel,
     )
+
+
+def _inclination(xp, ends: _Ends) -> _Inclination:
+    cross = xp.cross(ends.direction_1, ends.direction_2)
+    square = cross @ cross
+    parallel = square < 50 * xp.finfo(square.dtype).eps
+    safe = xp.where(parallel, 1.0, square)
+    cosine = ends.direction_1 @ ends.direction_2
+    angle = xp.where(parallel, xp.where(cosine > 0, 0.0, xp.pi), xp.arctan2(xp.sqrt(safe), cosine))
+    return _Inclination(cross, safe, angle, parallel)
 
 
 def value(found: Between, quantity: Quantity):

@@ -7,6 +7,7 @@ positions: solved by damped Gauss-Newton steps, differentiated by the implicit f
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -16,7 +17,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.dimensions.feature_geometry import between
+from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
 
 STEPS = 60
@@ -75,74 +76,121 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     return xp.concatenate([poses, guess[:, 3:]], axis=1), misfit
 
 
+class _Pair(NamedTuple):
+    """Two features of the part, as they are and as they are guessed."""
+
+    i: int
+    j: int
+    one: Feature
+    two: Feature
+    was: Between
+    now: Between
+    direction_1: Any
+    direction_2: Any
+    """As they are guessed."""
+    delta: Any
+    """From the origin of the first to that of the second, as they are."""
+
+
 def _pairs(xp, layout: Layout, original, guess, targets, size) -> _Pairs:
+    """Put together the equations of all pairs of features; `size` is what lengths are divided by."""
     wanted: dict[tuple[int, int, str], Any] = {
         (change.first, change.second, change.quantity): target
         for change, target in zip(layout.changes, targets, strict=True)
     }
     features = layout.features
-    before = {
-        (i, j): between(xp, features[i], original[i], features[j], original[j])
-        for i, j in combinations(range(len(features)), 2)
-    }
-    coincident = {(i, i): xp.asarray(True) for i in range(len(features))}
-    for (i, j), was in before.items():
-        coincident[i, j] = coincident[j, i] = (was.distance == 0) & was.parallel
-    entries = []
-    for (i, j), was in before.items():
-        one, two = features[i], features[j]
-        now = between(xp, one, guess[i], two, guess[j])
-        u, v = guess[i][:3, one.axis], guess[j][:3, two.axis]
-        distance = wanted.get((i, j, "distance"), wanted.get((j, i, "distance")))
-        kept = was.distance
-        for (a, b, quantity), target in wanted.items():
-            if quantity == "distance":  # joints in one place have one distance to the others
-                alike = (coincident[i, a] & coincident[j, b]) | (coincident[i, b] & coincident[j, a])
-                kept = xp.where(alike, target, kept)
-        # what coincides stays so in all directions: a distance has no slope at zero
-        together = (was.distance == 0) & (distance is None)
-        plane, points = "plane" in (one.kind, two.kind), "point" in (one.kind, two.kind)
-        # from one to two; for planes the distance is counted along the normal of the plane
-        along = u if one.kind == "plane" else -v if two.kind == "plane" else now.away
-        level = xp.eye(3) - xp.outer(v, v) if two.kind == "axis" else xp.eye(3) - xp.outer(u, u)
-        if (one.kind, two.kind) == ("point", "point"):
-            level = xp.eye(3)
-        skew = xp.outer(along, along)
-        project = skew if plane else xp.where(now.parallel, level, skew)
-        angle = 0.0
-        if not points:
-            target = wanted.get((i, j, "angle"), wanted.get((j, i, "angle")))
-            angle = u @ v - xp.cos(was.angle if target is None else target)
-        ends = []
-        for a, b, feature, other, pose, axis, sign in (
-            (i, j, one, two, original[i], u, 1.0),
-            (j, i, two, one, original[j], v, -1.0),
-        ):
-            place = wanted.get((a, b, "offset"))
-            held = place is not None or (feature.marked and other.kind == "point")
-            if held and other.kind == "axis":  # linear in d: the foot of the common normal
-                cross = xp.cross(axis, v if sign > 0 else u)
-                square = xp.where(now.parallel, 1.0, cross @ cross)
-                foot = xp.cross(v if sign > 0 else u, cross) / square
-                vector = xp.where(now.parallel, axis, foot)
-            else:
-                vector = axis
-            if held and place is None:
-                place = sign * (original[j][:3, 3] - original[i][:3, 3]) @ pose[:3, feature.axis]
-            ends.append((vector * (sign if held else 0.0), place / size if held else 0.0 * size))
-        entries.append(
-            (
-                project,
-                (kept if distance is None else distance) / size,
-                along,
-                together | ~now.parallel | plane,
-                xp.stack([vector for vector, _ in ends]),
-                xp.stack([xp.asarray(place) for _, place in ends]),
-                xp.asarray(angle),
-            )
+    pairs = [
+        _Pair(
+            i,
+            j,
+            features[i],
+            features[j],
+            between(xp, features[i], original[i], features[j], original[j]),
+            between(xp, features[i], guess[i], features[j], guess[j]),
+            guess[i][:3, features[i].axis],
+            guess[j][:3, features[j].axis],
+            original[j][:3, 3] - original[i][:3, 3],
         )
+        for i, j in combinations(range(len(features)), 2)
+    ]
+    coincident = {(i, i): xp.asarray(True) for i in range(len(features))}
+    for pair in pairs:
+        apart = (pair.was.distance == 0) & pair.was.parallel
+        coincident[pair.i, pair.j] = coincident[pair.j, pair.i] = apart
+    entries = []
+    for pair in pairs:
+        project, along, linear = _distance_equation(xp, pair, wanted)
+        vectors, places = zip(*_offset_equations(xp, pair, original, wanted, size), strict=True)
+        distance = _distance(xp, pair, wanted, coincident) / size
+        angle = xp.asarray(_angle_misfit(xp, pair, wanted))
+        entries.append((project, distance, along, linear, xp.stack(vectors), xp.stack(places), angle))
     columns = [xp.stack([xp.asarray(entry) for entry in column]) for column in zip(*entries, strict=True)]
     return _Pairs(*columns, weights=_movers(xp, layout, coincident))
+
+
+def _wanted(pair: _Pair, quantity: Quantity, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
+    """The length asked for between the two, whichever is named first; None where it is to be kept."""
+    return wanted.get((pair.i, pair.j, quantity), wanted.get((pair.j, pair.i, quantity)))
+
+
+def _distance(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any], coincident: Mapping[tuple[int, int], Any]):
+    """The distance that the two are to have: features in one place have one distance to all others."""
+    if (asked := _wanted(pair, "distance", wanted)) is not None:
+        return asked
+    kept = pair.was.distance
+    for (a, b, quantity), target in wanted.items():
+        if quantity == "distance":
+            alike = (coincident[pair.i, a] & coincident[pair.j, b]) | (coincident[pair.i, b] & coincident[pair.j, a])
+            kept = xp.where(alike, target, kept)
+    return kept
+
+
+def _distance_equation(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> tuple[Any, Any, Any]:
+    """What of the vector from one to the other is their distance (3x3), its direction, and whether it is linear."""
+    one, two, u, v = pair.one, pair.two, pair.direction_1, pair.direction_2
+    # what coincides stays so in all directions: a distance has no slope at zero
+    together = (pair.was.distance == 0) & (_wanted(pair, "distance", wanted) is None)
+    plane = "plane" in (one.kind, two.kind)
+    # from one to two; for planes the distance is counted along the normal of the plane
+    along = u if one.kind == "plane" else -v if two.kind == "plane" else pair.now.away
+    level = xp.eye(3) - xp.outer(v, v) if two.kind == "axis" else xp.eye(3) - xp.outer(u, u)
+    if (one.kind, two.kind) == ("point", "point"):
+        level = xp.eye(3)
+    skew = xp.outer(along, along)
+    project = skew if plane else xp.where(pair.now.parallel, level, skew)
+    return project, along, together | ~pair.now.parallel | plane
+
+
+def _angle_misfit(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
+    """What the cosine of their angle misses by; nothing where one is a point."""
+    if "point" in (pair.one.kind, pair.two.kind):
+        return 0.0
+    target = _wanted(pair, "angle", wanted)
+    return pair.direction_1 @ pair.direction_2 - xp.cos(pair.was.angle if target is None else target)
+
+
+def _offset_equations(
+    xp, pair: _Pair, original, wanted: Mapping[tuple[int, int, str], Any], size
+) -> Iterator[tuple[Any, Any]]:
+    """For either end the vector that the offset is counted along, and its place over the size; zeros where none is
+    held."""
+    u, v = pair.direction_1, pair.direction_2
+    for a, b, feature, other, axis, across, sign in (
+        (pair.i, pair.j, pair.one, pair.two, u, v, 1.0),
+        (pair.j, pair.i, pair.two, pair.one, v, u, -1.0),
+    ):
+        place = wanted.get((a, b, "offset"))
+        if place is None and not (feature.marked and other.kind == "point"):
+            yield 0.0 * axis, 0.0 * size
+            continue
+        vector = axis
+        if other.kind == "axis":  # linear in the vector between them: the foot of the common normal
+            cross = xp.cross(axis, across)
+            square = xp.where(pair.now.parallel, 1.0, cross @ cross)
+            vector = xp.where(pair.now.parallel, axis, xp.cross(across, cross) / square)
+        if place is None:
+            place = sign * pair.delta @ original[a][:3, feature.axis]
+        yield sign * vector, xp.asarray(place / size)
 
 
 def _movers(xp, layout: Layout, coincident):
