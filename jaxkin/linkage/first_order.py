@@ -61,13 +61,16 @@ def loop_jacobian(
 
 
 def null_space(
-    matrix: Float[np.ndarray, "rows columns"], noise: Noise
+    matrix: Float[np.ndarray, "rows columns"], least: float
 ) -> tuple[int, Float[np.ndarray, "free columns"]]:
-    """The rank of a Jacobian, and an orthonormal basis of what it takes to zero."""
+    """Return the rank of a Jacobian and an orthonormal basis of its null space, one vector a row.
+
+    Singular values that are at most `least` times the largest count as zero.
+    """
     if not matrix.shape[0]:
         return 0, np.eye(matrix.shape[1])
     values, directions = _right(matrix)
-    rank = int((values > noise.rank * values[0]).sum()) if values.size else 0
+    rank = int((values > least * values[0]).sum()) if values.size else 0
     return rank, directions[rank:]
 
 

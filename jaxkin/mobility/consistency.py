@@ -12,9 +12,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
 
-from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD
+from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD, null_space
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Rows
 
 STEPS = (0.3, 0.1, 0.03)
@@ -48,12 +47,6 @@ def rounding(loops: ClosedLoops) -> float:
     return eps * (10.0 * np.sqrt(len(loops.loop_group.loops)) + 16.0 * float(np.abs(loops.centre).max()) / loops.length)
 
 
-def freedoms(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Float[np.ndarray, "free columns"]:
-    """An orthonormal basis of the rates that change no loop, singular values below `least` taken as zero."""
-    _, values, directions = np.linalg.svd(jacobian, full_matrices=True)
-    return directions[int((values > least * values.max(initial=0.0)).sum()) :]
-
-
 def nearest_closed(loops: ClosedLoops, q: Row, least: float) -> tuple[Row, Rows]:
     """The coordinates of least residual near to the given ones, and that residual.
 
@@ -78,7 +71,7 @@ def beside(loops: ClosedLoops, noise: float, seed: int = 0) -> Beside | None:
     """
     least = cutoff(noise)
     home, residual = nearest_closed(loops, np.zeros(len(loops.columns)), least)
-    free = freedoms(loops.jacobian(home), least)
+    _, free = null_space(loops.jacobian(home), least)
     if not len(free) or np.linalg.norm(residual) > _FAR:
         return None
     generic = np.sin(1.0 + 2.7 * np.arange(free.shape[1]) + 1.3 * seed)

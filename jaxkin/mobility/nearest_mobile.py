@@ -18,9 +18,9 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Pose, inverse
-from jaxkin.joints.screws import chain
-from jaxkin.joints.screws import freedoms as count
-from jaxkin.mobility.consistency import cutoff, freedoms, nearest_closed, rounding
+from jaxkin.joints.screws import chain, freedoms, moved
+from jaxkin.linkage.first_order import null_space
+from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 
 Twists = Float[np.ndarray, "frames 6"]
@@ -73,13 +73,13 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
 def _poses(loops: ClosedLoops, least: float) -> list[Row]:
     """Poses of least residual along the freedoms of the assembled pose, forwards and backwards."""
     home, _ = nearest_closed(loops, np.zeros(len(loops.columns)), least)
-    free = freedoms(loops.jacobian(home), least)
+    _, free = null_space(loops.jacobian(home), least)
     found = []
     for number in range(min(_DIRECTIONS, 2 * len(free))):
         generic = np.sin(1.0 + 2.7 * np.arange(free.shape[1]) + 1.3 * (number // 2))
         along, q = (generic if number % 2 else -generic), home
         for _ in range(_WALK):
-            free = freedoms(loops.jacobian(q), least)
+            _, free = null_space(loops.jacobian(q), least)
             along = free.T @ (free @ along)
             along /= max(float(np.abs(along).max()), 1e-12)
             q, _ = nearest_closed(loops, q + _STRIDE * along, least)
@@ -104,7 +104,7 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
         own, start = q[loops.slices[joint]], 0
         steps[joint] = []
         for number, name in enumerate(names):
-            stop = start + count([name])
+            stop = start + freedoms([name])
             steps[joint].append(chain([name], before[number : number + 1], own[start:stop], pitch)[0])
             start = stop
     jacobian = np.zeros((len(loops.loop_group.loops), 6, 6 * len(frames)))
@@ -113,15 +113,9 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
             numbered = list(enumerate(steps[joint]))
             for number, step in numbered if sign > 0 else [(n, inverse(step)) for n, step in reversed(numbered)]:
                 column = first[joint, number]
-                rows[:, column : column + 6] += _adjoint(pose) @ (np.eye(6) - _adjoint(step))
+                rows[:, column : column + 6] += moved(pose, np.eye(6) - moved(step, np.eye(6)))
                 pose = pose @ step
     return jacobian.reshape(-1, 6 * len(frames))
-
-
-def _adjoint(pose: Pose) -> Float[np.ndarray, "6 6"]:
-    """What a displacement makes of twists (w; v)."""
-    rotation, cross = pose[:3, :3], np.cross(np.eye(3), pose[:3, 3])
-    return np.block([[rotation, np.zeros((3, 3))], [cross @ rotation, rotation]])
 
 
 def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> None:
@@ -136,8 +130,8 @@ def _moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:
     """A frame after a small twist, orthonormal to rounding."""
     turn, shift = twist[:3], twist[3:]
     cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])
-    moved = frame.copy()
-    moved[:3, 3] += np.cross(turn, frame[:3, 3]) + shift
+    result = frame.copy()
+    result[:3, 3] += np.cross(turn, frame[:3, 3]) + shift
     left, _, right = np.linalg.svd((np.eye(3) + cross + 0.5 * cross @ cross) @ frame[:3, :3])
-    moved[:3, :3] = left @ right
-    return moved
+    result[:3, :3] = left @ right
+    return result
