@@ -97,7 +97,7 @@ def _feels(groups: Sequence[Group], number: int, columns: Columns, screws: Screw
     if not group.free or number + 1 == len(groups):
         return None
     own = list(group.unknowns)
-    free = null_space(loop_jacobian(group.loops, columns, screws)[:, own], noise)[1]
+    free = null_space(loop_jacobian(group.loops, columns, screws)[:, own], noise.rank)[1]
     for later in range(number + 1, len(groups)):
         misfit = loop_jacobian(groups[later].loops, columns, screws)[:, own] @ free.T
         if np.abs(misfit).max(initial=0.0) > noise.rate:
@@ -120,7 +120,7 @@ def _merged(
     unknowns = tuple(sorted(column for part in parts for column in part.unknowns))
     loops = tuple(loop for part in parts for loop in part.loops)
     known = {joint for part in parts for joint in part.known_joints} - set(joints)
-    rank = null_space(loop_jacobian(loops, columns, screws)[:, list(unknowns)], noise)[0]
+    rank = null_space(loop_jacobian(loops, columns, screws)[:, list(unknowns)], noise.rank)[0]
     after = {other for part in parts for other in part.after} - set(chosen)
     one = Group(joints, unknowns, tuple(sorted(known)), loops, rank, tuple(after), sum(p.merged for p in parts))
     # what the merged group needs comes first, then the merged group, then all that needs it or comes later
@@ -201,7 +201,7 @@ class _Order:
         if not self.open:
             return np.zeros((0, len(self.columns)))
         jacobian = loop_jacobian(self.graph.circuits(self.remaining), self.columns, self.screws)
-        _, motions = null_space(jacobian[:, self.open], self.noise)
+        _, motions = null_space(jacobian[:, self.open], self.noise.rank)
         found = np.zeros((len(motions), len(self.columns)))
         found[:, self.open] = motions
         return found
@@ -245,7 +245,7 @@ class _Order:
 
     def _rank(self, circuits: Sequence[Circuit], unknowns: Sequence[int]) -> int:
         jacobian = loop_jacobian(circuits, self.columns, self.screws)
-        return null_space(jacobian[:, list(unknowns)], self.noise)[0]
+        return null_space(jacobian[:, list(unknowns)], self.noise.rank)[0]
 
     def solve(self, joints: Sequence[int]) -> None:
         """Add the group of these joints, and contract them."""

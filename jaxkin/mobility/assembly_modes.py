@@ -71,7 +71,7 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
     for _ in range(_STEPS):
         if np.abs(apart).max() <= APART or stride < _LEAST_STRIDE:
             break
-        free = null_space(found.jacobian, loops.noise)[1]
+        free = null_space(found.jacobian, loops.noise.rank)[1]
         rates = _rates_of_places(loops, found.places, found.screws)
         step = free.T @ np.linalg.lstsq(rates @ free.T, -apart, rcond=loops.noise.rate)[0]
         step *= min(1.0, stride / max(float(np.linalg.norm(step)), 1e-300))

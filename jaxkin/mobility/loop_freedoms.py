@@ -87,7 +87,7 @@ class LoopFreedoms:
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         beside = found.screws
-        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.noise)[0]
+        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.noise.rank)[0]
         is_generic = found.gap < self.noise.closed and rank >= len(self.columns) - len(self.at_rest)
         return (there, beside) if is_generic else (home, screws)
 
@@ -109,7 +109,7 @@ class LoopFreedoms:
     @cached_property
     def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
         """The same at the assembled pose, where there may be more of them."""
-        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.noise)[1]
+        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.noise.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """The smallest displacement subgroup that holds these joints."""
@@ -118,7 +118,7 @@ class LoopFreedoms:
 
     @cached_property
     def _decomposed(self) -> tuple[int, Float[np.ndarray, "freedoms columns"]]:
-        return null_space(self.jacobian, self.noise)
+        return null_space(self.jacobian, self.noise.rank)
 
 
 @once_for_each
