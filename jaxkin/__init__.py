@@ -24,6 +24,8 @@ from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
+from jaxkin.joints.evidence import Evidence as Evidence
+from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.pairs import contact_joint as contact_joint
 from jaxkin.joints.pairs import cylindrical as cylindrical

@@ -12,6 +12,7 @@ from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Pose, Vector
 from jaxkin.joints.combine import combine as combine_contacts
+from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, align, movements, regularise
@@ -69,7 +70,12 @@ def joints_from_contacts(
         if lower is None:
             return False
         name = "-".join(pair)
-        found.append((joint(name, pair, lower.kind, (lower.movement,), [lower.frame]), members))
+        found.append(
+            (
+                joint(name, pair, lower.kind, (lower.movement,), [lower.frame], evidence=_touching(contacts, members)),
+                members,
+            )
+        )
         if lower.margin < NEARLY:
             states = ", ".join(f"({contacts[k].state})" for k in members)
             notes.append(
@@ -141,7 +147,20 @@ def _labels(name: str, members: Sequence[int], contacts: Sequence[Contact]) -> l
 def _contact_joint(contact: Contact, name: str, pair: tuple[str, str]) -> Joint:
     # one frame means a group of displacements: its inverse is the same joint, and either part may come first
     parts = pair if len(contact.frames) == 1 else contact.parts
-    return joint(name, parts, JointKind.of_state(contact.state), movements(contact), contact.frames)
+    return joint(
+        name,
+        parts,
+        JointKind.of_state(contact.state),
+        movements(contact),
+        contact.frames,
+        evidence=_touching([contact], [0]),
+    )
+
+
+def _touching(contacts: Sequence[Contact], members: Sequence[int]) -> Evidence:
+    """The evidence of a joint that stands for some of the contacts."""
+    states = ", ".join(f"({contacts[k].state})" for k in members)
+    return Evidence(EvidenceKind.CONTACT, text=f"contact{'s' if len(members) > 1 else ''} {states}")
 
 
 def _aligned(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, ...], float, float]:

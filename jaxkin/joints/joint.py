@@ -16,11 +16,13 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.kinds import JointKind
 
 Array = np.ndarray | jax.Array
@@ -45,6 +47,8 @@ class Joint:
     """Pose of each frame on the side of part 2; equal to `frames_1` unless lengths were changed."""
     pitch: Float[Array, "*batch"]
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
+    evidence: Evidence | None = None
+    """What the joint is known from; left behind, None then, where JAX takes the joint apart."""
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -79,8 +83,19 @@ class Joint:
         return len(self.coordinates)
 
 
-jax.tree_util.register_dataclass(
-    Joint, data_fields=["frames_1", "frames_2", "pitch"], meta_fields=["name", "parts", "kind", "movements"]
+# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only.
+_LEAVES = ("frames_1", "frames_2", "pitch")
+
+
+def _static(joint: Joint) -> tuple[str, tuple[str, str], JointKind, tuple[str, ...]]:
+    return joint.name, joint.parts, joint.kind, joint.movements
+
+
+jax.tree_util.register_pytree_with_keys(
+    Joint,
+    lambda joint: ([(GetAttrKey(name), getattr(joint, name)) for name in _LEAVES], _static(joint)),
+    lambda static, leaves: Joint(*static, *leaves),
+    lambda joint: ([getattr(joint, name) for name in _LEAVES], _static(joint)),
 )
 
 
@@ -91,14 +106,15 @@ def joint(
     movements: tuple[str, ...],
     frames: Sequence[Array] | Array,
     pitch: float | int | Array = 0.0,
+    evidence: Evidence = BY_HAND,
 ) -> Joint:
-    """A joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
+    """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 
     Numbers stay float64 on the host until JAX computes with them; numbers that JAX traces stay traced.
     """
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
-    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float))
+    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence)
 
 
 def check_joints(given: Any) -> None:

@@ -14,11 +14,13 @@ from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint, check_joints
+from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
 from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.topology.bodies import bodies
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -96,6 +98,15 @@ class Mechanism:
     def fixed(self) -> tuple[str, ...]:
         """Names of the parts that do not move."""
         return self.structure.fixed
+
+    @cached_property
+    def bodies(self) -> dict[str, tuple[str, ...]]:
+        """Parts that move as one, by the first of each body: the fixed ones, and those of joints without freedoms."""
+        welds = [joint.parts for joint in self.all_joints if joint.kind is JointKind.FIXED]
+        found: dict[str, tuple[str, ...]] = {}
+        for part, body in bodies(self.parts, self.fixed, welds).items():
+            found[body] = (*found.get(body, ()), part)
+        return found
 
     @cached_property
     def joints(self) -> Mapping[str, Joint]:
