@@ -104,6 +104,7 @@ def test_several_files_are_one_part_each(tmp_path):
         assert (done.exit_code, said in done.output) == (2, True), done.output
 
 
+@pytest.mark.long
 def test_inspect_without_combining_keeps_every_contact():
     combined = invoke("inspect", FOURBAR, "--fixed", "ground")
     separate = invoke("inspect", FOURBAR, "--fixed", "ground", "--no-combine")

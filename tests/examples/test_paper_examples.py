@@ -100,7 +100,8 @@ def sign(found, joint, direction):
     return np.sign(float(np.asarray(found.joints[joint].frames_1)[0][:3, 2] @ direction))
 
 
-@pytest.mark.parametrize("combine", [True, pytest.param(False, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("combine", [True, False])
 def test_figure_7_moves_as_the_triangle_of_its_pivots_says(combine):
     """|CD|^2 = (50 cos a - 110)^2 + (50 sin a)^2: the rod drives, the links turn, the platform stays level."""
     found = mechanism("air_cylinder", ("p4",), combine)

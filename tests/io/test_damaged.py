@@ -183,8 +183,9 @@ def asked(tmp_path):
         process.wait()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="signals, and ps, are those of POSIX")
-@pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.long)])
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
 def test_nothing_is_left_of_a_reader_when_nobody_waits_for_it(asked, how):
     process, temporary = asked(300)
     process.send_signal(how)

@@ -120,7 +120,13 @@ BROKEN = {
 }
 
 
-@pytest.mark.parametrize("name", BROKEN)
+OF_THEIR_KIND = ("points.obj", "flat.obj", "overflow.obj", "doubled.3mf", "circle.glb")
+"""Files that libraries read, in processes of their own, as they do another one of the same format."""
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] * (name in OF_THEIR_KIND)) for name in BROKEN]
+)
 def test_broken_files_are_refused_in_one_line(tmp_path, capfd, name):
     content, message = BROKEN[name]
     file = tmp_path / name

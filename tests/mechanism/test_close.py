@@ -177,6 +177,7 @@ def test_what_cannot_be_closed_says_which_loop():
     assert not np.any(mechanism.sweep({"A": np.linspace(0, 1, 3)}).closed)
 
 
+@pytest.mark.long
 def test_joints_with_several_axes_go_along():
     """A universal joint: the axis on part 1 stays there, the one on part 2 with part 2."""
     exact, lean = cardan_shafts(), (0.1, 0.2, 0.0)

@@ -43,6 +43,7 @@ def test_throw_raises_the_same():
         rocker().sweep({"A": RANGE}, throw=True)
 
 
+@pytest.mark.long
 def test_traced_statuses_cannot_be_looked_at():
     mechanism = planar_fourbar(1.0)
     with pytest.raises(ValueError, match=r"JAX traces here: inside jit, vmap and grad read motion\.status"):

@@ -69,6 +69,7 @@ def test_a_sweep_works_inside_jit_and_vmap():
     np.testing.assert_allclose(found[0], other, atol=1e-13)
 
 
+@pytest.mark.long
 def test_an_optimiser_may_take_mechanism_and_gradient_apart_together():
     """What is no array is the same in both, though these numbers are no RSSR linkage, nor are the zeros."""
     mechanism, range_ = rssr_linkage(), np.linspace(0.0, 1.0, 5)
@@ -89,6 +90,7 @@ def test_an_optimiser_may_take_mechanism_and_gradient_apart_together():
     assert np.all(better.sweep({"A": range_}).closed)
 
 
+@pytest.mark.long
 def test_designs_in_a_batch_are_found_as_each_alone():
     """Those too that are put off, for limits of their own: a third of these cranks do not go round.
 

@@ -38,7 +38,11 @@ def assert_same(mechanism, drive, closed_only=slice(None)):
 
 @pytest.mark.parametrize(
     "turn",
-    [np.linspace(0.0, 7.0, 100), np.linspace(40.0, 33.0, 100), np.random.default_rng(1).uniform(-9.0, 9.0, 100)],
+    [
+        pytest.param(np.linspace(0.0, 7.0, 100), marks=pytest.mark.long),
+        np.linspace(40.0, 33.0, 100),
+        pytest.param(np.random.default_rng(1).uniform(-9.0, 9.0, 100), marks=pytest.mark.long),
+    ],
     ids=["rising", "falling, far away", "in any order"],
 )
 def test_chunks_of_a_fourbar(turn):

@@ -80,6 +80,7 @@ def test_a_spherical_wrist_of_two_interlocking_loops_keeps_its_three_freedoms():
     assert numbers(Mechanism.build(fixed=["ground"], joints=joints)) == numbers(spherical_wrist())
 
 
+@pytest.mark.long
 def test_a_schmidt_coupling_of_seven_digits_moves():
     joints = rounded(placed(schmidt_coupling().all_joints, np.random.default_rng(1)), 7)
     mechanism = Mechanism.build(fixed=["ground"], joints=joints)
@@ -90,7 +91,10 @@ def test_a_schmidt_coupling_of_seven_digits_moves():
     np.testing.assert_allclose(np.abs(motion.coordinates["out"]), np.abs(motion.coordinates["in"]), atol=1e-6)
 
 
-SLOW = ("Fig. 3", "Fig. 7", "parallel links, cylindrical", "schmidt_coupling", "spherical_wrist", "hexapod", "delta")
+SLOW = (
+    *("Fig. 3", "Fig. 6", "Fig. 7", "parallel links, cylindrical", "schmidt_coupling", "spherical_wrist", "hexapod"),
+    *("delta", "three cranks", "wrist", "andrews", "jansen", "peaucellier", "five_bar", "stephenson"),
+)
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in SLOW)) for name in EVERY])
@@ -251,6 +255,7 @@ def test_a_misfit_with_slides_along_the_axes():
     assert np.abs(found - expected)[:, 1].max() <= 1e-2  # a hundred tilts: the loops cannot say where slides stay
 
 
+@pytest.mark.long
 def test_frames_placed_anew_are_aligned_too():
     mechanism, tilted_axis = fourbar(0.0), fourbar(1e-7, align=0).joints["C"].frames_1[0]
     assert np.all(mechanism.with_frames({"C": tilted_axis}).sweep({"A": TURN}).closed)

@@ -12,21 +12,17 @@ import jaxkin as jk
 from jaxkin.joints.pairs import revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
-from jaxkin.solve.system.from_linkage import block_joints, block_system
 from jaxkin.solve.system.state import State
 from reference.mechanisms import bennett_linkage, cardan_shafts, planar_fourbar, rssr_linkage, spherical_linkage
 from reference.rounding import spherical_wrist
+from reference.systems import loop_system
 
 
 def systems(mechanism, driven):
     """The same loops with three equations about their point, and with all six."""
-    (block,), (loop_class,) = mechanism.structure.loop_groups, mechanism.linkage.classes
-    names = [mechanism.all_joints[joint].name for joint in block.joints]
-    places = tuple((block.joints[names.index(name)], 0) for name in driven)
-    joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block))
-    for chosen in (loop_class, loop_class._replace(spherical=())):
-        system, _ = block_system(mechanism.linkage, block, places, chosen)
-        yield system, loop_geometry(system, *joints)[0]
+    for changed in ({}, {"spherical": ()}):
+        system, joints = loop_system(mechanism, [(name, 0) for name in driven], **changed)
+        yield system, jax.jit(loop_geometry, static_argnums=0)(system, *joints)[0]
 
 
 @pytest.mark.parametrize(("make", "driven"), [(spherical_linkage, ["A"]), (cardan_shafts, ["in"])])

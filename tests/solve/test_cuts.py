@@ -1,5 +1,7 @@
 """Loops cut at a ball against the same loops whole, and rods without spin against trying all spins."""
 
+from functools import partial
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -12,19 +14,17 @@ from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, turn_betwe
 from jaxkin.solve.execution.programs import solve
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance, Status
-from jaxkin.solve.system.from_linkage import block_joints, block_system
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, retract
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import ball_in_bore, rssr_linkage
+from reference.systems import loop_system
 
 
 def systems(mechanism, drive, **changed):
     """The one structure element of a mechanism, cut and whole, and its joints."""
-    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
-    inside = tuple((block.joints[[mechanism.all_joints[j].name for j in block.joints].index(n)], 0) for n in drive)
-    cut, _ = block_system(mechanism.linkage, block, inside, form._replace(**changed))
-    return cut, cut.uncut, block_joints(mechanism.all_joints, block)
+    cut, joints = loop_system(mechanism, [(name, 0) for name in drive], **changed)
+    return cut, cut.uncut, joints
 
 
 def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_six():
@@ -85,17 +85,18 @@ def test_cut_loops_move_as_whole_ones_do(make, drive, spins):
 )
 def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, drive):
     cut, _, joints = systems(make(), drive)
-    geometry, _ = scaled_geometry(cut, joints)
+    geometry, _ = jax.jit(scaled_geometry, static_argnums=0)(cut, joints)
     rng = np.random.default_rng(3)
-    state = retract(cut, assembled(cut, 1, jnp.float64), jnp.asarray(0.3 * rng.normal(size=(cut.columns, 1))))
+    away = 0.3 * rng.normal(size=(cut.columns, 1))
+    state = jax.jit(lambda away: retract(cut, assembled(cut, 1, jnp.float64), away))(away)
     along = jnp.asarray(rng.normal(size=(cut.columns, 1)))
 
     def residual(t):
         return closure(cut, geometry, retract(cut, state, t * along)).residual[:, 0]
 
-    found = closure(cut, geometry, state).jacobian[..., 0] @ along[:, 0]
+    found = jax.jit(closure, static_argnums=0)(cut, geometry, state).jacobian[..., 0] @ along[:, 0]
     # anywhere, not only where the loop closes: the rows are of a point, or of the way between two
-    np.testing.assert_allclose(found, jax.jacfwd(residual)(0.0), atol=1e-14)
+    np.testing.assert_allclose(found, jax.jit(jax.jacfwd(residual))(0.0), atol=1e-14)
 
 
 def test_of_two_directions_one_is_turned_into_the_other():
@@ -106,14 +107,14 @@ def test_of_two_directions_one_is_turned_into_the_other():
     near = one + 1e-9 * rng.normal(size=one.shape)
     for other in (one, -one, near, -near, np.roll(one, 1, axis=1), rng.normal(size=one.shape)):
         other = other / np.linalg.norm(other, axis=1, keepdims=True)
-        turn = np.asarray(turn_between(jnp.asarray(3.0 * one.T), jnp.asarray(0.1 * other.T)))
+        turn = np.asarray(jax.jit(turn_between)(3.0 * one.T, 0.1 * other.T))
         # products of a few numbers below one, each right to 1e-16
         np.testing.assert_allclose(np.einsum("crp,pc->pr", turn, one), other, atol=2e-15)
         np.testing.assert_allclose(
             np.einsum("crp,drp->pcd", turn, turn), np.tile(np.eye(3), (len(one), 1, 1)), atol=2e-15
         )
         np.testing.assert_allclose(np.linalg.det(turn.T), 1.0, atol=2e-15)
-        slope = jax.jvp(turn_between, (jnp.asarray(one.T), jnp.asarray(other.T)), (jnp.ones((3, len(one))),) * 2)[1]
+        slope = jax.jit(partial(jax.jvp, turn_between))((one.T, other.T), (np.ones((3, len(one))),) * 2)[1]
         assert np.all(np.isfinite(slope))
 
 
@@ -136,7 +137,7 @@ def test_rods_are_spun_to_where_their_balls_turn_least(sides):
 
     least = min(turned(spun(phi)) for phi in np.linspace(-np.pi, np.pi, 2001))
     given = {ball: jnp.asarray(turn.as_matrix())[..., None] for ball, turn in enumerate(turns)}
-    found = remove_spin_from_rotations(system, jnp.asarray(lines)[None], given)
+    found = jax.jit(remove_spin_from_rotations, static_argnums=0)(system, jnp.asarray(lines)[None], given)
     rested = [Rotation.from_matrix(np.asarray(found[ball])[..., 0]) for ball in (0, 1)]
     # the best of 2001 is off by (pi / 1000)^2 at most, and never better
     assert least - 1e-5 < turned(rested) <= least + 1e-14

@@ -52,31 +52,42 @@ def test_it_goes_through_all_poses_and_leaves_the_range_of_two_by_little(one, ot
     assert np.all(beyond <= 8 / 27 * near + 1e-14)
 
 
+@jax.jit
+def fifty(inputs):
+    """At fifty places of the whole."""
+    at, way = curve_through(inputs)
+    here = jnp.linspace(0.0, at[-1], 50)
+    return (here, *way(here))
+
+
 def test_it_is_a_straight_line_where_the_poses_are_on_one():
     """Exactly so where they are equally far apart, and at any distance for its direction at the poses."""
     inputs = jnp.outer(jnp.array([1.0, -3.0]), jnp.array([0.1, 0.5, 0.6, 2.0]))
-    at, way = curve_through(inputs)
-    here = jnp.linspace(0.0, float(at[-1]), 50)
-    found, direction = way(here)
+    here, found, direction = fifty(inputs)
     np.testing.assert_allclose(found, jnp.outer(jnp.array([1.0, -3.0]), here) / jnp.sqrt(10.0), atol=1e-14)
     np.testing.assert_allclose(direction, jnp.array([[1.0], [-3.0]]) / jnp.sqrt(10.0) * jnp.ones(50), atol=1e-14)
 
 
 def test_its_direction_is_its_derivative_and_has_no_leaps():
     inputs = jnp.asarray(np.random.default_rng(0).normal(size=(3, 8)))
-    at, way = curve_through(inputs)
-    here = jnp.linspace(0.0, float(at[-1]) - 1e-9, 101)
-    _, direction = jax.jvp(lambda here: way(here)[0], (here,), (jnp.ones_like(here),))
-    np.testing.assert_allclose(direction, way(here)[1], atol=1e-13)
-    behind, before = (way(at[:-1] + step)[1] for step in (1e-9, -1e-9))
+
+    @jax.jit
+    def directions(inputs):
+        at, way = curve_through(inputs)
+        here = jnp.linspace(0.0, at[-1] - 1e-9, 101)
+        differentiated = jax.jvp(lambda here: way(here)[0], (here,), (jnp.ones_like(here),))[1]
+        return differentiated, way(here)[1], way(at[:-1] + 1e-9)[1], way(at[:-1] - 1e-9)[1]
+
+    differentiated, direction, behind, before = directions(inputs)
+    np.testing.assert_allclose(differentiated, direction, atol=1e-13)
     np.testing.assert_allclose(behind, before, atol=1e-6)  # 2e-9 times second derivatives of some tens
 
 
 def test_poses_that_repeat_are_passed_without_a_stop():
     once = jnp.array([[0.2, 0.4, 0.6], [0.1, 0.3, 0.2]])
     twice = jnp.repeat(once, 2, axis=1)
-    (at, way), (at_twice, way_twice) = curve_through(once), curve_through(twice)
+    (at, _, direction), (at_twice, _, direction_twice) = at_poses(once), at_poses(twice)
     np.testing.assert_array_equal(at_twice[::2], at)
-    for each, poses in ((way, at), (way_twice, at_twice)):
+    for each in (direction, direction_twice):
         # the chords have length one by their unit
-        assert np.all(np.linalg.norm(each(poses)[1], axis=0) > 0.5)
+        assert np.all(np.linalg.norm(each, axis=0) > 0.5)

@@ -1,5 +1,6 @@
 """Solutions against those of numpy, and against what they are to solve."""
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
@@ -19,7 +20,8 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     right = np.einsum("pij,pj->pi", jacobian, rng.normal(size=(7, columns)))
     expected = np.stack([np.linalg.pinv(j, rcond=1e-10) @ r for j, r in zip(jacobian, right, strict=True)])
     batched = jnp.moveaxis(jnp.asarray(jacobian), 0, -1)
-    found = solve_least_norm_refined(batched, jnp.asarray(right).T, 1e-14, range(columns))
+    solve = jax.jit(lambda jacobian, right: solve_least_norm_refined(jacobian, right, 1e-14, range(columns)))
+    found = solve(batched, jnp.asarray(right).T)
     # rounding is amplified by the square of the condition number, here below 1e3
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
@@ -37,7 +39,7 @@ def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, l
     expected = np.einsum("pij,pj->pi", np.linalg.pinv(jacobian, rcond=1e-10), right)
     which = np.arange(poses) % few
     batched, sides = jnp.asarray(np.moveaxis(jacobian[which], 0, -1)), jnp.asarray(right[which].T)
-    found = solve_least_norm(batched, sides, 1e-14, range(columns))
+    found = jax.jit(lambda jacobian, right: solve_least_norm(jacobian, right, 1e-14, range(columns)))(batched, sides)
     # a damping of 1e-14, and condition numbers of two; without full rank rounding of r over the damping, times J^T
     np.testing.assert_allclose(found.T, expected[which], atol=1e-11 if not lacking else 1e-6)
 
@@ -60,7 +62,8 @@ def test_only_used_columns_are_solved_for():
     jacobian[:, 8:] = 0.0
     right = jnp.asarray(rng.normal(size=(6, 7)))
     damping = jnp.full(7, 1e-3)
-    one, other = (solve_least_norm(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
+    solve = jax.jit(solve_least_norm, static_argnums=3)
+    one, other = (solve(jnp.asarray(jacobian), right, damping, range(used)) for used in (8, 20))
     np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)
 
 
@@ -70,7 +73,7 @@ def test_blocks_one_after_another_solve_the_whole(regular, poses):
     rng = np.random.default_rng(poses)
     jacobian, blocks = block_triangular(rng, poses)
     right = rng.normal(size=(9, poses))
-    x = solve_blocks(jnp.asarray(jacobian), jnp.asarray(right), 1e-14, blocks, regular=regular)
+    x = jax.jit(lambda jacobian, right: solve_blocks(jacobian, right, 1e-14, blocks, regular=regular))(jacobian, right)
     residual = np.einsum("rcp,cp->rp", jacobian, x) - right
     # J J^T squares condition numbers, up to a thousand here; its damping is a hundredth of that
     np.testing.assert_allclose(residual, 0.0, atol=1e-9 * np.abs(x).max())
@@ -84,7 +87,10 @@ def test_the_inverse_does_what_solutions_are(poses):
     rng = np.random.default_rng(poses)
     jacobian, blocks = block_triangular(rng, poses)
     right = jnp.asarray(rng.normal(size=(9, poses)))
-    expected = solve_blocks(jnp.asarray(jacobian), right, 1e-14, blocks, regular=True)
-    found = jnp.einsum("pcr,rp->cp", inverse_jacobian(jnp.asarray(jacobian), 1e-14, blocks), right)
+    expected = jax.jit(lambda jacobian, right: solve_blocks(jacobian, right, 1e-14, blocks, regular=True))(
+        jacobian, right
+    )
+    inverse = jax.jit(lambda jacobian: inverse_jacobian(jacobian, 1e-14, blocks))(jacobian)
+    found = jnp.einsum("pcr,rp->cp", inverse, right)
     # the same operations in another order, of blocks whose conditions multiply up to 1e6
     np.testing.assert_allclose(found, expected, atol=1e-11 * np.abs(expected).max())
