@@ -20,6 +20,7 @@ from jaxkin.cli.arguments import (
     Unit,
     Verbose,
     WorkPicture,
+    Written,
 )
 from jaxkin.cli.errors import one_line_errors
 from jaxkin.cli.options import Options
@@ -56,6 +57,7 @@ def inspect(
     no_combine: PerContact = False,
     unit: Unit = None,
     png: Picture = None,
+    study_file: Written = None,
     verbose: Verbose = False,
 ) -> None:
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why.
@@ -78,6 +80,9 @@ def inspect(
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
         report.print_mechanism(run.checked(study).mechanism, contacts, verbose)
+        if study_file:
+            run.write_study(study, files, study_file)
+            report.say(f"\nWritten: {study_file}. Choose what drives in it, then run jaxkin sweep {study_file}")
 
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")

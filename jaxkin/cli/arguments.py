@@ -63,6 +63,26 @@ Verbose = Annotated[
 ]
 
 
+def _toml(path: Path | None) -> Path | None:
+    if path is not None and path.suffix.lower() != ".toml":
+        raise typer.BadParameter(f"a study is a TOML file: name a file that ends in .toml, got {path}")
+    if path is not None and not path.parent.is_dir():
+        raise typer.BadParameter(f"there is no folder {path.parent} for {path.name}: make it, or name another")
+    return path
+
+
+Written = Annotated[
+    Path | None,
+    typer.Option(
+        "--study",
+        metavar="FILE",
+        dir_okay=False,
+        callback=_toml,
+        help="Write all that was found as a study: bodies, joints with what each is known from, what can drive.",
+    ),
+]
+
+
 def _png(path: Path | None) -> Path | None:
     """Refused before hours of work that would end in no picture."""
     if path is not None and path.suffix.lower() != ".png":

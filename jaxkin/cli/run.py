@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -74,6 +75,17 @@ def found(files: Sequence[Path], options: Options, step: Callable[[str], None]) 
     step("finding contacts and joints")
     _ = checked(study).mechanism  # found once, here, where its step is shown
     return study
+
+
+def write_study(study: Study, files: Sequence[Path], target: Path) -> None:
+    """Write what was found as a study that names its geometry from where it stands."""
+    from jaxkin.io.study_writer import write_study
+
+    if files[0].suffix.lower() == ".toml":
+        raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
+    from_there = [os.path.relpath(file, target.parent).replace(os.sep, "/") for file in files]
+    parts = dict(zip((file.stem for file in files), from_there, strict=True))
+    write_study(study.mechanism, target, geometry=parts if len(files) > 1 else from_there[0])
 
 
 def checked(study: Study) -> Study:

@@ -33,6 +33,8 @@ class Study:
     ignore: Sequence[Sequence[str]] = ()
     joints: Sequence[Joint] = ()
     combine: bool = True
+    detect: bool = True
+    """Whether contacts are looked for; otherwise the joints by hand are all there are."""
     align: float | None = None
     """The largest misalignment that is taken for rounding: see `Mechanism.build`."""
     tolerance: Mapping[str, float] = field(default_factory=dict)
@@ -45,7 +47,7 @@ class Study:
     @cached_property
     def contacts(self) -> Contacts:
         """The contacts of the assembly, within the tolerances of the study."""
-        return self.assembly.contacts(**self.tolerance) if self.assembly else Contacts(())
+        return self.assembly.contacts(**self.tolerance) if self.assembly and self.detect else Contacts(())
 
     @cached_property
     def mechanism(self) -> Mechanism:
@@ -97,7 +99,13 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     said = read_study_file(path)
     joints = said.made_joints(path.name)
     common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "joints": joints}
-    common |= {"combine": said.combine, "ranges": said.ranges(), "unit": said.unit, "align": said.align}
+    common |= {
+        "combine": said.combine,
+        "detect": said.contacts,
+        "ranges": said.ranges(),
+        "unit": said.unit,
+        "align": said.align,
+    }
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent

@@ -149,6 +149,7 @@ class StudyFile(_Table):
     fixed: Annotated[list[str], Field(min_length=1)]
     rigid: list[Annotated[list[str], Field(min_length=2)]] = []
     ignore: list[Pair] = []
+    contacts: bool = True
     combine: bool = True
     align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()

@@ -160,7 +160,7 @@ def _contact_joint(contact: Contact, name: str, pair: tuple[str, str]) -> Joint:
 def _touching(contacts: Sequence[Contact], members: Sequence[int]) -> Evidence:
     """The evidence of a joint that stands for some of the contacts."""
     states = ", ".join(f"({contacts[k].state})" for k in members)
-    return Evidence(EvidenceKind.CONTACT, text=f"contact{'s' if len(members) > 1 else ''} {states}")
+    return Evidence(EvidenceKind.CONTACT, text=states)
 
 
 def _aligned(joints: Sequence[Joint], noise: Noise) -> tuple[tuple[Joint, ...], float, float]:

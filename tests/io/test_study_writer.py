@@ -1,0 +1,94 @@
+"""A study that was written makes the mechanism that it was written from."""
+
+from pathlib import Path
+
+import jax
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin.examples import EXAMPLES, path
+from reference import catalogue, mechanisms
+
+BY_HAND = {
+    "four-bar": mechanisms.planar_fourbar,
+    "cam": mechanisms.cam,
+    "Cardan": mechanisms.cardan_shafts,
+    "RSSR": mechanisms.rssr_linkage,
+    "ball in bore": mechanisms.ball_in_bore,
+    "hexapod": catalogue.hexapod,
+}
+
+
+def assert_same(found: jk.Mechanism, given: jk.Mechanism) -> None:
+    """The same parts, bodies and joints that move; frames but for rounding of the axes that they are made from."""
+    assert found.fixed == given.fixed and set(found.parts) == set(given.parts) and found.unit == given.unit
+    assert set(map(frozenset, found.bodies.values())) == set(map(frozenset, given.bodies.values()))
+    moving = {joint.name: joint for joint in found.all_joints if joint.freedoms}
+    assert moving.keys() == {joint.name for joint in given.all_joints if joint.freedoms}
+    for name, joint in moving.items():
+        other = given.joints[name]
+        assert (joint.parts, joint.movements) == (other.parts, other.movements)
+        np.testing.assert_allclose(joint.frames_1[:, :3, 2:], other.frames_1[:, :3, 2:], atol=1e-12)
+        assert float(joint.pitch) == float(other.pitch)
+    one, other = found.mobility(), given.mobility()
+    assert (one.freedoms, one.idle_freedoms, one.drivable) == (other.freedoms, other.idle_freedoms, other.drivable)
+
+
+@pytest.mark.parametrize("name", BY_HAND)
+def test_joints_by_hand(name, tmp_path):
+    given = BY_HAND[name]()
+    jk.write_study(given, tmp_path / "study.toml")
+    assert_same(jk.load_study(tmp_path / "study.toml").mechanism, given)
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] * (name != "fourbar")) for name in EXAMPLES]
+)
+def test_shipped_assemblies_need_no_detection(name, tmp_path):
+    given = jk.load(path(name)).mechanism(fixed=EXAMPLES[name].fixed)
+    jk.write_study(given, tmp_path / "study.toml", geometry=Path(path(name)).as_posix())
+    study = jk.load_study(tmp_path / "study.toml")
+    assert_same(study.mechanism, given)
+    assert study.assembly is not None and not study.assembly.found
+
+
+def test_it_is_swept_by_the_range_that_it_was_given(tmp_path):
+    given = mechanisms.planar_fourbar()
+    jk.write_study(given, tmp_path / "study.toml", drive={"A.phi": "0:90:4"})
+    motion, expected = jk.load_study(tmp_path / "study.toml").sweep(), given.sweep({"A": np.radians([0, 30, 60, 90])})
+    for one, other in zip(motion.displacements, expected.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-12)
+
+
+def test_without_a_range_it_says_what_can_drive(tmp_path):
+    jk.write_study(mechanisms.planar_fourbar(), tmp_path / "study.toml")
+    text = (tmp_path / "study.toml").read_text()
+    assert '# "A.phi" = "0:10:11"' in text and "a range for this" in text
+    with pytest.raises(ValueError, match="nothing is driven"):
+        _ = jk.load_study(tmp_path / "study.toml").drive
+
+
+def test_names_of_any_kind_come_back(tmp_path):
+    names = ['a "quoted" part', "tab\tand\x7f\x01", "Ünïcode <1>/bolt #2", "back\\slash"]
+    joints = [
+        jk.revolute(f"joint of {part}", before, part, point=(k, 0, 0), axis=(0, 0, 1))
+        for k, (before, part) in enumerate(zip(["ground", *names], names, strict=False))
+    ]
+    given = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    jk.write_study(given, tmp_path / "study.toml")
+    assert_same(jk.load_study(tmp_path / "study.toml").mechanism, given)
+
+
+def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path):
+    target = tmp_path / "study.toml"
+    changed = mechanisms.planar_fourbar().with_lengths({("crank", "A", "B"): 41.0})
+    with pytest.raises(ValueError, match=r"as after with_lengths: write mechanism\.close\(\)\.mechanism"):
+        jk.write_study(changed, target)
+    with pytest.raises(ValueError, match=r"say where they are from, as in geometry="):
+        jk.write_study(jk.load(path("fourbar")).mechanism(fixed=["ground"]), target)
+    with pytest.raises(ValueError, match="traced numbers"):
+        jax.jit(lambda each: jk.write_study(each, target))(mechanisms.planar_fourbar())
+    assert not list(tmp_path.iterdir())
+    jk.write_study(changed.close().mechanism, target)
+    assert_same(jk.load_study(target).mechanism, changed.close().mechanism)
