@@ -16,7 +16,7 @@ import numpy as np
 
 from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
-from jaxkin.joints.from_contacts import NEARLY, joints_from_contacts
+from jaxkin.joints.from_contacts import UNCLEAR_MARGIN, joints_from_contacts
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.twists import Twists, middle, twists
 from jaxkin.topology.bodies import bodies
@@ -24,18 +24,18 @@ from jaxkin.topology.bodies import bodies
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-LISTED = 8
+MAX_LISTED = 8
 """Ways out that are looked for at most: more are not read."""
-FEW = 3
-"""The same of mechanisms of more than `MANY` joints: to find each of these anew takes seconds."""
-MANY = 40
-_TRIED = 3
+MAX_LISTED_OF_LARGE = 3
+"""The same of mechanisms of more than `LARGE_MECHANISM` joints: to find each of these anew takes seconds."""
+LARGE_MECHANISM = 40
+_TRIALS_PER_LISTED = 3
 """Ways that are tried at most for each that is looked for."""
-_MOVES = 1e-6
+_MOVING_RATIO = 1e-6
 """Twist of a part over the largest of all, above which it moves."""
-_EXACT = 1e-5
+_EXACT_MISFIT = 1e-5
 """Misfit of a contact over the extent of the joints; those of exact models are smaller."""
-_FITS = ("e", "k", "o")
+_FIT_STATES = ("e", "k", "o")
 """States in which one surface is all around the other: what hinges, seats and balls are drawn for."""
 
 
@@ -67,20 +67,20 @@ class _Way(NamedTuple):
 
 def blocking_contacts(mechanism: Mechanism) -> tuple[BlockingContacts, ...]:
     """Single contacts or joints by hand without which parts of the mechanism could move; if there is none, the fewest
-    contacts of two parts. Those first that are more likely to be wrong, some `LISTED` at most, all of them tried.
+    contacts of two parts. Those first that are more likely to be wrong, some `MAX_LISTED` at most, all of them tried.
 
     Contacts are taken one by one here, however they were combined. Those of a joint by hand come last; before them
     those that are exact, and those of fits: faces that touch by chance are plane, and alone between their parts.
     """
-    judged = _Judged.of(mechanism)
+    judged = _ContactJudgement.of(mechanism)
     ways = [way for k in range(len(judged.joints)) if (way := judged.way([k]))]
     if not ways:
         ways = [way for some in judged.fewest() if (way := judged.way(some))]
     ways.sort(key=lambda way: way.rank)
-    listed = LISTED if len(mechanism.all_joints) <= MANY else FEW
+    listed = MAX_LISTED if len(mechanism.all_joints) <= LARGE_MECHANISM else MAX_LISTED_OF_LARGE
     before = mechanism.mobility().useful
     found: list[BlockingContacts] = []
-    for _, way in ways[: _TRIED * listed]:
+    for _, way in ways[: _TRIALS_PER_LISTED * listed]:
         if (tried := _tried(mechanism, way, before)) is not None:
             found.append(tried)
         if len(found) == listed:
@@ -97,7 +97,7 @@ def _tried(mechanism: Mechanism, way: BlockingContacts, before: int) -> Blocking
     return replace(way, freedoms=freedoms) if freedoms > before else None
 
 
-class _Judged(NamedTuple):
+class _ContactJudgement(NamedTuple):
     """The contacts and joints by hand of a mechanism at first order, at its assembled pose."""
 
     joints: Sequence[Joint]
@@ -110,7 +110,7 @@ class _Judged(NamedTuple):
     size: float
 
     @staticmethod
-    def of(mechanism: Mechanism) -> _Judged:
+    def of(mechanism: Mechanism) -> _ContactJudgement:
         """Those of a mechanism, and those that its parts that only spin would have."""
         contacts = all_contacts(mechanism)
         by_hand = [joint for joint in mechanism.all_joints if joint.name not in mechanism.contacts]
@@ -121,7 +121,7 @@ class _Judged(NamedTuple):
         source = {name: some[0] for name, some in found.contacts.items()}
         what = [source.get(joint.name, joint.name) for joint in joints]
         system = twists(joints, body_of, body_of[mechanism.fixed[0]])
-        return _Judged(
+        return _ContactJudgement(
             joints,
             what,
             body_of,
@@ -137,7 +137,9 @@ class _Judged(NamedTuple):
         if not len(gained):
             return None
         strength = np.abs(gained).max(axis=(0, 2))
-        moving = {b for b, moves in zip(self.system.bodies, strength > _MOVES * strength.max(), strict=True) if moves}
+        moving = {
+            b for b, moves in zip(self.system.bodies, strength > _MOVING_RATIO * strength.max(), strict=True) if moves
+        }
         parts = tuple(part for part in self.body_of if self.body_of[part] in moving)
         if self.resting.issuperset(parts):
             return None
@@ -153,9 +155,9 @@ class _Judged(NamedTuple):
         if not isinstance(first, Contact):
             return (1,) * 5
         others = sum(set(joint.parts) == set(first.parts) for joint in self.joints) - len(contacts)
-        exact = all(isinstance(each, Contact) and each.misfit < _EXACT * self.size for each in contacts)
-        fits = first.state in _FITS or first.region == "circle"
-        return 0, int(margin >= NEARLY), int(fits), int(others > 0), int(exact)
+        exact = all(isinstance(each, Contact) and each.misfit < _EXACT_MISFIT * self.size for each in contacts)
+        fits = first.state in _FIT_STATES or first.region == "circle"
+        return 0, int(margin >= UNCLEAR_MARGIN), int(fits), int(others > 0), int(exact)
 
     def fewest(self) -> Iterator[list[int]]:
         """For pairs of parts, the fewest of their joints without which something moves: each that is among such."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.spinning import SAME, Spin, spins
+from jaxkin.assembly.spinning import TWIST_TOLERANCE, Spin, spins
 from jaxkin.geometry.part import Part
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.joint import Joint
@@ -26,7 +26,7 @@ from jaxkin.topology.structure import LoopGroup
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-_PLACES = 6
+_SORTING_DIGITS = 6
 """Digits of the places by which parts are put in order: noise of the file is not to decide it."""
 
 Parts = list[str]
@@ -47,7 +47,7 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
     held = {part: spin for part, spin in held.items() if part not in kept}
     found, needed = dict(alone), []
     for loop_group in mechanism.structure.loop_groups if held else ():
-        judged = _Judged.of(mechanism, loop_group, held)
+        judged = _SpinCandidates.of(mechanism, loop_group, held)
         if judged is None:
             continue
         taken = judged.with_carriers()
@@ -66,7 +66,7 @@ def with_spinning(mechanism: Mechanism) -> Mechanism:
     return replace(mechanism, linkage=replace(mechanism.linkage, spinning=spinning))
 
 
-class _Judged(NamedTuple):
+class _SpinCandidates(NamedTuple):
     """The parts within one structure element that may be needless."""
 
     groups: list[Parts]
@@ -79,7 +79,7 @@ class _Judged(NamedTuple):
     """The order in which neighbours are taken as carriers: fixed ones first, then larger ones."""
 
     @staticmethod
-    def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _Judged | None:
+    def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _SpinCandidates | None:
         """Those of some parts all of whose joints are within the element; None where there are none."""
         solids = {part.name: part for part in mechanism.solids}
         joints = [mechanism.all_joints[k] for k in loop_group.joints]
@@ -90,7 +90,7 @@ class _Judged(NamedTuple):
         still = next((part for part in ends if part not in inside), None)
         if not inside or still is None:
             return None
-        scale = 10.0**-_PLACES * max(float(np.ptp(solids[part].box)) for part in inside)
+        scale = 10.0**-_SORTING_DIGITS * max(float(np.ptp(solids[part].box)) for part in inside)
         pairs = [joint.parts for joint in joints if set(joint.parts) <= set(inside)]
         order = {part: _place(solids[part], scale) for part in inside}
         groups = [sorted(group, key=order.__getitem__) for group in connected(inside, pairs)]
@@ -101,7 +101,7 @@ class _Judged(NamedTuple):
             extents = sorted(-np.ptp(solids[part].box, axis=0)) if part in solids else [0.0]
             return part not in mechanism.fixed, part in inside, *extents, *order.get(part, ())
 
-        return _Judged(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
+        return _SpinCandidates(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
 
     def is_needless(self, parts: Sequence[str]) -> bool:
         """Whether the others move no more freely without these parts, and these can do nothing but spin, each by
@@ -170,7 +170,7 @@ class _Judged(NamedTuple):
         def only(movement: str, one: str, other: str) -> bool:
             forbidden = complement(chain([movement], frames[None], np.zeros(freedoms([movement])))[1])
             relative = self.system.relative(self.row_of[one], self.row_of[other])
-            return bool(np.abs(forbidden @ relative).max(initial=0.0) < SAME)
+            return bool(np.abs(forbidden @ relative).max(initial=0.0) < TWIST_TOLERANCE)
 
         near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
         used = [neighbour for neighbour in near if neighbour not in idle]

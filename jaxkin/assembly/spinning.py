@@ -28,9 +28,9 @@ from jaxkin.mobility.twists import constraints, middle
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-ROUND = 0.84
+MIN_ROUNDNESS = 0.84
 """Least over greatest half width of a part that is round about an axis: a hexagon has 0.866, a square 0.707."""
-SAME = 1e-6
+TWIST_TOLERANCE = 1e-6
 """Entries of unit twists that are equal: far above rounding, far below design."""
 
 
@@ -81,18 +81,18 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     centre, _ = middle(joints)
     forbidden = np.concatenate([constraints(joint, centre, size) for joint in joints])
     _, strengths, directions = np.linalg.svd(forbidden, full_matrices=True)
-    free = directions[int((strengths > SAME).sum()) :]
+    free = directions[int((strengths > TWIST_TOLERANCE).sum()) :]
     _, turns, mixes = np.linalg.svd(free[:, :3].T, full_matrices=True)
-    if int((turns > SAME).sum()) != 1:
+    if int((turns > TWIST_TOLERANCE).sum()) != 1:
         return None
     turn, slides = mixes[0] @ free, (mixes[1:] @ free)[:, 3:]
     axis = turn[:3] / np.linalg.norm(turn[:3])
     along = np.abs(slides @ axis)
     point = np.cross(axis, turn[3:]) / np.linalg.norm(turn[:3])
-    pitched = len(free) == 1 and abs(turn[3:] @ axis) > SAME
-    if len(free) <= 2 and np.all(along > 1 - SAME) and not pitched:
+    pitched = len(free) == 1 and abs(turn[3:] @ axis) > TWIST_TOLERANCE
+    if len(free) <= 2 and np.all(along > 1 - TWIST_TOLERANCE) and not pitched:
         kind, movement = LOWER_PAIRS[1, len(free) - 1]
-    elif len(free) == 3 and np.all(along < SAME):
+    elif len(free) == 3 and np.all(along < TWIST_TOLERANCE):
         (kind, movement), point = LOWER_PAIRS[1, 2], np.zeros(3)
     else:
         return None
@@ -116,4 +116,4 @@ def _is_round(part: Part, spin: Spin) -> bool:
         else np.zeros(2)
     )
     inner = -(hull.equations[:, :2] @ centre + hull.equations[:, 2])
-    return bool(inner.min() > ROUND * np.linalg.norm(corners - centre, axis=1).max())
+    return bool(inner.min() > MIN_ROUNDNESS * np.linalg.norm(corners - centre, axis=1).max())

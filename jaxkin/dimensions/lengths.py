@@ -18,7 +18,7 @@ from jaxkin.dimensions.rearrange import Change, Layout, arrange
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
-MISFIT = 1e-9
+MAX_MISFIT = 1e-9
 """Largest error of a length, relative to the size of its part, at which lengths are said to hold together."""
 
 _ORDER = ("angle", "distance", "radius", "offset")
@@ -84,7 +84,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
         changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
         if not traced(misfit):
-            if not float(misfit) <= MISFIT:
+            if not float(misfit) <= MAX_MISFIT:
                 asked = ", ".join(f"{key!r}: {_shown(changes[key])}" for key in changes)
                 raise ValueError(
                     f"part {row!r} cannot have {asked} with all its other lengths as they are (they miss by "
@@ -93,7 +93,7 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
                 )
         else:
             # seen as the status NONFINITE of every pose: never as a wrong length
-            spoilt = jnp.where(misfit <= MISFIT, 0.0, jnp.nan)
+            spoilt = jnp.where(misfit <= MAX_MISFIT, 0.0, jnp.nan)
             joints = [
                 replace(joint, frames_1=joint.frames_1 + spoilt)
                 if row in [linkage.structure.row_of[part] for part in joint.parts]

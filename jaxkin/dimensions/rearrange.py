@@ -20,7 +20,7 @@ from jaxtyping import Array, Float
 from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
 
-STEPS = 60
+PLACEMENT_ITERATIONS = 60
 
 
 class Change(NamedTuple):
@@ -247,7 +247,7 @@ def _search(xp, loop, pairs: _Pairs, start):
 
 
 def _host_loop(step, positions):
-    for _ in range(STEPS):
+    for _ in range(PLACEMENT_ITERATIONS):
         positions, length = step(positions)
         if length < 1e-16:
             break
@@ -261,7 +261,7 @@ def _device_loop(step, positions):
 
     start = (jnp.asarray(0), positions, jnp.asarray(jnp.inf, positions.dtype))
     least = 2.0 * float(jnp.finfo(positions.dtype).eps)
-    return lax.while_loop(lambda carry: (carry[0] < STEPS) & (carry[2] > least), go, start)[1]
+    return lax.while_loop(lambda carry: (carry[0] < PLACEMENT_ITERATIONS) & (carry[2] > least), go, start)[1]
 
 
 @jax.custom_jvp

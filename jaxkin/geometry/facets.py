@@ -14,13 +14,13 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.components import components
 from jaxkin.geometry.pose import Points
 
-COPLANAR = 1e-3
+COPLANAR_ANGLE = 1e-3
 """Radians at which two triangles are still one flat facet; facets of curved faces meet at 1e-2 and more."""
 
-SMOOTH = 0.65
+SMOOTH_ANGLE = 0.65
 """Radians at which two facets may still be of one curved face: ten facets a turn."""
 
-SLIVER = 20.0
+SLIVER_HEIGHT = 20.0
 """A triangle lower than this many times the rounding has no normal worth the name."""
 
 Rows = Int[np.ndarray, "_"]
@@ -71,19 +71,19 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
     normals = cross / np.where(double > 0, double, 1.0)[:, None]
     edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=-1)
     heights = double / edges.max(axis=1)
-    leader = _leaders(triangles, pairs, edges, heights < SLIVER * tolerance)
+    leader = _leaders(triangles, pairs, edges, heights < SLIVER_HEIGHT * tolerance)
     normals = normals[leader]
 
     i, j = pairs.T
     angle = _angles(normals[i], normals[j])
     noise = tolerance * (1 / heights[leader[i]] + 1 / heights[leader[j]])
-    flat = (angle < np.maximum(COPLANAR, noise)) | (leader[i] == leader[j])
+    flat = (angle < np.maximum(COPLANAR_ANGLE, noise)) | (leader[i] == leader[j])
     label = components(len(triangles), np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], -1)]))
     # what bends by less than the angle from triangle to triangle is no plane all the same
     bent = np.flatnonzero(_bent(label, normals, corners, double, 5 * tolerance))
     label[bent] = label.max(initial=0) + 1 + np.arange(len(bent))
     label = np.unique(label, return_inverse=True)[1]
-    smooth = (angle < SMOOTH) & (label[i] != label[j])
+    smooth = (angle < SMOOTH_ANGLE) & (label[i] != label[j])
     return Facets(points, triangles, tolerance, normals, double / 2, label, pairs, pairs[smooth])
 
 

@@ -17,7 +17,7 @@ from jaxkin.geometry.refine import refined
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
-_STRAY = 0.1
+_AXIS_ALLOWANCE = 0.1
 """Radians by which a few normals that are not those of the surface may turn the axis that is guessed from all."""
 
 
@@ -73,7 +73,7 @@ def _plane(points: Points, normals: Points, angle: float) -> Plane:
 
 def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
     axis = np.linalg.eigh(normals.T @ normals)[1][:, 0]
-    if np.median(np.abs(normals @ axis)) > angle + _STRAY:
+    if np.median(np.abs(normals @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
     x = perpendicular(axis)
     y = np.cross(axis, x)
@@ -86,7 +86,7 @@ def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
 def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
     spread = normals - normals.mean(axis=0)
     axis = np.linalg.eigh(spread.T @ spread)[1][:, 0]
-    if np.median(np.abs(spread @ axis)) > angle + _STRAY:
+    if np.median(np.abs(spread @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
     # all tangent planes go through the apex
     apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)

@@ -45,8 +45,8 @@ class Part:
     """Red, green, blue in 0..1 where the file gives a colour."""
     notes: tuple[str, ...] = field(default=())
     """What of this part could not be read as one of the four surfaces, in words."""
-    grain: float = 0.0
-    """Length by which the corners are rounded that the surfaces were fitted to; 0 where the file says the surfaces."""
+    vertex_resolution: float = 0.0
+    """Length by which the vertices that the surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:

@@ -17,7 +17,7 @@ from jaxkin.geometry.torus import Torus
 
 Round = TypeVar("Round", Cylinder, Cone, Torus)
 
-_STEPS = 30
+_MAX_REFINEMENTS = 30
 
 
 def refined(surface: Round, points: Points) -> Round:
@@ -27,7 +27,7 @@ def refined(surface: Round, points: Points) -> Round:
     are on no such surface. The first step may go too far: the guess for a small piece of a torus is a poor one.
     """
     best, least, before, stuck = surface, np.inf, np.inf, 0
-    for _ in range(_STEPS):
+    for _ in range(_MAX_REFINEMENTS):
         distance = np.asarray(surface.distance(points))
         largest = float(np.abs(distance).max())
         stuck = 0 if largest < 0.9 * before else stuck + 1

@@ -15,32 +15,32 @@ import numpy as np
 from jaxkin.geometry.components import components, grouped
 from jaxkin.geometry.facets import Facets, Rows
 from jaxkin.geometry.surfaces import Plane, Surface
-from jaxkin.geometry.tessellation_test import CHORD, UNEVEN, arcs, on, surface_of
+from jaxkin.geometry.tessellation_test import CHORD_ANGLE, MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
 
-TIGHT, LOOSE = 0.5, 5.0
+TIGHT_TOLERANCE, LOOSE_TOLERANCE = 0.5, 5.0
 """Times the rounding: kernels cut faces less exactly than their numbers are written, but a few facets of a torus are
 within the looser one of a cylinder."""
 
-FAILURES = 300
+MAX_FAILURES = 300
 """Seeds in a row from which no face could be grown, after which the search for such ends: free forms take no longer."""
 
-WORK = 100_000_000
+MAX_WORK = 100_000_000
 """Triangles compared with a surface, each time counted, after which all search ends: bounds the time of any mesh."""
 
-_ROUNDS = 8
+_MAX_ROUNDS = 8
 """From few facets to the whole face in fewer: the surface of a few is off farther away."""
 
-_MOST = 0.9
+_FACET_SHARE = 0.9
 """Of the area of a facet: the surface that it is of, but for a small triangle of the next face in the same plane."""
 
-_LARGER = 100.0
+_MAX_AREA_RATIO = 100.0
 """How many times as large as another one the facets of one seed may be."""
 
-_SMALL = 10.0
+_SMALL_TRIANGLE_RATIO = 10.0
 """So many times as small as the triangles of a face is what is left out of it, if the face fits without."""
 
-_FLAT = 4.0
+_FLAT_FACE_RATIO = 4.0
 """A flat face is so many times as large as the facets of the free form around it."""
 
 
@@ -58,7 +58,7 @@ class Region:
         return self.surface is not None and not isinstance(self.surface, Plane)
 
 
-class Growth:
+class RegionGrowing:
     """The facets that some triangles make up, and which are left."""
 
     def __init__(self, mesh: Facets, rows: Rows) -> None:
@@ -97,10 +97,10 @@ class Growth:
         """All triangles by faces."""
         found = []
         order = np.argsort(-self.area, kind="stable")  # the noise of the corners matters least in the largest facets
-        for within, seeds in product((TIGHT, LOOSE), (self._stars, self._strips)):
+        for within, seeds in product((TIGHT_TOLERANCE, LOOSE_TOLERANCE), (self._stars, self._strips)):
             self.failures = 0
             for facet in order[self.free[order]].tolist():
-                if self.free[facet] and self.failures < FAILURES and self.work < WORK:
+                if self.free[facet] and self.failures < MAX_FAILURES and self.work < MAX_WORK:
                     grown = (self._grown(seed, within * self.mesh.tolerance) for seed in seeds(facet))
                     region = next((region for region in grown if region is not None), None)
                     found += [region] if region is not None else []
@@ -122,7 +122,7 @@ class Growth:
 
     def _alike(self, which: list[int] | np.ndarray) -> bool:
         """Whether facets are about as large: a flat face among them, or a part of the next face, costs no fit."""
-        return bool(self.area[which].max() < _LARGER * self.area[which].min())
+        return bool(self.area[which].max() < _MAX_AREA_RATIO * self.area[which].min())
 
     def _triangles(self, which: list[int] | np.ndarray) -> Rows:
         return self.rows[np.sort(np.concatenate([self.members[k] for k in which]))]
@@ -134,15 +134,15 @@ class Growth:
             return None
         taken = np.zeros(self.count, bool)
         taken[seed] = True
-        for _ in range(_ROUNDS):
-            good = on(self.mesh, surface, self.rows, 4 * within, CHORD)
+        for _ in range(_MAX_ROUNDS):
+            good = on(self.mesh, surface, self.rows, 4 * within, CHORD_ANGLE)
             self.work += len(self.rows)
             taken = np.append(taken, np.zeros(self._rid(good), bool))
             now = self._around(seed, good)
             better = surface_of(self.mesh, self._triangles(np.flatnonzero(now)), within, torus=True)
             if better is None:  # a triangle of the next face may happen to be near
                 areas = self.mesh.areas[self.rows]
-                good &= areas * _SMALL > np.median(areas[now[self.facet_of]])
+                good &= areas * _SMALL_TRIANGLE_RATIO > np.median(areas[now[self.facet_of]])
                 taken = np.append(taken, np.zeros(self._rid(good), bool))
                 now = self._around(seed, good)
                 better = surface_of(self.mesh, self._triangles(np.flatnonzero(now)), within, torus=True)
@@ -161,7 +161,7 @@ class Growth:
         The last facet of a face may lie in one plane with a small triangle of the next face.
         """
         share = np.bincount(self.facet_of, good * self.mesh.areas[self.rows]) / self.area
-        apart = np.flatnonzero(~good & (self.free & (share > _MOST))[self.facet_of])
+        apart = np.flatnonzero(~good & (self.free & (share > _FACET_SHARE))[self.facet_of])
         if len(apart):
             facet_of = self.facet_of.copy()
             facet_of[apart] = self.count + np.arange(len(apart))
@@ -182,7 +182,7 @@ class Growth:
         A flat face between two roundings and the facets next to it lie on one cylinder too, by symmetry.
         """
         wide = np.array([arcs(self.mesh, surface, self._triangles([k])).max() for k in seed])
-        return bool(wide.max() <= UNEVEN * (wide.min() if len(wide) == 3 else np.median(wide)))
+        return bool(wide.max() <= MAX_WIDTH_RATIO * (wide.min() if len(wide) == 3 else np.median(wide)))
 
     def _flat_and_rough(self) -> list[Region]:
         """What is left: facets that are flat faces, and what is on no surface."""
@@ -190,9 +190,11 @@ class Growth:
         rough = self.free.copy()
         for k in np.flatnonzero(self.free).tolist():
             near = [n for n in self.neighbours[k] if self.free[n]]
-            if not near or self.area[k] > _FLAT * np.max(self.area[near]):
+            if not near or self.area[k] > _FLAT_FACE_RATIO * np.max(self.area[near]):
                 rows = self._triangles([k])
-                found.append(Region(surface_of(self.mesh, rows, LOOSE * self.mesh.tolerance, one_facet=True), rows))
+                found.append(
+                    Region(surface_of(self.mesh, rows, LOOSE_TOLERANCE * self.mesh.tolerance, one_facet=True), rows)
+                )
                 rough[k] = False
         label = components(self.count, self.pairs[np.all(rough[self.pairs], axis=1)])
         left = np.flatnonzero(rough)

@@ -10,13 +10,13 @@ import numpy as np
 
 from jaxkin.geometry.components import components, grouped
 from jaxkin.geometry.facets import Facets
-from jaxkin.geometry.region_growing import LOOSE, TIGHT, Growth, Region
-from jaxkin.geometry.tessellation_test import UNEVEN, arcs, on, surface_of
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
+from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
 
-_STRAY = 0.8
+_STRAY_ANGLE = 0.8
 """Radians between a lone triangle and the surface that holds its corners, next to facets of that surface."""
 
-_FEW = 4
+_MAX_LEFTOVER = 4
 """Triangles left over between faces: each may be of one of them."""
 
 
@@ -27,8 +27,8 @@ def regions(mesh: Facets) -> list[Region]:
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
         one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
-        surface = surface_of(mesh, rows, LOOSE * mesh.tolerance, one_facet=one)
-        found += [Region(surface, rows)] if surface is not None else Growth(mesh, rows).regions()
+        surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one)
+        found += [Region(surface, rows)] if surface is not None else RegionGrowing(mesh, rows).regions()
     found = [piece for region in found for piece in _without_flats(mesh, region)]
     return sorted(_with_strays(mesh, found), key=lambda region: region.rows[0])
 
@@ -42,9 +42,9 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
     widths = np.zeros(int(facet.max()) + 1)
     np.maximum.at(widths, facet, arc)
     # a lone triangle may be as wide as the mesher liked, where the face has a jagged rim
-    wide_ones = np.flatnonzero((np.bincount(facet) > 1) & (widths > UNEVEN * np.median(widths)))
+    wide_ones = np.flatnonzero((np.bincount(facet) > 1) & (widths > MAX_WIDTH_RATIO * np.median(widths)))
     wide = [region.rows[facet == k] for k in wide_ones]
-    flats = [Region(surface_of(mesh, rows, LOOSE * mesh.tolerance, one_facet=True), rows) for rows in wide]
+    flats = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in wide]
     return [Region(region.surface, np.setdiff1d(region.rows, np.concatenate([[], *wide]))), *flats]
 
 
@@ -59,7 +59,7 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
             owner[region.rows] = k
     lone = np.bincount(mesh.facet_of)[mesh.facet_of] == 1
     for region in found:
-        if len(region.rows) == 1 or (region.surface is None and len(region.rows) <= _FEW):
+        if len(region.rows) == 1 or (region.surface is None and len(region.rows) <= _MAX_LEFTOVER):
             lone[region.rows] = True
     left = len(owner) + 1
     while np.sum(owner < 0) < left:
@@ -69,7 +69,7 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
             one, beyond = one[edge], owner[other[edge]]
             for k in np.unique(beyond).tolist():
                 rows = np.unique(one[beyond == k])
-                owner[rows[on(mesh, found[k].surface, rows, TIGHT * mesh.tolerance, _STRAY)]] = k
+                owner[rows[on(mesh, found[k].surface, rows, TIGHT_TOLERANCE * mesh.tolerance, _STRAY_ANGLE)]] = k
     result = []
     for k, region in enumerate(found):
         rows = np.flatnonzero(owner == k) if region.is_round else region.rows[owner[region.rows] < 0]

@@ -11,10 +11,10 @@ from jaxkin.geometry.weld import Corners, Welded
 
 Rows = Int[np.ndarray, "_"]
 
-_SAMPLES = 200
+_SIDE_SAMPLES = 200
 """Triangles at whose middles the sides are checked."""
 
-_SOLID_ANGLES = 8_000_000
+_MAX_SOLID_ANGLES = 8_000_000
 """Bounds the time of that check."""
 
 
@@ -75,7 +75,7 @@ def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "poin
     return numbers
 
 
-def wrong_side(corners: Corners, tolerance: float, samples: int = _SAMPLES) -> Points | None:
+def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES) -> Points | None:
     """A place where a solid is not on the inner side of its surface, or also on the outer one; None if none was found.
 
     Looked for at the largest triangles and at some at random: solids that overlap or touch in one surface, surfaces
@@ -83,7 +83,7 @@ def wrong_side(corners: Corners, tolerance: float, samples: int = _SAMPLES) -> P
     """
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     double = np.linalg.norm(cross, axis=-1)
-    count = max(2, min(samples, _SOLID_ANGLES // (2 * len(corners)), len(corners)))
+    count = max(2, min(samples, _MAX_SOLID_ANGLES // (2 * len(corners)), len(corners)))
     largest = np.argsort(-double, kind="stable")[: count // 2]
     chance = np.random.default_rng(0).choice(len(corners), count, p=double / double.sum())
     some = np.unique(np.concatenate([largest, chance[: count - len(largest)]]))

@@ -14,19 +14,19 @@ from jaxkin.geometry.fit import fit_surface, fit_torus
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
-CHORD = 0.36
+CHORD_ANGLE = 0.36
 """Radians between a facet and its surface at the corners of the facet: a polygon of nine sides and more is round."""
 
-UNEVEN = 3.0
+MAX_WIDTH_RATIO = 3.0
 """How many times the arc of one facet may be that of its neighbours on the same face."""
 
-_SHALLOW = 20.0
+_SHALLOW_DEPTH = 20.0
 """Times the rounding: how deep under a surface triangles may lie that count as one facet since they bend by less."""
 
-_CORNERS = 8
+_MAX_FACET_CORNERS = 8
 """Of a flat facet on a ball or a torus at most: what has more is a flat face with a round rim."""
 
-_FITTED = 600
+_MAX_FITTED_POINTS = 600
 """Points that a surface is fitted to; all others are compared with it."""
 
 
@@ -40,20 +40,24 @@ def surface_of(
     corners = mesh.points[mesh.triangles[rows]].reshape(-1, 3)
     normals = mesh.normals[rows][:, None].repeat(3, 1) if one_facet else mesh.corner_normals(rows)
     _, first = np.unique(mesh.triangles[rows], return_index=True)
-    some = first if len(first) <= _FITTED else np.random.default_rng(0).choice(first, _FITTED, replace=False)
+    some = (
+        first
+        if len(first) <= _MAX_FITTED_POINTS
+        else np.random.default_rng(0).choice(first, _MAX_FITTED_POINTS, replace=False)
+    )
     points, directions = corners[some], normals.reshape(-1, 3)[some]
-    surface = fit_surface(points, directions, tolerance, CHORD)
+    surface = fit_surface(points, directions, tolerance, CHORD_ANGLE)
     if surface is None and torus:
         surface = fit_torus(points, directions, tolerance)
     if surface is None or np.abs(surface.distance(corners)).max() > tolerance:
         return None
     if isinstance(surface, Plane):
-        return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD)) else None
+        return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD_ANGLE)) else None
     sizes = _corner_counts(mesh, rows)
     # four rulings, or five points: any three rulings lie on some cylinder, any four points on some sphere
-    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD)) <= 0.9:
+    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD_ANGLE)) <= 0.9:
         return None
-    if isinstance(surface, Sphere | Torus) and sizes.max() > _CORNERS and _cut(mesh, surface, rows, sizes):
+    if isinstance(surface, Sphere | Torus) and sizes.max() > _MAX_FACET_CORNERS and _cut(mesh, surface, rows, sizes):
         return None
     return None if isinstance(surface, Torus) and _rings(surface, corners[first], 4 * tolerance) < 4 else surface
 
@@ -91,7 +95,9 @@ def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray)
     """Whether one of the facets with many corners is as deep as a flat cut; shallower ones are facets lost in noise."""
     facet = np.unique(mesh.facet_of[rows], return_inverse=True)[1]
     middles = mesh.points[mesh.triangles[rows]].mean(axis=1)
-    return bool(np.any(np.abs(surface.distance(middles[corners[facet] > _CORNERS])) > _SHALLOW * mesh.tolerance))
+    return bool(
+        np.any(np.abs(surface.distance(middles[corners[facet] > _MAX_FACET_CORNERS])) > _SHALLOW_DEPTH * mesh.tolerance)
+    )
 
 
 def _rings(surface: Torus, points: np.ndarray, tolerance: float) -> int:

@@ -16,7 +16,7 @@ from jaxkin.geometry.components import components
 Corners = Float[np.ndarray, "_ 3 3"]
 Rows = Int[np.ndarray, "_ 3"]
 
-_LEAST = 1e-2
+_MIN_WEDGE = 1e-2
 """Radians of a wedge of material; below it two triangles lie on each other but for rounding, with material apart."""
 
 
@@ -90,7 +90,7 @@ def _wedges(
     found, taken = [], np.zeros(len(owner), bool)
     for one in np.flatnonzero(forward):
         wedge = np.mod(angle[one] - angle, 2 * np.pi)
-        wedge = np.where(wedge < _LEAST, 2 * np.pi, wedge)
+        wedge = np.where(wedge < _MIN_WEDGE, 2 * np.pi, wedge)
         wedge[forward | taken] = np.inf
         # chords of a ball and of its socket pierce each other: what else joins two triangles says more than the angle
         akin = (body == body[one]) & np.isfinite(wedge)

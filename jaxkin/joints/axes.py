@@ -11,7 +11,7 @@ Points = Float[np.ndarray, "_ 3"]
 Star = tuple[int, Int[np.ndarray, "lines"]]
 """A point, by its index, and the lines through it."""
 
-CROSSING = 0.1
+MIN_CROSSING_ANGLE = 0.1
 """Radians. The point where two axes meet is known to the noise over the sine of their angle: nearer to parallel, it is
 not well enough known to say which other axes pass through it."""
 
@@ -107,8 +107,8 @@ def _stars(lines: Points, axes: Points, nodes: Points, noise: float) -> tuple[li
     between = lines[None] - lines[:, None]
     normals = np.cross(axes[:, None], axes[None])
     sines = np.linalg.norm(normals, axis=-1)
-    gaps = np.sum(between * normals, axis=-1) / np.maximum(sines, CROSSING)
-    crossings = np.argwhere(np.triu((sines > CROSSING) & (np.abs(gaps) <= noise)))
+    gaps = np.sum(between * normals, axis=-1) / np.maximum(sines, MIN_CROSSING_ANGLE)
+    crossings = np.argwhere(np.triu((sines > MIN_CROSSING_ANGLE) & (np.abs(gaps) <= noise)))
     for i, j in sorted(crossings.tolist(), key=lambda pair: -sines[*pair]):
         if any(i in members and j in members for _, members in stars):
             continue

@@ -17,7 +17,7 @@ from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, align, movements, regularise
 
-NEARLY = 3e-4
+UNCLEAR_MARGIN = 3e-4
 """Radians, or lengths per size of the assembly: what contacts forbid by less, they were perhaps meant to allow."""
 
 
@@ -76,7 +76,7 @@ def joints_from_contacts(
                 members,
             )
         )
-        if lower.margin < NEARLY:
+        if lower.margin < UNCLEAR_MARGIN:
             states = ", ".join(f"({contacts[k].state})" for k in members)
             notes.append(
                 f"joint {name!r} is {lower.kind}, but its contacts {states} forbid more by only {lower.margin:.1g} "

@@ -24,8 +24,9 @@ from jaxkin.joints.directions import align_directions
 
 Frames = Float[np.ndarray, "frames 4 4"]
 
-_MOST = 1e-4
-"""Radians, as of `Assembly.contacts`."""
+_MAX_ANGLE = 1e-4
+"""Largest angle that counts as noise, radians: the default angle tolerance of `Assembly.contacts`, since surfaces that
+are farther apart are not in contact."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +43,12 @@ class Noise:
         """The length over which the two are equivalent: the size of the assembly."""
         return self.length / self.angle
 
-    def with_doubt(self, angle: float, length: float) -> Noise:
-        """The same, enlarged where directions and places are known less well, up to what is no contact any more."""
-        factor = max(1.0, min(max(angle / self.angle, length / self.length), _MOST / self.angle))
+    def with_uncertainty(self, angle: float, length: float) -> Noise:
+        """Enlarge this noise to given uncertainties of angles (radians) and lengths, up to `_MAX_ANGLE` of the angle.
+
+        Both entries grow by one factor, so that `size` stays.
+        """
+        factor = max(1.0, min(max(angle / self.angle, length / self.length), _MAX_ANGLE / self.angle))
         return Noise(float(factor * self.angle), float(factor * self.length))
 
     @staticmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict, deque
 from collections.abc import Sequence
 
-from jaxkin.topology.graph import Circuit, Graph, Step
+from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
 
 def fundamental_circuits(graph: Graph, chords: Sequence[int]) -> tuple[Circuit, ...]:
@@ -14,7 +14,7 @@ def fundamental_circuits(graph: Graph, chords: Sequence[int]) -> tuple[Circuit, 
     Raises ValueError where the other joints are no spanning tree.
     """
     left = set(range(len(graph.ends))) - set(chords)
-    came: dict[int, Step] = {}
+    came: dict[int, WalkStep] = {}
     depth = {0: 0}
     queue = deque([0])
     while queue:
@@ -30,20 +30,20 @@ def fundamental_circuits(graph: Graph, chords: Sequence[int]) -> tuple[Circuit, 
         raise ValueError("without them some parts hang on nothing while a loop remains; every loop must lose one joint")
 
     def through_tree(start: int, end: int) -> Circuit:
-        up: list[Step] = []
-        down: list[Step] = []
+        up: list[WalkStep] = []
+        down: list[WalkStep] = []
         while start != end:
             higher = depth[start] >= depth[end]
             step = came[start if higher else end]
             if higher:
-                up.append(Step(step.joint, -step.sign))
+                up.append(WalkStep(step.joint, -step.sign))
                 start = graph.tail(step)
             else:
                 down.append(step)
                 end = graph.tail(step)
         return (*up, *reversed(down))
 
-    return tuple((Step(chord, 1), *through_tree(graph.ends[chord][1], graph.ends[chord][0])) for chord in chords)
+    return tuple((WalkStep(chord, 1), *through_tree(graph.ends[chord][1], graph.ends[chord][0])) for chord in chords)
 
 
 def aligned(circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
@@ -73,4 +73,4 @@ def aligned(circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
 
 def turned(circuit: Circuit) -> Circuit:
     """The circuit travelled the other way."""
-    return tuple(Step(joint, -sign) for joint, sign in reversed(circuit))
+    return tuple(WalkStep(joint, -sign) for joint, sign in reversed(circuit))

@@ -12,9 +12,9 @@ from collections import deque
 from heapq import heappop, heappush
 
 from jaxkin.topology.chords import turned
-from jaxkin.topology.graph import Circuit, Graph, Step
+from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
-_EFFORT = 1000
+_MAX_TRIALS = 1000
 """Joints times starting parts that are tried for the fewest joints in all: every part of small mechanisms, one part of
 large ones, so that none takes long."""
 
@@ -24,26 +24,26 @@ def directed_circuits(graph: Graph, loop_group: tuple[int, ...], upper: int) -> 
 
     As for the chords of Eq. (3), the last joint is travelled from part 1 to part 2. `upper` is a row of the loop group.
     """
-    around: dict[int, list[tuple[Step, int]]] = {}
+    around: dict[int, list[tuple[WalkStep, int]]] = {}
     for joint in loop_group:
         row1, row2 = graph.ends[joint]
-        around.setdefault(row1, []).append((Step(joint, 1), row2))
-        around.setdefault(row2, []).append((Step(joint, -1), row1))
+        around.setdefault(row1, []).append((WalkStep(joint, 1), row2))
+        around.setdefault(row2, []).append((WalkStep(joint, -1), row1))
     others = sorted(around.keys() - {upper})
-    starts = [upper, *others][: max(1, _EFFORT // len(loop_group))]
+    starts = [upper, *others][: max(1, _MAX_TRIALS // len(loop_group))]
     circuits = min((_ears(graph, around, start) for start in starts), key=lambda found: sum(map(len, found)))
-    if any(Step(loop_group[-1], -1) in circuit for circuit in circuits):
+    if any(WalkStep(loop_group[-1], -1) in circuit for circuit in circuits):
         circuits = list(map(turned, circuits))
     return tuple(sorted(circuits, key=lambda circuit: (len(circuit), sorted(circuit))))
 
 
-def _ears(graph: Graph, around: dict[int, list[tuple[Step, int]]], start: int) -> list[Circuit]:
+def _ears(graph: Graph, around: dict[int, list[tuple[WalkStep, int]]], start: int) -> list[Circuit]:
     """Circuits of an ear decomposition, the shortest first at each stage, of equal ones that with the shorter ear.
 
     Lengths in the queue are those of an earlier stage: a step is measured again when it comes up, and when a new
     circuit passes its row, since that may have shortened it.
     """
-    leaving: dict[int, list[tuple[Step, int]]] = {start: []}
+    leaving: dict[int, list[tuple[WalkStep, int]]] = {start: []}
     directed: set[int] = set()
     reached = {start: 0}
     queue = [(0, 0, 0, step) for step, _ in around[start]]
@@ -73,9 +73,9 @@ def _ears(graph: Graph, around: dict[int, list[tuple[Step, int]]], start: int) -
 
 def _shortest(
     graph: Graph,
-    around: dict[int, list[tuple[Step, int]]],
-    leaving: dict[int, list[tuple[Step, int]]],
-    first: Step,
+    around: dict[int, list[tuple[WalkStep, int]]],
+    leaving: dict[int, list[tuple[WalkStep, int]]],
+    first: WalkStep,
 ) -> Circuit:
     """The shortest circuit that begins with a step out of the directed joints and, once back, keeps their direction."""
     start, row = graph.tail(first), graph.head(first)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from jaxkin.topology.graph import Graph, Step
+from jaxkin.topology.graph import Graph, WalkStep
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,14 @@ class StructureElement:
     """Number of the element above; None for the root."""
 
 
-class Node(NamedTuple):
+class ElementNode(NamedTuple):
     """A structure element in numbers."""
 
     joints: tuple[int, ...]
     """Joints of its loops, rising."""
     rows: tuple[int, ...]
     """The upper adjacent part first."""
-    step: Step | None
+    step: WalkStep | None
     """Over the joint above, downwards."""
     above: int | None
     depth: int
@@ -50,7 +50,7 @@ class Node(NamedTuple):
         return len(self.joints) - len(self.rows) + 1
 
 
-def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
+def element_tree(graph: Graph, root: int) -> tuple[ElementNode, ...]:
     """The elements, level by level from the one that holds the root row.
 
     The paper ties elements by joints only. Here those that share a part hang below the one that holds the part first;
@@ -64,7 +64,7 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
             groups_at[row].append(loop_group)
     in_loops = {joint for loop_group in loop_groups for joint in loop_group}
 
-    def below_joint(row: int, step: Step | None, above: int | None, depth: int) -> Node:
+    def below_joint(row: int, step: WalkStep | None, above: int | None, depth: int) -> ElementNode:
         loop_group = groups_at[row][0] if len(groups_at[row]) == 1 else ()
         return _node(graph, row, loop_group, step, above, depth)
 
@@ -73,7 +73,7 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
     number = 0
     while number < len(nodes):
         node = nodes[number]
-        below: list[Node] = []
+        below: list[ElementNode] = []
         lower: list[int] = []
         for row in node.rows:
             new = [
@@ -97,7 +97,7 @@ def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
     return tuple(nodes)
 
 
-def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
+def named(nodes: Sequence[ElementNode], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
     """The elements by the names of rows and joints; loops are numbered element by element."""
     elements: list[StructureElement] = []
     first = 0
@@ -118,7 +118,7 @@ def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> 
 
 
 def _node(
-    graph: Graph, row: int, loop_group: tuple[int, ...], step: Step | None, above: int | None, depth: int
-) -> Node:
+    graph: Graph, row: int, loop_group: tuple[int, ...], step: WalkStep | None, above: int | None, depth: int
+) -> ElementNode:
     others = {other for joint in loop_group for other in graph.ends[joint]} - {row}
-    return Node(loop_group, (row, *sorted(others)), step, above, depth)
+    return ElementNode(loop_group, (row, *sorted(others)), step, above, depth)

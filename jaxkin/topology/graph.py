@@ -9,7 +9,7 @@ from typing import NamedTuple
 from jaxkin.topology.components import biconnected
 
 
-class Step(NamedTuple):
+class WalkStep(NamedTuple):
     """A joint as travelled in a circuit."""
 
     joint: int
@@ -17,7 +17,7 @@ class Step(NamedTuple):
     """+1 from part 1 to part 2, -1 against it."""
 
 
-Circuit = tuple[Step, ...]
+Circuit = tuple[WalkStep, ...]
 """A closed walk that meets no part twice."""
 
 
@@ -30,19 +30,19 @@ class Graph:
     """For each joint the rows of part 1 and part 2; the same row twice for a joint between two fixed parts."""
 
     @cached_property
-    def around(self) -> tuple[tuple[tuple[Step, int], ...], ...]:
+    def around(self) -> tuple[tuple[tuple[WalkStep, int], ...], ...]:
         """For each row the steps that leave it, with the row that each leads to."""
-        around: list[list[tuple[Step, int]]] = [[] for _ in range(self.rows)]
+        around: list[list[tuple[WalkStep, int]]] = [[] for _ in range(self.rows)]
         for joint, (row1, row2) in enumerate(self.ends):
-            around[row1].append((Step(joint, 1), row2))
-            around[row2].append((Step(joint, -1), row1))
+            around[row1].append((WalkStep(joint, 1), row2))
+            around[row2].append((WalkStep(joint, -1), row1))
         return tuple(map(tuple, around))
 
-    def tail(self, step: Step) -> int:
+    def tail(self, step: WalkStep) -> int:
         """The row that a step leaves."""
         return self.ends[step.joint][0 if step.sign > 0 else 1]
 
-    def head(self, step: Step) -> int:
+    def head(self, step: WalkStep) -> int:
         """The row that a step leads to."""
         return self.ends[step.joint][1 if step.sign > 0 else 0]
 

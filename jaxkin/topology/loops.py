@@ -9,8 +9,8 @@ from heapq import heapify, heappop, heappush
 
 from jaxkin.topology.chords import aligned, fundamental_circuits
 from jaxkin.topology.cycle_basis import directed_circuits
-from jaxkin.topology.elements import Node
-from jaxkin.topology.graph import Circuit, Graph, Step
+from jaxkin.topology.elements import ElementNode
+from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
 
 @dataclass(frozen=True)
@@ -19,14 +19,16 @@ class Loop:
 
     path: tuple[str, ...]
     """Names of parts and joints in turn, from the first part to the joint that leads back to it."""
-    joints: tuple[Step, ...]
+    joints: tuple[WalkStep, ...]
     """(joint, sign) in the order of the path: the joint's column, +1 where travelled from part 1 to part 2, else -1."""
 
     def __str__(self) -> str:
         return " - ".join((*self.path, self.path[0]))
 
 
-def loop_data(graph: Graph, nodes: Sequence[Node], chords: Sequence[int] | None) -> tuple[tuple[Circuit, ...], ...]:
+def loop_data(
+    graph: Graph, nodes: Sequence[ElementNode], chords: Sequence[int] | None
+) -> tuple[tuple[Circuit, ...], ...]:
     """For each element its independent loops: all in one direction, in the order and from the parts of Section 4.2.
 
     With chords, their loops (Eq. 3), turned where one direction asks for it. Raises ValueError where the chords are not

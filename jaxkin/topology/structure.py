@@ -13,7 +13,7 @@ from jaxtyping import Int
 
 from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
 from jaxkin.topology.describe import describe
-from jaxkin.topology.elements import Node, StructureElement, element_tree, named
+from jaxkin.topology.elements import ElementNode, StructureElement, element_tree, named
 from jaxkin.topology.graph import Circuit, Graph
 from jaxkin.topology.loops import Loop, loop_data
 
@@ -135,7 +135,7 @@ class Structure:
         return Graph(len(self.parts), ends)
 
     @cached_property
-    def _nodes(self) -> tuple[Node, ...]:
+    def _nodes(self) -> tuple[ElementNode, ...]:
         return element_tree(self._graph, self.parts.index(self.row_of[self.fixed[0]]))
 
     @cached_property
