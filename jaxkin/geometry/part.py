@@ -46,7 +46,7 @@ class Part:
     notes: tuple[str, ...] = field(default=())
     """What of this part could not be read as one of the four surfaces, in words."""
     vertex_resolution: float = 0.0
-    """Length by which the vertices that the surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
+    """Length by which the vertices that surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:
