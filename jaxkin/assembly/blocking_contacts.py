@@ -18,6 +18,7 @@ from jaxkin.assembly.to_mechanism import all_contacts, without_contacts
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.from_contacts import UNCLEAR_MARGIN, joints_from_contacts
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.twists import Twists, middle, twists
 from jaxkin.topology.bodies import bodies
 
@@ -115,9 +116,9 @@ class _ContactJudgement(NamedTuple):
         contacts = all_contacts(mechanism)
         by_hand = [joint for joint in mechanism.all_joints if joint.name not in mechanism.contacts]
         found = joints_from_contacts(contacts, mechanism.parts, combine=False)
-        ties = [joint.parts for joint in by_hand if joint.kind == "fixed"]
+        ties = [joint.parts for joint in by_hand if joint.kind == JointKind.FIXED]
         body_of = bodies(mechanism.parts, mechanism.fixed, ties)
-        joints: list[Joint] = [*found.joints, *(joint for joint in by_hand if joint.kind != "fixed")]
+        joints: list[Joint] = [*found.joints, *(joint for joint in by_hand if joint.kind != JointKind.FIXED)]
         source = {name: some[0] for name, some in found.contacts.items()}
         what = [source.get(joint.name, joint.name) for joint in joints]
         system = twists(joints, body_of, body_of[mechanism.fixed[0]])

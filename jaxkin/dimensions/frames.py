@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.pose import RIGID_TOLERANCE, is_rigid
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
@@ -82,10 +83,9 @@ def _pose(place: Place, pose):
     array = np.asarray(pose, float)
     if array.shape != (4, 4) or not np.all(np.isfinite(array)):
         raise ValueError(f"the frame of {place!r} must be a 4x4 pose of finite numbers, got shape {array.shape}")
-    turn = array[:3, :3]
-    if np.abs(turn.T @ turn - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0 or np.any(array[3] != [0, 0, 0, 1]):
+    if not is_rigid(array):
         raise ValueError(
             f"the frame of {place!r} is no rigid pose: its first three columns must be a right-handed rotation "
-            "(orthonormal within 1e-9), its last row 0, 0, 0, 1"
+            f"(orthonormal within {RIGID_TOLERANCE:g}), its last row 0, 0, 0, 1"
         )
     return array

@@ -13,6 +13,10 @@ Vector = Float[np.ndarray, "3"]
 Points = Float[np.ndarray, "*batch 3"]
 Pose = Float[np.ndarray, "4 4"]
 
+RIGID_TOLERANCE = 1e-6
+"""Largest error of the entries of a matrix that is taken for a rigid pose: poses that went through single precision are
+rigid to a few times 1e-7."""
+
 
 def unit(vector: Vector) -> Vector:
     """The vector divided by its length; a zero or non-finite vector is refused with ValueError."""
@@ -44,6 +48,16 @@ def inverse(pose: Pose) -> Pose:
     result[:3, :3] = pose[:3, :3].T
     result[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
     return result
+
+
+def is_rigid(matrix: Pose) -> bool:
+    """Whether a 4x4 matrix of finite numbers is a right-handed rotation with a translation (`RIGID_TOLERANCE`).
+
+    The columns x, y, z of a rotation R satisfy R^T R = I and det R = 1; the last row is 0, 0, 0, 1.
+    """
+    turn = matrix[:3, :3]
+    errors = np.concatenate([(turn.T @ turn - np.eye(3)).ravel(), matrix[3] - [0.0, 0.0, 0.0, 1.0]])
+    return bool(np.all(np.isfinite(matrix)) and np.abs(errors).max() <= RIGID_TOLERANCE and np.linalg.det(turn) > 0)
 
 
 def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:

@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
-from jaxkin.geometry.pose import frame
+from jaxkin.geometry.pose import frame, is_rigid
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 
@@ -109,23 +109,12 @@ def contact_joint(
             f"joint {name!r}: contact state ({state}) has {len(movements)} frames (Table 1), got {len(frames)}"
         )
     for number, pose in enumerate(frames, start=1):
-        if not traced(pose) and not _is_rigid(np.asarray(pose, float)):
+        if not traced(pose) and not is_rigid(np.asarray(pose, float)):
             raise ValueError(
                 f"joint {name!r}: frame {number} is no rigid pose: its first three columns must be perpendicular unit "
                 f"vectors, right-handed, its last row 0, 0, 0, 1; got {np.asarray(pose).tolist()}"
             )
     return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
-
-
-def _is_rigid(pose: np.ndarray) -> bool:
-    """Within 1e-6, which is what a pose in single precision is good for."""
-    axes = pose[:3, :3]
-    return bool(
-        np.all(np.isfinite(pose))
-        and np.allclose(pose[3], [0.0, 0.0, 0.0, 1.0], atol=1e-6)
-        and np.allclose(axes.T @ axes, np.eye(3), atol=1e-6)
-        and np.linalg.det(axes) > 0
-    )
 
 
 def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:

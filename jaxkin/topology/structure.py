@@ -121,9 +121,9 @@ class Structure:
 
         `plot().savefig("loops.png")` writes it. Raises ValueError for more parts than a drawing can show.
         """
-        from jaxkin.topology.plotting import plot
+        from jaxkin.view.structure import plot_structure
 
-        return plot(self)
+        return plot_structure(self)
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)
