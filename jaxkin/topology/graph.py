@@ -1,4 +1,4 @@
-"""The graph of a mechanism: parts are its rows, joints its columns (Eq. 2)."""
+"""The graph of a mechanism: parts are the rows, joints the columns of the incidence matrix (Eq. 2)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from jaxkin.topology.components import biconnected
 
 
 class WalkStep(NamedTuple):
-    """A joint as travelled in a circuit."""
+    """One step of a walk through the graph: a joint, and the direction in which it is travelled."""
 
     joint: int
     sign: int
@@ -18,20 +18,21 @@ class WalkStep(NamedTuple):
 
 
 Circuit = tuple[WalkStep, ...]
-"""A closed walk that meets no part twice."""
+"""A closed walk through the graph that meets no part twice."""
 
 
 @dataclass(frozen=True)
 class Graph:
-    """Parts and joints as numbers; the fixed parts are one row."""
+    """Parts (rows) and joints by their indices; all fixed parts are one row."""
 
     rows: int
+    """Number of rows."""
     ends: tuple[tuple[int, int], ...]
     """For each joint the rows of part 1 and part 2; the same row twice for a joint between two fixed parts."""
 
     @cached_property
     def around(self) -> tuple[tuple[tuple[WalkStep, int], ...], ...]:
-        """For each row the steps that leave it, with the row that each leads to."""
+        """For each row the steps that leave it, each with the row that it leads to."""
         around: list[list[tuple[WalkStep, int]]] = [[] for _ in range(self.rows)]
         for joint, (row1, row2) in enumerate(self.ends):
             around[row1].append((WalkStep(joint, 1), row2))
@@ -48,9 +49,10 @@ class Graph:
 
     @cached_property
     def loop_groups(self) -> tuple[tuple[int, ...], ...]:
-        """Joints of each single or multiple closed loop, in rising order: loops that share joints, over any chain.
+        """The joints, rising, of each set of loops that share joints, directly or through other loops of the set.
 
-        These are the biconnected components without the bridges. Loops that share a part but no joint are separate.
+        These are the biconnected components without the bridges. Loops that share a part but no joint are in different
+        groups.
         """
         looped = [
             joints
