@@ -1,4 +1,4 @@
-"""Frames and points of joints placed anew, on both of their parts or on one of them."""
+"""Replace frames and points of joints, on both of their parts or on one part only."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Place = str | tuple[str, str]
 
 
 def with_frames(linkage: Linkage, frames: Mapping[Any, Any]) -> Linkage:
-    """Give some joint frames anew: see `Mechanism.with_frames`."""
+    """Replace the frames of some joints: see `Mechanism.with_frames`."""
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():
         linkage = _placed(linkage, place, _pose(place, pose), lambda _, new: new)
     return linkage
@@ -44,6 +44,7 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
 
 
 def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
+    """Replace the frame at a place by `change(frame, given)`; ValueError where it is not clear which frame is meant."""
     column, side = locate(linkage, place)
     joint = linkage.joints[column]
     if side is None and len(joint.movements) > 1:
@@ -63,7 +64,7 @@ def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
 
 
 def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
-    """The column of a joint, and which copy of its frame: None for both. Raises ValueError for unknown names."""
+    """Find the column of a joint, and which copy of its frame is meant: None for both. ValueError for unknown names."""
     part, name = (None, place) if isinstance(place, str) else place
     names = linkage.structure.joints
     if name not in names:
@@ -78,6 +79,7 @@ def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
 
 
 def _pose(place: Place, pose):
+    """Check that numbers are a rigid 4x4 pose (ValueError); traced ones are not checked."""
     if traced(pose):
         return pose
     array = np.asarray(pose, float)

@@ -70,8 +70,8 @@ class Facets:
 def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"], tolerance: float) -> Facets:
     """Group welded triangles into facets.
 
-    `points` and `triangles` are as in `Welded`; `pairs` are the triangles that share an edge, `tolerance` is the rounding
-    of the points, a length.
+    `points` and `triangles` are as in `Welded`; `pairs` are the triangles that share an edge; `tolerance` is the
+    rounding of the points, a length.
     """
     corners = points[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -96,7 +96,7 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
 
 
 def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> Rows:
-    """For each triangle the one that gives it its normal: itself, or for a sliver the triangle beyond its longest edge.
+    """For each triangle the one whose normal it gets: itself, or for a sliver the triangle beyond its longest edge.
 
     Where that is a sliver too, the triangle beyond its longest edge, and so on.
     """

@@ -1,4 +1,4 @@
-"""Simple solids that symbolise the two sides of a joint: held by the rows of `MOVEMENTS`, drawn by `jaxkin.view.sticks`.
+"""Simple solids that symbolise the two sides of a joint: rows of `MOVEMENTS` hold them, `jaxkin.view.sticks` draws.
 
 All lengths are multiples of the radius of a drawn bar.
 """

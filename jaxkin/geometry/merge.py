@@ -17,9 +17,9 @@ def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
     """Unite faces on the same surface with the material on the same side, in the order of their first members.
 
     Two faces are on the same surface when the corners of each lie within `tolerance` (a length) of the surface of the
-    other, and their radii agree within it. For two planes only the corners of the smaller face
-    are compared: a plane fitted to a few triangles is far off at the corners of a larger face. A united face has the surface of its largest member and the
-    names of all of them, "face 3, 8".
+    other, and their radii agree within it. For two planes only the corners of the smaller face are compared: a plane
+    fitted to a few triangles is far off at the corners of a larger face. A united face has the surface of its largest
+    member and the names of all of them, "face 3, 8".
     """
     # one corner of every face: most faces are told apart by it, without a look at all their triangles
     points = np.array([face.triangles[0, 0] for face in faces]).reshape(-1, 3)
@@ -47,7 +47,7 @@ def _same(a: Face, b: Face, tolerance: float) -> bool:
 
 
 def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
-    """Whether two surfaces agree in what distances of corners do not show: side of the material, radii of small faces."""
+    """Whether surfaces agree in what distances of corners do not show: side of the material, radii of small faces."""
     match a, b:
         case Plane(), Plane():
             return float(a.normal @ b.normal) > _PARALLEL

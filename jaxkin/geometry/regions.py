@@ -1,7 +1,8 @@
 """The faces of a triangulated solid: regions of facets whose corners lie on one plane, cylinder, cone or sphere.
 
-Facets that meet smoothly are of one face, or of faces that are tangent to each other: the first is tried at once, else
-they are grown (`growth.py`). Tori are told apart, since a band of facets of a torus, taken alone, lies on a cone.
+Facets that meet smoothly belong to one face, or to several faces that are tangent to each other. One surface is tried
+first; where none fits, faces are found by region growing (`region_growing.py`). Tori are recognised too, though no
+contact state has one: a band of facets of a torus, taken alone, lies on a cone.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Reg
 from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
 
 _STRAY_ANGLE = 0.8
-"""Radians between a lone triangle and the surface that holds its corners, next to facets of that surface."""
+"""Largest angle, radians, between a lone triangle and the surface of the face next to it that its corners lie on."""
 
 _MAX_LEFTOVER = 4
-"""Triangles left over between faces: each may be of one of them."""
+"""Number of triangles between faces, on no surface, up to which each is tried as part of a neighbouring face."""
 
 
 def regions(mesh: Facets) -> list[Region]:
-    """All triangles of a solid, by faces, in the order of their first triangles."""
+    """Divide all triangles of a solid into faces, in the order of their first triangles."""
     found: list[Region] = []
     _, first = np.unique(mesh.facet_of, return_index=True)
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
@@ -34,7 +35,7 @@ def regions(mesh: Facets) -> list[Region]:
 
 
 def _without_flats(mesh: Facets, region: Region) -> list[Region]:
-    """A round face, and the flats cut into it that could be facets of it but for their width."""
+    """Separate from a round face the flats cut into it: facets whose corners lie on the surface, but far too wide."""
     if region.surface is None or not region.is_round:
         return [region]
     arc = arcs(mesh, region.surface, region.rows)
@@ -49,9 +50,10 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
 
 
 def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
-    """The same with lone triangles that span too much of a round face for their direction to tell given to that face.
+    """Add lone triangles to the round faces that their corners lie on and that they share an edge with.
 
-    Meshers leave such triangles along jagged rims. Their corners are on the surface, and they share an edge with it.
+    Meshers leave such triangles along jagged rims; they span so much of the round face that they are far from tangent
+    to it.
     """
     owner = np.full(len(mesh.triangles), -1)
     for k, region in enumerate(found):

@@ -25,7 +25,7 @@ def as_matrices(rigid: Float[Array, "3 4 *poses"]) -> Float[Array, "*poses 4 4"]
 
 
 def product(a: Rigid, b: Rigid) -> Rigid:
-    """Multiply displacements pose by pose: a b is b followed by a in world coordinates. Either may be one for all poses."""
+    """Multiply displacements pose by pose: b followed by a in world coordinates; either may be one for all poses."""
     x, y, z = (a[:, k, None] * b[None, k] for k in range(3))
     turned = x + y + z
     return jnp.concatenate([turned[:, :3], turned[:, 3:] + a[:, 3:]], axis=1)

@@ -58,7 +58,7 @@ class Structure:
 
     @cached_property
     def parts(self) -> tuple[str, ...]:
-        """Names of the rows of `incidence`: the parts, with one row "p1&p9" in place of the first fixed part for all."""
+        """Names of the rows of `incidence`: the parts; the fixed ones are one row, "p1&p9", where the first is."""
         return tuple(dict.fromkeys(self.row_of.values()))
 
     @property
