@@ -12,15 +12,15 @@ from jaxkin.dimensions.features import Feature, Quantity
 
 
 class Between(NamedTuple):
-    """The second of two features relative to the first; lengths in the unit of the mechanism, angles in radians."""
+    """How the second of two features lies to the first; lengths in the unit of the mechanism, angles in radians."""
 
     distance: Any
     """Between two points, or along the common normal; from a plane along its normal, negative behind the plane."""
     angle: Any
     """Between the directions, 0 to pi; the direction of a plane is its normal. Zero where a feature is a point."""
     offset: Any
-    """Position on the first feature, from its origin, of the foot of the common normal; for parallel axes, of the origin
-    of the second."""
+    """Position on the first feature, from its origin, of the foot of the common normal; for parallel axes, of the
+    origin of the second."""
     away: Any
     """Unit vector along which the second feature moves to change only the distance."""
     hinge: Any
@@ -118,7 +118,7 @@ def _of_point_and_axis(xp, ends: _Ends, axis_first: bool) -> Between:
 
 
 def _with_plane(xp, ends: _Ends, plane_first: bool) -> Between:
-    """Measure between a plane and an axis, or between two planes: along the normal of the first plane, to the origin."""
+    """Measure between a plane and an axis, or between two planes: along the normal of the first plane."""
     lie = _inclination(xp, ends)
     normal, sign = (ends.direction_1, 1.0) if plane_first else (ends.direction_2, -1.0)
     along = ends.delta @ normal

@@ -53,10 +53,10 @@ def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
 
 
 def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple) -> Joint:
-    """Make a universal joint: a cross turns in part 1 about axis1 (phi), and part 2 on the cross about axis2 (theta).
+    """Make a cross that turns in part 1 about axis1 (phi), and on which part 2 turns about axis2 (theta).
 
-    The movement is T_theta_phi with y along axis1 and x along axis2. Coordinates: theta, phi. Raises ValueError where the axes
-    are not perpendicular within 1e-6.
+    The movement is T_theta_phi with y along axis1 and x along axis2. Coordinates: theta, phi. Raises ValueError where
+    the axes are not perpendicular within 1e-6.
     """
     pose = _frame(name, point, axis1, "axis1")
     x = _frame(name, point, axis2, "axis2")[:3, 2]
