@@ -43,7 +43,7 @@ class Found(NamedTuple):
 
 
 def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
-    """Find the parts that only spin, in the order of the mechanism; of the parts in `kept` only those on one neighbour."""
+    """Find the parts that only spin, in the order of the mechanism; of those in `kept` only parts on one neighbour."""
     alone, held = spins(mechanism)
     held = {part: spin for part, spin in held.items() if part not in kept}
     found, needed = dict(alone), []
