@@ -6,7 +6,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from reference.systems import loop_system
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
@@ -16,6 +15,7 @@ from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.system.state import State
 from reference.mechanisms import bennett_linkage, cardan_shafts, planar_fourbar, rssr_linkage, spherical_linkage
 from reference.rounding import spherical_wrist
+from reference.systems import loop_system
 
 
 def systems(mechanism, driven):

@@ -6,7 +6,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from reference.systems import loop_system
 from scipy.spatial.transform import Rotation
 
 from jaxkin.linkage.loop_class import LoopClass
@@ -19,6 +18,7 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, retract
 from reference.catalogue import delta, hexapod
 from reference.mechanisms import ball_in_bore, rssr_linkage
+from reference.systems import loop_system
 
 
 def systems(mechanism, drive, **changed):

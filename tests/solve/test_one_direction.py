@@ -6,7 +6,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from reference.systems import loop_system
 
 import jaxkin as jk
 from jaxkin.examples import path
@@ -15,6 +14,7 @@ from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.system.state import State
 from reference.mechanisms import planar_fourbar, rssr_linkage, spherical_linkage
+from reference.systems import loop_system
 
 
 def air_cylinder():

@@ -3,12 +3,12 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
-from reference.systems import loop_system
 
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
 from jaxkin.solve.system.state import State
 from reference.mechanisms import planar_fourbar
+from reference.systems import loop_system
 
 
 def test_the_smallest_singular_value_is_that_of_the_differentiated_residual():
