@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin.assembly.to_mechanism import mechanism_from_solids
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
@@ -86,15 +87,32 @@ class Assembly:
         return {}
 
     def __str__(self) -> str:
+        return self.describe()
+
+    def describe(self, verbose: bool = False) -> str:
+        """Tell the parts, their faces and what was noted of them; of many parts one a product, unless `verbose`."""
         unit = self.unit or "a unit that the file does not say"
         lines = [f"Assembly of {len(self.parts)} parts from {self.source}, lengths in {unit}"]
-        width = max(len(name) for name in self.names)
-        for part in self.parts:
-            kinds = Counter(face.surface.kind for face in part.faces)
-            faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
-            lines.append(f"  {part.name.ljust(width)}  {faces or 'no face that was understood'}")
-            lines += [f"  {' ' * width}    {note}" for note in part.notes]
-        return "\n".join(lines)
+        notes = sum(len(part.notes) for part in self.parts)
+        if verbose or len(self.parts) + notes <= SCREEN:
+            width = max(len(name) for name in self.names)
+            for part in self.parts:
+                lines.append(f"  {part.name.ljust(width)}  {_faces(part)}")
+                lines += [f"  {' ' * width}    {note}" for note in part.notes]
+            return "\n".join(lines)
+        products = Counter((product(part.name), _faces(part)) for part in self.parts)
+        rows = [
+            f"{name}{f' ({count} times)' if count > 1 else ''}: {faces}" for (name, faces), count in products.items()
+        ]
+        lines += [f"  {row}" for row in shortened(rows)]
+        told = [(kind_of(note), f"{part.name}: {note}") for part in self.parts for note in part.notes]
+        return "\n".join([*lines, *(f"  {line}" for line in grouped(told))])
 
     def __repr__(self) -> str:
         return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"
+
+
+def _faces(part: Part) -> str:
+    kinds = Counter(face.surface.kind for face in part.faces)
+    faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
+    return faces or "no face that was understood"

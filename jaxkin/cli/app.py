@@ -18,6 +18,7 @@ from jaxkin.cli.arguments import (
     Picture,
     Rigid,
     Unit,
+    Verbose,
     WorkPicture,
 )
 from jaxkin.cli.errors import one_line_errors
@@ -55,8 +56,12 @@ def inspect(
     no_combine: PerContact = False,
     unit: Unit = None,
     png: Picture = None,
+    verbose: Verbose = False,
 ) -> None:
-    """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why."""
+    """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why.
+
+    Of large assemblies counts come first, and of many parts, contacts and notes of one kind the first stands for all.
+    """
     with one_line_errors():
         from jaxkin.cli import report
 
@@ -66,13 +71,13 @@ def inspect(
             step("finding contacts")
             contacts = study.contacts
         if study.assembly:
-            report.print_contacts(study.assembly, contacts)
+            report.print_contacts(study.assembly, contacts, verbose)
         # only now: what stands above helps to see why the mechanism is refused
         if png and study.assembly:
             from jaxkin.view.inspection import draw_inspection
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
-        report.print_mechanism(run.checked(study).mechanism, contacts)
+        report.print_mechanism(run.checked(study).mechanism, contacts, verbose)
 
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")

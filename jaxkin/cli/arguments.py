@@ -58,6 +58,11 @@ PerContact = Annotated[
 ]
 
 
+Verbose = Annotated[
+    bool, typer.Option("--verbose", help="List everything: every part, contact and note, however many there are.")
+]
+
+
 def _png(path: Path | None) -> Path | None:
     """Refused before hours of work that would end in no picture."""
     if path is not None and path.suffix.lower() != ".png":

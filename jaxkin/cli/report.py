@@ -27,20 +27,20 @@ def say(text: str = "") -> None:
     Console().print(Text(text), soft_wrap=True)
 
 
-def print_contacts(assembly: Assembly, contacts: Contacts) -> None:
+def print_contacts(assembly: Assembly, contacts: Contacts, verbose: bool) -> None:
     """Parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
     said = {f"{part.name}: {note}" for part in assembly.parts for note in part.notes}
     notes = tuple(note for note in contacts.notes if note not in said)
-    say(f"{assembly}\n\n{replace(contacts, notes=notes)}\n")
+    say(f"{assembly.describe(verbose)}\n\n{replace(contacts, notes=notes).describe(verbose)}\n")
 
 
-def print_mechanism(mechanism: Mechanism, contacts: Contacts) -> None:
+def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:
     """Joints, loops, mobility and notes, but for the notes that were told with the contacts."""
     said = {*map(str, contacts.near_misses), *contacts.notes}
     history, alignment = (
         tuple(note for note in notes if note not in said) for notes in (mechanism.history, mechanism.alignment)
     )
-    say(str(replace(mechanism, history=history, alignment=alignment)))
+    say(replace(mechanism, history=history, alignment=alignment).describe(verbose))
 
 
 def print_structure(mechanism: Mechanism) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import overload
@@ -9,6 +10,7 @@ from typing import overload
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Surface
@@ -88,19 +90,42 @@ class Contacts(Sequence[Contact]):
         return iter(self.contacts)
 
     def __str__(self) -> str:
-        rows = [("parts", "faces", "state", "region", "misfit")]
+        return self.describe()
+
+    def describe(self, verbose: bool = False) -> str:
+        """Tell contacts, near misses and notes in a table; of many of a kind the first one, unless `verbose`."""
+        lines = [_count(len(self), "contact")]
+        lines += [f"  {line}" for line in (self._table() if verbose or len(self) <= SCREEN else self._counts())]
+        nearly = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in self.near_misses]
+        notes = [(kind_of(note.rpartition(": ")[2]), note) for note in self.notes]
+        for noun, entries in (("near miss", nearly), ("note", notes)):
+            if entries:
+                lines += [_count(len(entries), noun), *(f"  {line}" for line in grouped(entries, verbose))]
+        return "\n".join(lines)
+
+    def _table(self) -> list[str]:
+        """One row a contact."""
+        rows = [("parts", "faces", "state", "region", "misfit")] if self.contacts else []
         for contact in self.contacts:
             name = f"({contact.state}) {find_state(contact.state, contact.region).name}"
             between = " - ".join(contact.parts)
             rows.append((between, " - ".join(contact.faces), name, contact.region, f"{contact.misfit:.2g}"))
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-        lines = [_count(len(self), "contact")]
-        if self.contacts:
-            lines += ["  " + "  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
-        for title, entries in ((_count(len(self.near_misses), "near miss"), self.near_misses), ("notes", self.notes)):
-            if entries:
-                lines += [title, *(f"  {entry}" for entry in entries)]
-        return "\n".join(lines)
+        return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+
+    def _counts(self) -> list[str]:
+        """How many contacts there are of each state, and between parts of which products."""
+        states = Counter(f"({each.state}) {find_state(each.state, each.region).name}" for each in self.contacts)
+        products: dict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
+        for each in self.contacts:
+            products[tuple(sorted(map(product, each.parts)))][f"({each.state})"] += 1
+        most = sorted(products.items(), key=lambda item: item[1].total(), reverse=True)
+        rows = [f"{' - '.join(pair)}: {', '.join(_counted(found))}" for pair, found in most]
+        return [", ".join(_counted(states)), *shortened(rows)]
+
+
+def _counted(found: Counter[str]) -> list[str]:
+    return [f"{count} {name}" for name, count in found.most_common()]
 
 
 def _count(number: int, noun: str) -> str:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from jaxkin._grouped import SCREEN, grouped, kind_of, listed, shortened
+from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.joint import Joint
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
 from jaxkin.mobility.open_loops import opening
 
@@ -11,32 +15,50 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 
-def describe_mechanism(mechanism: Mechanism) -> str:
-    """Joints with their parts and freedoms, loops as paths, mobility, and what was noted on the way from solids."""
+def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
+    """Tell joints with their parts and freedoms, loops as paths, mobility, and what was noted on the way from solids.
+
+    Of mechanisms with more joints than a screen has lines, the bodies are told in place of the joints that hold them
+    together, and of many loops and notes the first of a kind, unless `verbose`.
+    """
+    brief = len(mechanism.all_joints) > SCREEN and not verbose
     unit = f", lengths in {mechanism.unit}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
-    lines = [
-        f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {', '.join(mechanism.fixed)}{unit}",
-        "",
-    ]
-    rows = [("joint", "parts", "kind", "coordinates")]
-    rows += [
-        (joint.name, " - ".join(joint.parts), joint.kind, ", ".join(joint.coordinates) or "none")
-        for joint in mechanism.all_joints
-    ]
-    widths = [max(len(row[i]) for row in rows) for i in range(4)]
-    lines += [
-        "  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows
-    ]
-    lines += ["", f"Loops: {len(mechanism.structure.loops)}"]
-    lines += [f"  {' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
+    fixed = (listed if brief else ", ".join)(mechanism.fixed)
+    lines = [f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {fixed}{unit}", ""]
+    lines += [*_bodies(mechanism), ""] if brief else []
+    joints = [joint for joint in mechanism.all_joints if joint.freedoms or not brief]
+    lines += _joints(joints)
+    loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
+    lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
         lines += ["", f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     else:
         lines += ["", *_mobility(mechanism, moving)]
     if mechanism.notes:
-        lines += ["", "Notes:", *(f"  {note}" for note in mechanism.notes)]
+        notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
+        lines += ["", "Notes:", *(f"  {note}" for note in notes)]
     return "\n".join(lines)
+
+
+def _bodies(mechanism: Mechanism) -> list[str]:
+    """The bodies of more than one part, and how many there are."""
+    several = [parts for parts in mechanism.bodies.values() if len(parts) > 1]
+    rows = [f"{parts[0]}: {len(parts)} parts, with {listed(parts[1:])}" for parts in several]
+    return [f"Bodies: {len(mechanism.bodies)}", *(f"  {row}" for row in shortened(rows))]
+
+
+def _joints(joints: Sequence[Joint]) -> list[str]:
+    """A table, one row a joint; what it is known from where that is neither the user nor contacts that fit exactly."""
+    rows = [("joint", "parts", "kind", "coordinates", "known from")]
+    for joint in joints:
+        inferred = joint.evidence is not None and joint.evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER)
+        known = str(joint.evidence) if inferred else ""
+        rows.append((joint.name, " - ".join(joint.parts), joint.kind, ", ".join(joint.coordinates) or "none", known))
+    if not any(row[4] for row in rows[1:]):
+        rows = [row[:4] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return ["  " + "  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
 
 
 def _mobility(mechanism: Mechanism, moving: int) -> list[str]:

@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 class Mechanism:
     """Parts held together by joints, in their assembled pose: what users hold.
 
-    A pytree of its linkage: its leaves are the frames and pitches of the joints, float arrays all; names and structure
-    are static. A new geometry of the same structure compiles nothing anew. Solids, notes and contacts are for pictures
-    and tables only: they are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
+    A pytree of its linkage: its leaves are the frames and pitches of the joints; names and structure are static, so
+    that a new geometry compiles nothing anew. Solids, notes and contacts are for pictures and tables only: they are
+    left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
     """
 
     linkage: Linkage
@@ -163,9 +163,8 @@ class Mechanism:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
 
         Together they are what `sweep` gives: each goes on where the one before it ends, on its branch, and full turns
-        are counted through. All are solved by one compiled program. `len` of it is the number of chunks, so that
-        `rich.progress.track(mechanism.stream(...))` draws a bar; it may be gone through several times, and solves anew
-        each time.
+        are counted through. All are solved by one compiled program, anew whenever the result is gone through. Its `len`
+        is the number of chunks: `rich.progress.track(mechanism.stream(...))` draws a bar.
 
         Raises ValueError as `sweep` does, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
         """
@@ -198,9 +197,8 @@ class Mechanism:
         sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
         parts are one part; a joint without movement has no lengths.
 
-        Each is measured on its own part, where this stands in the given pose: it is the same whether that pose is
-        closed or open. Only where a slide or a screw stands along its own axis follows from the pose in which its two
-        frames coincide: an offset along a screw, the distance of a plane across a slide.
+        Each is measured on its own part, and is the same in a closed and in an open pose; only where a slide or a screw
+        stands along its own axis follows from the pose in which its two frames coincide.
         """
         from jaxkin.dimensions.lengths import lengths
 
@@ -236,16 +234,14 @@ class Mechanism:
         return self.with_linkage(with_frames(self.linkage, frames))._aligned(noise)
 
     def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
-        """The mechanism with the origins of some joint frames moved to given points; keys and `align` as in
-        `with_frames`."""
+        """The mechanism with origins of joint frames moved to given points; keys and `align` as in `with_frames`."""
         from jaxkin.dimensions.frames import with_points
 
         noise = asked_noise(align)
         return self.with_linkage(with_points(self.linkage, points))._aligned(noise)
 
     def with_linkage(self, linkage: Linkage) -> Mechanism:
-        """The mechanism of a linkage with the same joints in other places; solids, which do not follow, are left
-        behind."""
+        """The mechanism of a linkage with the same joints in other places; solids are left behind."""
         return replace(self, linkage=linkage, solids=())
 
     def _aligned(self, noise: float) -> Mechanism:
@@ -266,10 +262,9 @@ class Mechanism:
         return mobility(self.linkage, self.unit)
 
     def blocking_contacts(self) -> tuple[BlockingContacts, ...]:
-        """Find the contacts, or joints by hand, without which a mechanism that cannot move could.
+        """Find the contacts, or joints by hand, without which a mechanism that cannot move could; the likeliest first.
 
-        Single ones where there are such, else the fewest contacts of two parts; those first that look more likely to be
-        wrong, and each tried: the mechanism is found anew without it. None where it moves, or where no such few help.
+        See `jaxkin.assembly.blocking_contacts`. None where it moves, or where no few of them help.
         """
         from jaxkin.assembly.blocking_contacts import blocking_contacts
 
@@ -279,11 +274,10 @@ class Mechanism:
         """Close the loops without a drive, where the given pose is open, and place the joints anew there.
 
         Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
-        part has been moved, and whether other starts as far away lead to other assembly modes; its `mechanism` is the
-        re-assembled one, with all lengths as they were (those along the axes of joints that slide are counted from
-        where these stand now) and its solids moved. Where the loops cannot be closed, `closed` is False and `print`
-        says which disagree. Coordinates named in `hold`, as in a drive, stay as they are given: motors, for one.
-        Numbers are aligned as by `build`, and loops that rounded numbers keep open are closed.
+        part has been moved, and whether other starts lead to other assembly modes; its `mechanism` is the re-assembled
+        one, with all lengths as they were (those along slides are counted from where these stand now) and its solids
+        moved. Where the loops cannot be closed, `closed` is False and `print` says which disagree. Coordinates named in
+        `hold` stay as they are given: motors, for one. Numbers are aligned as by `build`.
 
         Raises ValueError inside `jit`, `vmap` and `grad`, for names that are not there, and for a wrong `align`.
         """
@@ -292,12 +286,15 @@ class Mechanism:
         return close(self, hold, align)
 
     def __str__(self) -> str:
+        return self.describe()
+
+    def describe(self, verbose: bool = False) -> str:
+        """Tell joints, loops, mobility and notes; of many of a kind only the first one, unless `verbose`."""
         from jaxkin.mechanism.describe import describe_mechanism
 
-        return describe_mechanism(self)
+        return describe_mechanism(self, verbose)
 
 
-# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only.
 jax.tree_util.register_pytree_node(
     Mechanism, lambda mechanism: ((mechanism.linkage,), mechanism.unit), lambda unit, leaves: Mechanism(*leaves, unit)
 )

@@ -1,7 +1,8 @@
-"""What a mechanism looks like: solids or sticks, each part in a colour of its own."""
+"""What a mechanism looks like: solids or sticks, each body in a colour of its own."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import cycle
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 GREY = (0.62, 0.64, 0.66)
-"""Fixed parts."""
+"""Fixed bodies."""
 
 PALETTE = (
     (0.00, 0.45, 0.70),
@@ -24,16 +25,24 @@ PALETTE = (
     (0.34, 0.71, 0.91),
     (0.94, 0.89, 0.26),
 )
-"""Moving parts in turn: the colours of Okabe and Ito, which colour-blind people can tell apart as well."""
+"""Moving bodies in turn: the colours of Okabe and Ito, which colour-blind people can tell apart as well."""
 
 
 def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """The parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in 0..1.
 
     The solids where the mechanism was read from a file, otherwise sticks; colours of the file where it gives any.
+    Parts without one share that of their body.
     """
-    colors = cycle(PALETTE)
-    return tuple(
-        part if part.color else replace(part, color=GREY if part.name in mechanism.fixed else next(colors))
-        for part in mechanism.solids or stick_parts(mechanism)
-    )
+    solids = mechanism.solids or stick_parts(mechanism)
+    painted = {part.name for part in solids if part.color}
+    colors, of_part = cycle(PALETTE), {}
+    for parts in mechanism.bodies.values():
+        if not painted.issuperset(parts):
+            of_part |= dict.fromkeys(parts, GREY if parts[0] in mechanism.fixed else next(colors))
+    return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
+
+
+def body_label(name: str, parts: Sequence[str]) -> str:
+    """What a legend calls a body: its first part, and how many more it has."""
+    return name if len(parts) == 1 else f"{name} and {len(parts) - 1} more"

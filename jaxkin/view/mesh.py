@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
 
 CREASE = np.deg2rad(35)  # more than a tessellated round face turns from one triangle to the next
+MANY = 80_000
+"""Triangles of a page at most: some 4 MB, which open within seconds without a graphics card, too."""
+FINEST = 1.0 / 4000
+"""The first cells that are tried, over half the size of all: less than a pixel."""
+DOUBLED = 7
+"""How often cells are doubled at most: parts smaller than the last ones, a sixtieth, would be dots."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,3 +42,30 @@ def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
     return Mesh(
         np.asarray(smooth.vertices), np.asarray(smooth.vertex_normals), np.asarray(smooth.faces), mesh.vertices[ends]
     )
+
+
+def lightened(solids: Sequence[Float[np.ndarray, "_ 3 3"]], most: int = MANY) -> list[Float[np.ndarray, "_ 3 3"]]:
+    """Merge near corners of solids of about unit size until no more than `most` triangles are left in all.
+
+    Corners within one cell of a grid become their mean, and triangles without area go. The cells are as small as they
+    can be; solids that have few triangles together stay as they are. With the largest cells more may be left.
+    """
+    found, cell = list(solids), FINEST
+    for _ in range(DOUBLED):
+        if sum(map(len, found)) <= most:
+            break
+        found = [_clustered(triangles, cell) for triangles in solids]
+        cell *= 2
+    return found
+
+
+def _clustered(triangles: Float[np.ndarray, "_ 3 3"], cell: float) -> Float[np.ndarray, "_ 3 3"]:
+    """The triangles with all corners of a cell at their mean, without those that have lost their area or are twice."""
+    corners = triangles.reshape(-1, 3)
+    _, owner = np.unique(np.floor(corners / cell).astype(np.int64) @ (1, 2**20, 2**40), return_inverse=True)
+    count = np.bincount(owner)
+    means = np.stack([np.bincount(owner, weights=column) / count for column in corners.T], axis=1)
+    faces = owner.reshape(-1, 3)
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    return means[faces[np.sort(first)]]

@@ -52,7 +52,7 @@ function legend() {
     label.append(name);
     $("legend").append(label);
   };
-  for (const part of parts) row(part.fixed ? `${part.name} (fixed)` : part.name, part.color, on => { part.shown = on; });
+  for (const body of bodies) row(body.fixed ? `${body.name} (fixed)` : body.name, body.color, on => { body.shown = on; });
   if (!paths.length) return;
   $("legend").append(document.createElement("hr"));
   row("paths of points", null, on => { showPaths = on; });

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.geometry.part import Part
 from jaxkin.solve.status import Status
+from jaxkin.view.drawing import body_label
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.lost_marks import told
-from jaxkin.view.mesh import shaded_mesh
+from jaxkin.view.mesh import lightened, shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
 
 if TYPE_CHECKING:
@@ -71,7 +71,8 @@ def _content(motion: Motion, scene: Scene) -> dict:
         "corners": (corners / scale).tolist(),
         "yaw": yaw,
         "pitch": pitch,
-        "parts": [_part(part, scene, shown, centre, scale, colors[part.name]) for part in scene.parts],
+        "bodies": [_body(name, scene, shown, centre, scale, colors[name]) for name in scene.bodies],
+        "parts": _parts(scene, centre, scale, colors),
         "paths": [
             {"part": trace.part, "color": colors[trace.part], "points": _base64((trace.path[shown] - centre) / scale)}
             for trace in scene.traces
@@ -84,22 +85,38 @@ def _problem(status: Status) -> str:
     return "" if status is Status.CLOSED else f"{status.name.lower()}: {status.message}"
 
 
-def _part(part: Part, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: list[float]) -> dict:
-    mesh = shaded_mesh((part.triangles - centre) / scale)
-    normals = np.zeros((len(mesh.normals), 4))  # four bytes a corner, as graphics cards want them
-    normals[:, :3] = 127 * mesh.normals
-    poses = scene.displacements[part.name][shown, :3, :].copy()
+def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: list[float]) -> dict:
+    """Parts that move as one: one row of the legend, and one displacement a pose."""
+    poses = scene.displacements[name][shown, :3, :].copy()
     poses[..., 3] += poses[..., :3] @ centre - centre
     poses[..., 3] /= scale
     return {
-        "name": part.name,
-        "fixed": part.name in scene.fixed,
+        "name": body_label(name, scene.bodies[name]),
+        "fixed": name in scene.fixed,
         "color": color,
+        "poses": "" if name in scene.fixed else _base64(poses),
+    }
+
+
+def _parts(scene: Scene, centre: np.ndarray, scale: float, colors: dict[str, list[float]]) -> list[dict]:
+    """Meshes of all parts, lightened together, each with the index of its body."""
+    owner = {part: index for index, parts in enumerate(scene.bodies.values()) for part in parts}
+    solids = lightened([(part.triangles - centre) / scale for part in scene.parts])
+    return [
+        {"name": part.name, "body": owner[part.name], "color": colors[part.name], **_mesh(triangles)}
+        for part, triangles in zip(scene.parts, solids, strict=True)
+    ]
+
+
+def _mesh(triangles: np.ndarray) -> dict[str, str]:
+    mesh = shaded_mesh(triangles)
+    normals = np.zeros((len(mesh.normals), 4))  # four bytes a corner, as graphics cards want them
+    normals[:, :3] = 127 * mesh.normals
+    return {
         "points": _base64(mesh.points),
         "normals": _base64(np.rint(normals), "i1"),
         "triangles": _base64(mesh.triangles, "<u4"),
         "edges": _base64(mesh.edges),
-        "poses": "" if part.name in scene.fixed else _base64(poses),
     }
 
 

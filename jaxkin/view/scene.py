@@ -38,6 +38,8 @@ class Scene:
 
     parts: tuple[Part, ...]
     fixed: frozenset[str]
+    bodies: Mapping[str, tuple[str, ...]]
+    """Parts that move as one, by the first of each body."""
     displacements: Displacements
     """Of every part at every pose, in world coordinates from the assembled pose; failed poses included."""
     order: Int[np.ndarray, " poses"]
@@ -80,7 +82,10 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
     traces = tuple(Trace(part, np.where(kept, move(displacements, part, point), np.nan)) for part, point in marks)
     bounds = _bounds(parts, sample, view, traces)
     lost = lost_marks(motion.lost_contacts, displacements)
-    return Scene(parts, fixed, displacements, order, closed, _returns(parts, sample, size), view, traces, lost, bounds)
+    bodies = mechanism.bodies
+    return Scene(
+        parts, fixed, bodies, displacements, order, closed, _returns(parts, sample, size), view, traces, lost, bounds
+    )
 
 
 def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.view.drawing import body_label
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
 from jaxkin.view.labels import Input, headline, inputs, title
 from jaxkin.view.lost_marks import WARNING, told
@@ -26,6 +27,7 @@ WIDTHS = {1: 1000, 2: 760, 3: 544}
 """Width of a panel in pixels by the number in a row; a panel is at most as high as it is wide."""
 AIR = 0.03  # around the mechanism, over the larger side of what it sweeps
 LONGEST = 40  # letters of a name in the legend
+LISTED = 24  # moving bodies in the legend; more hide the picture
 FIXED = (0.90, 0.905, 0.915)
 LOST = {
     "color": WARNING,
@@ -160,10 +162,13 @@ def _legend(scene: Scene) -> list[tuple[Artist, str]]:
     if still := [part.name for part in scene.parts if part.name in scene.fixed]:
         patch = Patch(facecolor=FIXED, edgecolor=FAINT_INK, hatch="/////", hatch_linewidth=0.4)
         entries.append((patch, f"{clip(', '.join(still), LONGEST)} (fixed)"))
-    for part in scene.parts:
-        if part.name not in scene.fixed:
-            patch = Patch(facecolor=part.color or GREY, edgecolor=INK, linewidth=0.8)
-            entries.append((patch, clip(part.name, LONGEST)))
+    colors = {part.name: part.color or GREY for part in scene.parts}
+    moving = {name: parts for name, parts in scene.bodies.items() if name not in scene.fixed}
+    for name, parts in list(moving.items())[:LISTED]:
+        patch = Patch(facecolor=colors[name], edgecolor=INK, linewidth=0.8)
+        entries.append((patch, clip(body_label(name, parts), LONGEST)))
+    if len(moving) > LISTED:
+        entries.append((Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{len(moving) - LISTED} more bodies"))
     if scene.traces:
         style = {"color": GREY, "linewidth": 1.1, "marker": "o", "markersize": 5, "markeredgecolor": "white"}
         entries.append((Line2D([], [], **style), "path of a point"))

@@ -127,14 +127,17 @@ const LINES = [`
 
 // ---- drawing ----
 const WARNING = [0.80, 0.07, 0.12, 1];
-let faces, lines, parts, paths, marks, dot, waiting = false;
+let faces, lines, bodies, parts, paths, marks, dot, waiting = false;
 
 function prepare() {
   [faces, lines] = [program(...FACES), program(...LINES)];
   dot = loadLines(new Float32Array(6));  // a line without length: a disc
+  bodies = motion.bodies.map(body => ({
+    ...body, shown: true, poses: body.poses === "" ? null : decode(body.poses, Float32Array),
+  }));
   parts = motion.parts.map(part => ({
-    ...part, shown: true, mesh: loadMesh(part), edges: loadLines(decode(part.edges, Float32Array)),
-    poses: part.poses === "" ? null : decode(part.poses, Float32Array),
+    ...part, mesh: loadMesh(part), edges: loadLines(decode(part.edges, Float32Array)),
+    body: bodies[part.body],
   }));
   paths = motion.paths.map(path => {
     const points = decode(path.points, Float32Array);
@@ -143,8 +146,8 @@ function prepare() {
   marks = motion.marks.map(ends => ends.map(points => decode(points, Float32Array)));
 }
 
-function model(part) {  // twelve numbers a pose, row by row; none for a part that never moves
-  const m = part.poses ? part.poses.subarray(12 * pose, 12 * pose + 12) : NONE;
+function model(body) {  // twelve numbers a pose, row by row; none for a body that never moves
+  const m = body.poses ? body.poses.subarray(12 * pose, 12 * pose + 12) : NONE;
   return [0, 1, 2, 3].flatMap(j => [m[j], m[4 + j], m[8 + j], j === 3 ? 1 : 0]);
 }
 
@@ -163,7 +166,7 @@ function draw() {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight].map(side => Math.round(side * devicePixelRatio));
   if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
   const { clip, view } = camera(canvas.width / canvas.height), paper = style.backgroundColor.match(/[\d.]+/g).map(c => c / 255);
-  const ok = motion.problems[pose] === "", visible = parts.filter(part => part.shown && (ok || part.fixed));
+  const ok = motion.problems[pose] === "", visible = parts.filter(part => part.body.shown && (ok || part.body.fixed));
   gl.viewport(0, 0, canvas.width, canvas.height);
   gl.clearColor(paper[0], paper[1], paper[2], 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
@@ -174,7 +177,7 @@ function draw() {
   gl.uniformMatrix4fv(faces.at.clip, false, clip);
   gl.uniformMatrix3fv(faces.at.view, false, view);
   for (const part of visible) {
-    gl.uniformMatrix4fv(faces.at.model, false, model(part));
+    gl.uniformMatrix4fv(faces.at.model, false, model(part.body));
     gl.uniform3fv(faces.at.color, part.color);
     gl.bindVertexArray(part.mesh.array);
     gl.drawElements(gl.TRIANGLES, part.mesh.count, gl.UNSIGNED_INT, 0);
@@ -185,7 +188,7 @@ function draw() {
   gl.uniformMatrix4fv(lines.at.clip, false, clip);
   gl.uniform2f(lines.at.size, canvas.width, canvas.height);
   gl.depthMask(false);
-  for (const part of visible) drawLines(part.edges, model(part), [0.05, 0.06, 0.08, 0.8], 1.1);
+  for (const part of visible) drawLines(part.edges, model(part.body), [0.05, 0.06, 0.08, 0.8], 1.1);
   if (showPaths) drawPaths(dark, paper);
   drawMarks(paper);
   gl.depthMask(true);

@@ -172,7 +172,7 @@ def test_loops_prints_and_draws_the_structure(tmp_path):
     assert "planar (3)" in done.output and "Mobility: 1 freedom" in done.output
     assert [file.name for file in tmp_path.iterdir()] == ["loops.png"]
     assert invoke("loops", FOURBAR).exit_code == 2
-    assert "Plan of a drive of ground-crank.phi\n  1. 1 planar loop over" in invoke("loops", FOURBAR, *CRANK).output
+    assert "Plan of a drive of ground-crank.phi\n  1. 1 planar dyad RRR over" in invoke("loops", FOURBAR, *CRANK).output
 
 
 def moved_rocker(text: str) -> str:

@@ -111,7 +111,7 @@ def test_the_report_of_misses_and_refusals(solids):
         "no contacts",
         "1 near miss",
         "  nearly (d) table plane - ball sphere: ball on plane: a gap of 0.002: close it, or give length=0.0021",
-        "notes",
+        "1 note",
         "  ring: face 3: torus, not one of the four surfaces",
     ]
     assert len(find_contacts((one, solids.part("ball", solids.moved(pair.face2, away))), length=0.0021)) == 1

@@ -33,7 +33,7 @@ def ply(vertices, faces, body=b""):
 
 def threemf(model, name="3D/3dmodel.model"):
     buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         archive.writestr(name, model)
     return buffer.getvalue()
 

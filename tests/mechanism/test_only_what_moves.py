@@ -57,10 +57,10 @@ def test_loops_that_do_not_move_are_absent():
     assert operations(_solve, *among[0]) == operations(_solve, *alone[0])
 
 
-def closures(mechanism: Mechanism, joint: str, form: LoopClass | None = None) -> float:
+def closures(mechanism: Mechanism, joint: str, loop_class: LoopClass | None = None) -> float:
     """Operations of one evaluation of the closure, residual and Jacobian, for a hundred poses."""
     ((system, _, joints, *_),) = solved(mechanism, joint)
-    system = system if form is None else replace(system, form=form)
+    system = system if loop_class is None else replace(system, loop_class=loop_class)
     geometry, _ = loop_geometry(system, *joints)
     # the travel along a loop written out: XLA counts the body of a loop once
     with patch.object(spatial.lax, "scan", partial(jax.lax.scan, unroll=True)):
@@ -77,8 +77,12 @@ def test_equations_that_a_planar_loop_lacks_are_absent():
 def test_turns_of_balls_are_absent_where_there_is_none():
     """Four hinges about one point, and a linkage of as many joints of which two are balls, whole and cut at one."""
     hinges, cut, whole = (
-        closures(mechanism, "A", form)
-        for mechanism, form in ((spherical_linkage(), None), (rssr_linkage(), None), (rssr_linkage(), LoopClass()))
+        closures(mechanism, "A", loop_class)
+        for mechanism, loop_class in (
+            (spherical_linkage(), None),
+            (rssr_linkage(), None),
+            (rssr_linkage(), LoopClass()),
+        )
     )
     assert hinges < 0.75 * whole and cut < 0.75 * whole
 

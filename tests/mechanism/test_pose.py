@@ -24,6 +24,7 @@ def test_a_pose_is_that_of_a_sweep():
         pose.coordinates["E"]
 
 
+@pytest.mark.long
 def test_a_pose_differentiates():
     def rocker(angle):
         return FOURBAR.solve({"A": angle}, throw=False).coordinates["D"][0]

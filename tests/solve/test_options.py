@@ -53,6 +53,7 @@ def test_the_options_of_a_motion_go_where_it_goes():
     assert [chunk.options for chunk in mechanism.stream({"A": TURN}, 10, options=options)] == [options, options]
 
 
+@pytest.mark.long
 def test_a_traced_tolerance_is_no_static_option():
     mechanism = planar_fourbar(1.0)
 

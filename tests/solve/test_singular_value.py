@@ -3,6 +3,7 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
@@ -11,6 +12,7 @@ from reference.mechanisms import planar_fourbar
 from reference.systems import loop_system
 
 
+@pytest.mark.long
 def test_the_smallest_singular_value_is_that_of_the_differentiated_residual():
     system, joints = loop_system(planar_fourbar(1.0), [("A", 0)])
     geometry, _ = loop_geometry(system, *joints)

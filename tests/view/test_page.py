@@ -25,9 +25,9 @@ def floats(text, *shape):
     return np.frombuffer(b64decode(text), "<f4").reshape(-1, *shape)
 
 
-def displacements(part, data):
+def displacements(body, data):
     """The 4x4 displacements that the page holds, in the unit of the mechanism."""
-    rows = floats(part["poses"], 3, 4).astype(float)
+    rows = floats(body["poses"], 3, 4).astype(float)
     centre, poses = np.array(data["centre"]), np.tile(np.eye(4), (len(rows), 1, 1))
     poses[:, :3, :3] = rows[:, :, :3]
     poses[:, :3, 3] = data["scale"] * rows[:, :, 3] + centre - rows[:, :, :3] @ centre
@@ -44,12 +44,14 @@ def test_the_page_holds_the_motion(four_bar, tmp_path):
     _, data = write(four_bar, tmp_path)
     assert data["title"] == "Motion driven by A, 0° to 360°" and data["labels"][10] == "A 60°"
     assert data["cyclic"] and data["planar"] and not any(data["problems"])
-    assert [part["name"] for part in data["parts"]] == ["ground", "crank", "coupler", "rocker"]
-    assert [part["fixed"] for part in data["parts"]] == [True, False, False, False]
-    for part in data["parts"][1:]:
-        expected = np.asarray(four_bar.transforms[part["name"]])
-        assert np.allclose(displacements(part, data), expected, atol=2e-5)  # float32 of about 150 mm
-    assert data["parts"][0]["poses"] == ""
+    for rows in (data["parts"], data["bodies"]):
+        assert [row["name"] for row in rows] == ["ground", "crank", "coupler", "rocker"]
+    assert [body["fixed"] for body in data["bodies"]] == [True, False, False, False]
+    assert [part["body"] for part in data["parts"]] == [0, 1, 2, 3]
+    for body in data["bodies"][1:]:
+        expected = np.asarray(four_bar.transforms[body["name"]])
+        assert np.allclose(displacements(body, data), expected, atol=2e-5)  # float32 of about 150 mm
+    assert data["bodies"][0]["poses"] == ""
 
 
 def test_the_page_holds_the_solids(four_bar, plates, tmp_path):
@@ -116,8 +118,9 @@ def test_names_cannot_break_the_page(tmp_path):
 def test_the_page_is_the_same_in_another_unit(sticks, small, tmp_path):
     (_, one), (_, other) = write(sticks, tmp_path), write(small, tmp_path)
     assert other["scale"] == pytest.approx(1e-6 * one["scale"], rel=1e-9)
-    for first, second in zip(one["parts"], other["parts"], strict=True):
+    for first, second in zip(one["bodies"], other["bodies"], strict=True):
         assert np.allclose(floats(first["poses"]), floats(second["poses"]), atol=1e-5)
+    for first, second in zip(one["parts"], other["parts"], strict=True):
         assert np.allclose(floats(first["points"]), floats(second["points"]), atol=1e-6)
     assert np.allclose(one["axes"], other["axes"], atol=1e-9)
     assert one["labels"] == other["labels"] and len(one["labels"]) == len(TURN)

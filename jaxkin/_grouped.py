@@ -1,0 +1,57 @@
+"""Reports that fit on a screen: of many lines of one kind, how many there are and what the first one says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Hashable, Iterable, Sequence
+
+SCREEN = 40
+"""Lines of one section of a report that are printed one by one: more do not fit on a screen."""
+LISTED = 6
+"""Names that stand for a longer list of them."""
+_NUMBER = re.compile(r"(?<![A-Za-z])-?\d[\d.]*(?:e[+-]?\d+)?")
+_QUOTED = re.compile(r"'[^']*'")
+_REPEAT = re.compile(r"\s*(?:<\d+>|#\d+|\(\d+\)|:\d+|[-_ .]\d+)$")
+
+
+def product(name: str) -> str:
+    """Return the name of a part without its sub-assembly, and without what tells it from others of the same product.
+
+    That is a number at its end, as in "bolt <2>", "bolt#2", "bolt(2)", "bolt:2", "bolt_2", "bolt-2" and "bolt 2".
+    """
+    last = name.rpartition("/")[2]
+    return _REPEAT.sub("", last) or last
+
+
+def kind_of(text: str) -> str:
+    """Return a text without its numbers and without names in quotes, so that texts of one kind are equal."""
+    return _NUMBER.sub("#", _QUOTED.sub("#", text))
+
+
+def shortened(lines: Sequence[str]) -> list[str]:
+    """Return the first lines, as many as a screen has, and how many more there are."""
+    more = len(lines) - SCREEN
+    return list(lines) if more <= 0 else [*lines[:SCREEN], f"and {more} more"]
+
+
+def listed(names: Sequence[str]) -> str:
+    """Join names by commas; of many the first ones, and how many more there are."""
+    more = len(names) - LISTED
+    return ", ".join(names) if more <= 1 else f"{', '.join(names[:LISTED])} and {more} more"
+
+
+def grouped(entries: Iterable[tuple[Hashable, str]], verbose: bool = False) -> list[str]:
+    """List texts, each given with what tells its kind; of more than SCREEN only the first of each kind, and a count.
+
+    Kinds come in order of their number. With `verbose` all texts are listed.
+    """
+    entries = list(entries)
+    if verbose or len(entries) <= SCREEN:
+        return [text for _, text in entries]
+    kinds: dict[Hashable, list[str]] = {}
+    for kind, text in entries:
+        kinds.setdefault(kind, []).append(text)
+    return [
+        texts[0] if len(texts) == 1 else f"{len(texts)} such as  {texts[0]}"
+        for texts in sorted(kinds.values(), key=len, reverse=True)
+    ]

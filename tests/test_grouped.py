@@ -1,0 +1,75 @@
+"""Reports of large assemblies: counts first, one of a kind, and nothing lost where all is asked for."""
+
+import numpy as np
+import pytest
+import trimesh
+
+import jaxkin as jk
+from jaxkin._grouped import LISTED, SCREEN, grouped, kind_of, listed, product, shortened
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.geometry.part import Part
+
+BOX = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
+
+
+@pytest.mark.parametrize(
+    "name", ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>"]
+)
+def test_instances_are_of_one_product(name):
+    assert product(name) == "Screw"
+
+
+def test_what_is_only_a_number_or_belongs_to_the_name_stays():
+    assert product("12") == "12" and product("M5") == "M5" and product("p1") == "p1"
+
+
+def test_texts_of_one_kind():
+    one, other = "face 3: a gap of 0.5 to 'pin 1'", "face 41: a gap of 1.2e-05 to 'pin 22'"
+    assert kind_of(one) == kind_of(other) != kind_of("face 3: tilted by 0.5 to 'pin 1'")
+
+
+def test_of_many_entries_there_is_one_a_kind_and_the_counts_add_up():
+    entries = [(k % 3, f"entry {k}") for k in range(100)]
+    lines = grouped(entries)
+    assert lines == ["34 such as  entry 0", "33 such as  entry 1", "33 such as  entry 2"]
+    assert grouped(entries, verbose=True) == [text for _, text in entries]
+    assert grouped(entries[:SCREEN]) == [text for _, text in entries[:SCREEN]]
+
+
+def test_lists_end():
+    names = [f"part {k}" for k in range(100)]
+    assert listed(names).endswith(f"and {100 - LISTED} more") and listed(names[: LISTED + 1]).count(",") == LISTED
+    assert shortened(names)[-1] == f"and {100 - SCREEN} more" and shortened(names[:SCREEN]) == names[:SCREEN]
+
+
+@pytest.fixture(scope="module")
+def many():
+    """A base, an arm, and 200 boxes of two products, each with a note, half on the base and half on the arm."""
+    names = ["base", "arm", *(f"{name} <{k}>" for k in range(100) for name in ("bolt", "nut"))]
+    parts = tuple(
+        Part(name, (), BOX + 3.0 * place, None, (f"face {place}: torus, not one of the four surfaces",))
+        for place, name in enumerate(names)
+    )
+    return Assembly(parts, "mm", "many.step")
+
+
+def test_an_assembly_of_200_parts_fits_on_a_screen_and_all_of_it_can_be_had(many):
+    text = str(many)
+    assert len(text.splitlines()) <= SCREEN and "bolt (100 times)" in text and "202 such as" in text
+    every = many.describe(verbose=True)
+    assert all(name in every for name in many.names) and len(every.splitlines()) == 1 + 2 * 202
+
+
+def test_its_mechanism_tells_bodies_in_place_of_what_holds_them_together(many):
+    bolts, nuts = ([name for name in many.names if name.startswith(kind)] for kind in ("bolt", "nut"))
+    hinge = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=(0, 0, 1))
+    mechanism = many.mechanism(fixed=["base"], rigid=[["base", *bolts], ["arm", *nuts]], joints=[hinge], contacts=[])
+    lines = str(mechanism).splitlines()
+    assert (
+        len(lines) <= SCREEN and "Bodies: 2" in lines and any(line.startswith("Mobility: 1 freedom") for line in lines)
+    )
+    (table,) = [line for line in lines if line.startswith("  A ")]
+    assert table.split() == ["A", "base", "-", "arm", "revolute", "phi"]
+    assert any(line.startswith("  arm: 101 parts, with nut <0>") and line.endswith("more") for line in lines)
+    assert len(mechanism.describe(verbose=True).splitlines()) > 100
+    assert np.all(mechanism.sweep({"A": np.linspace(0.0, 1.0, 3)}).closed)

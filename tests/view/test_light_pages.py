@@ -1,0 +1,60 @@
+"""Pages of large assemblies: few triangles, one displacement a body, and legends that name bodies."""
+
+import re
+
+import numpy as np
+import pytest
+import trimesh
+
+import jaxkin as jk
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.geometry.part import Part
+from jaxkin.view.drawing import body_label, drawn_parts
+from jaxkin.view.mesh import lightened
+from jaxkin.view.page import page
+
+
+def ball(subdivisions: int) -> np.ndarray:
+    return trimesh.creation.icosphere(subdivisions, 0.5).triangles
+
+
+def test_few_triangles_stay_as_they_are():
+    given = [ball(2), ball(1) + 1.0]
+    assert all(np.array_equal(one, other) for one, other in zip(lightened(given), given, strict=True))
+
+
+def test_of_many_as_many_are_left_as_may_be_and_the_surface_stays_where_it_was():
+    most = 30_000
+    (found,) = lightened([ball(6)], most)
+    assert most / 8 < len(found) <= most  # doubled cells leave a quarter of the triangles
+    radii = np.linalg.norm(found.reshape(-1, 3), axis=1)
+    # corners of a cell are averaged: they lie within the sagitta of its width, a sixtieth
+    assert np.all(radii > 0.5 - 1e-3) and np.all(radii < 0.5 + 1e-12)
+    edges = found[:, 1:] - found[:, :1]
+    area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum() / 2
+    assert abs(area / np.pi - 1) < 0.05
+
+
+def test_triangles_without_area_go_and_parts_stay():
+    found = lightened([ball(5), 1e-6 * ball(3) + 0.7], 3000)
+    assert len(found) == 2 and len(found[1]) < len(ball(3))
+
+
+@pytest.fixture
+def swing():
+    """A base, and an arm that is two boxes welded together."""
+    box = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
+    parts = tuple(Part(name, (), box + 2.0 * place) for place, name in enumerate(("base", "arm", "hand")))
+    assembly = Assembly(parts, "mm", "boxes.stl")
+    hinge = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=(0, 0, 1))
+    return assembly.mechanism(fixed=["base"], rigid=[["arm", "hand"]], joints=[hinge], contacts=[])
+
+
+def test_a_body_has_one_colour_one_row_and_one_displacement(swing, tmp_path):
+    parts = {part.name: part.color for part in drawn_parts(swing)}
+    assert parts["arm"] == parts["hand"] != parts["base"]
+    assert [body_label(*body) for body in swing.bodies.items()] == ["base", "arm and 1 more"]
+    page(swing.sweep({"A": np.linspace(0.0, 1.0, 5)}), tmp_path / "page.html")
+    text = (tmp_path / "page.html").read_text()
+    assert re.findall(r'"body":(\d)', text) == ["0", "1", "1"]
+    assert len(re.findall(r'"poses":"[^"]', text)) == 1
