@@ -59,11 +59,8 @@ from jaxkin.topology.loops import Loop as Loop
 from jaxkin.topology.structure import LoopGroup as LoopGroup
 from jaxkin.topology.structure import Structure as Structure
 from jaxkin.topology.structure import structure as structure
-from jaxkin.view import structure as _structure
 from jaxkin.view.gallery import draw_gallery as draw_gallery
 from jaxkin.view.inspection import draw_inspection as draw_inspection
 from jaxkin.view.storyboard import storyboard as storyboard
-
-del _structure
 
 __version__ = "0.1.0"

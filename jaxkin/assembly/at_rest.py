@@ -1,4 +1,4 @@
-"""Leave parts that only spin at rest: their contacts hold nothing that would not be held without them."""
+"""Parts that only spin stay at rest on one neighbour: their other contacts constrain nothing and are left out."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
 
 
 def left_at_rest(mechanism: Mechanism) -> Mechanism:
-    """The mechanism in which a part that only spins is joined to its carrier alone, by what it can do by itself.
+    """Join each part that only spins to its carrier alone, by the lower pair of its own freedoms (`Spin`).
 
-    Its other contacts hold nothing that would not be held without them: they only close loops in which it idles. Parts
-    of which some must stay for that are kept, and told of in the notes; so are parts with a joint by hand.
+    Its other contacts constrain no other part: they only close loops in which the part idles. Of parts of which some
+    are needed to hold others (`needless`), those are kept with all contacts, and a note says so. Parts with a joint by
+    hand are kept too.
     """
     by_hand = [part for each in mechanism.all_joints if each.name not in mechanism.contacts for part in each.parts]
     found = found_spinning(mechanism, kept=by_hand)
@@ -50,7 +51,7 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
 
 
 def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:
-    """The spin of one of the two parts of a joint on the other."""
+    """Find the spin of a part whose carrier is the other part of the joint; None if there is none."""
     for part, other in (between.parts, between.parts[::-1]):
         if part in resting and resting[part].carrier == other:
             return resting[part]
@@ -58,12 +59,14 @@ def _carried_by(resting: dict[str, Spin], between: Joint) -> Spin | None:
 
 
 def _neighbours(mechanism: Mechanism, part: str) -> list[str]:
+    """List the parts that share a joint with a part."""
     return list(
         dict.fromkeys(p for each in mechanism.all_joints if part in each.parts for p in each.parts if p != part)
     )
 
 
 def _notes(mechanism: Mechanism, resting: dict[str, Spin], found: Found) -> list[str]:
+    """Say which parts are left at rest, and which are kept since others need them."""
     notes = []
     for part, spin in resting.items():
         others = [repr(other) for other in _neighbours(mechanism, part) if other != spin.carrier]

@@ -1,8 +1,8 @@
-"""Parts that only spin and that several others hold: which of them can be left out, judged together.
+"""Parts that only spin and that several parts hold: find which of them constrain no other part, as a set.
 
-Each of six bolts through two flanges is unneeded where the other five are there; without all six the flanges slide.
-What matters is what a set of parts holds as one: it is needless if the others move no more freely without all of it.
-Which set is taken depends on where the parts are, not on their order or names.
+Each of six bolts through two flanges is redundant while the other five are there, but without all six the flanges
+slide. So sets of parts are judged: a set is needless if the other parts gain no freedom without all of it. Which set is
+chosen depends on the places of the parts, not on their order or names.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.spinning import SAME, Spin, spins
+from jaxkin.assembly.spinning import TWIST_TOLERANCE, Spin, spins
 from jaxkin.geometry.part import Part
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.joint import Joint
@@ -26,28 +26,29 @@ from jaxkin.topology.structure import LoopGroup
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-_PLACES = 6
-"""Digits of the places by which parts are put in order: noise of the file is not to decide it."""
+_SORTING_DIGITS = 6
+"""Digits to which the places of parts are rounded when parts are sorted, so that the noise of the file does not decide
+the order."""
 
 Parts = list[str]
 
 
 class Found(NamedTuple):
-    """The parts that only spin."""
+    """The parts of a mechanism that only spin."""
 
     spins: dict[str, Spin]
-    """Those without which nothing moves more freely, each with its carrier: on one neighbour alone, or needless."""
+    """Parts that constrain no other part, each with its carrier: those on one neighbour alone, and needless ones."""
     needed: tuple[tuple[str, ...], ...]
-    """Groups of touching parts that are needless each by itself, but not besides those in `spins`."""
+    """Groups of touching parts, each needless by itself, but not together with the parts in `spins`."""
 
 
 def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
-    """The parts that only spin, in the order of the mechanism; those held by several others only if not `kept`."""
+    """Find the parts that only spin, in the order of the mechanism; of those in `kept` only parts on one neighbour."""
     alone, held = spins(mechanism)
     held = {part: spin for part, spin in held.items() if part not in kept}
     found, needed = dict(alone), []
     for loop_group in mechanism.structure.loop_groups if held else ():
-        judged = _Judged.of(mechanism, loop_group, held)
+        judged = _SpinCandidates.of(mechanism, loop_group, held)
         if judged is None:
             continue
         taken = judged.with_carriers()
@@ -60,27 +61,27 @@ def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
 
 
 def with_spinning(mechanism: Mechanism) -> Mechanism:
-    """The mechanism whose linkage knows the parts that only spin, as the solids tell."""
+    """Write the parts that only spin, found by the shape of the solids, into the linkage of the mechanism."""
     found = found_spinning(mechanism).spins
     spinning = tuple(SpinningPart(part, spin.freedoms) for part, spin in found.items())
     return replace(mechanism, linkage=replace(mechanism.linkage, spinning=spinning))
 
 
-class _Judged(NamedTuple):
-    """The parts within one structure element that may be needless."""
+class _SpinCandidates(NamedTuple):
+    """The parts within one structure element that only spin, and may be needless."""
 
     groups: list[Parts]
-    """In groups that touch among themselves, such as a stack of washers: each group is first tried as one."""
+    """The parts in groups that touch each other, such as a stack of washers: each group is first tried as a whole."""
     spins: Mapping[str, Spin]
     joints: Sequence[Joint]
     system: Twists
     row_of: Mapping[str, str]
     preference: Callable[[str], tuple]
-    """The order in which neighbours are taken as carriers: fixed ones first, then larger ones."""
+    """Sort key of neighbours as carriers: fixed ones first, then larger ones."""
 
     @staticmethod
-    def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _Judged | None:
-        """Those of some parts all of whose joints are within the element; None where there are none."""
+    def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _SpinCandidates | None:
+        """Take those of the parts `held` that have all their joints within the element; None where there are none."""
         solids = {part.name: part for part in mechanism.solids}
         joints = [mechanism.all_joints[k] for k in loop_group.joints]
         here = {joint.name for joint in joints}
@@ -90,7 +91,7 @@ class _Judged(NamedTuple):
         still = next((part for part in ends if part not in inside), None)
         if not inside or still is None:
             return None
-        scale = 10.0**-_PLACES * max(float(np.ptp(solids[part].box)) for part in inside)
+        scale = 10.0**-_SORTING_DIGITS * max(float(np.ptp(solids[part].box)) for part in inside)
         pairs = [joint.parts for joint in joints if set(joint.parts) <= set(inside)]
         order = {part: _place(solids[part], scale) for part in inside}
         groups = [sorted(group, key=order.__getitem__) for group in connected(inside, pairs)]
@@ -101,24 +102,25 @@ class _Judged(NamedTuple):
             extents = sorted(-np.ptp(solids[part].box, axis=0)) if part in solids else [0.0]
             return part not in mechanism.fixed, part in inside, *extents, *order.get(part, ())
 
-        return _Judged(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
+        return _SpinCandidates(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
 
     def is_needless(self, parts: Sequence[str]) -> bool:
-        """Whether the others move no more freely without these parts, and these can do nothing but spin, each by
-        itself, while the others rest."""
+        """Whether the other parts gain no freedom without these parts, and these parts can only spin, each by itself,
+        while the others rest."""
         if not parts:
             return False
         rows = self.system.rows([k for k, joint in enumerate(self.joints) if set(parts) & set(joint.parts)])
         own = sum(self.spins[part].freedoms for part in parts)
         if self.system.alone(parts, rows) != own:
             return False
-        # without its joints each is free six times, of which it has some already
+        # without its joints each part gains six freedoms, but for those that it has already
         return len(self.system.freed(rows)) == 6 * len(parts) - own
 
     def together(self, groups: Sequence[Parts], before: Sequence[str] = ()) -> Parts:
-        """The parts of these groups that are needless together, besides those taken before.
+        """Find parts of these groups that are needless together with the parts `before`, by bisection.
 
-        All are tried at once, then half of them and the other half besides these, down to the parts of a group.
+        All groups are tried at once; if they are not needless, one half, then the other half together with what was
+        found in the first, down to the single parts of a group.
         """
         parts = [part for group in groups for part in group]
         if not parts or self.is_needless([*before, *parts]):
@@ -132,7 +134,7 @@ class _Judged(NamedTuple):
         return [*first, *self.together(groups[middle:], [*before, *first])]
 
     def with_carriers(self) -> dict[str, Spin]:
-        """The spins of parts that are needless together, with their carriers; but for parts that stay on none."""
+        """Find parts that are needless together, each with its carrier; parts that stay on none are left out."""
         groups = self.groups
         while parts := self.together(groups):
             carriers = self.carriers(parts)
@@ -142,7 +144,7 @@ class _Judged(NamedTuple):
         return {}
 
     def carriers(self, parts: Sequence[str]) -> dict[str, str]:
-        """The neighbour that each part stays on: one that has work to do, or one whose own carrier is known."""
+        """Choose the neighbour that each part stays on: one that is not idle, or one whose own carrier is known."""
         choices = {part: self._stays_on(part, parts) for part in parts}
         found: dict[str, str] = {}
         while True:
@@ -157,10 +159,10 @@ class _Judged(NamedTuple):
             found |= new
 
     def _stays_on(self, part: str, idle: Sequence[str]) -> Parts:
-        """The neighbours relative to which the part does nothing but spin, whatever moves.
+        """Find the neighbours relative to which a part only spins, whatever moves.
 
-        Its neighbours, without those that are idle too, stay together but for turns about the axis: on which of them a
-        sleeve stays between a rod and a cylinder that slide along each other shows, and would be a guess.
+        There are none unless the neighbours that are not idle only turn relative to each other about the axis. A sleeve
+        between a rod and a cylinder that slide along each other may stay on either, which would be a guess.
         """
         spin = self.spins[part]
         centre, size = middle(self.joints)
@@ -170,7 +172,7 @@ class _Judged(NamedTuple):
         def only(movement: str, one: str, other: str) -> bool:
             forbidden = complement(chain([movement], frames[None], np.zeros(freedoms([movement])))[1])
             relative = self.system.relative(self.row_of[one], self.row_of[other])
-            return bool(np.abs(forbidden @ relative).max(initial=0.0) < SAME)
+            return bool(np.abs(forbidden @ relative).max(initial=0.0) < TWIST_TOLERANCE)
 
         near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
         used = [neighbour for neighbour in near if neighbour not in idle]
@@ -180,6 +182,6 @@ class _Judged(NamedTuple):
 
 
 def _place(part: Part, scale: float) -> tuple[float, ...]:
-    """Where a part is and how large: what tells parts apart however they are called and ordered."""
+    """Place and size of a part, rounded to `scale`: a sort key that does not depend on names and order."""
     numbers = [*part.box.mean(axis=0), *np.ptp(part.box, axis=0)]
     return tuple(float(number) for number in np.round(np.array(numbers) / scale))

@@ -1,9 +1,9 @@
-"""Parts that only spin: screws, pins and washers, which contact analysis reads as hinges.
+"""Parts that only spin: screws, pins and washers, which look like hinges to the contact analysis.
 
-Such a part can turn about an axis while all others rest, perhaps slide along it or over a face across it, and can do
-nothing else; nothing hangs on it, nor would anything move more freely without it. And its solid is round about that
-axis: a lever at the end of a chain also turns alone, but that it has no work to do would be a guess, as it would be of
-parts without solids.
+Such a part can turn about an axis while all other parts rest, perhaps also slide along the axis or over a face across
+it, and can do nothing else; it carries no other part and constrains none. Its solid is round about that axis. A lever
+at the end of a chain also turns alone, but is not round: that it has no function would be a guess, and so it would be
+for parts without solids.
 """
 
 from __future__ import annotations
@@ -28,33 +28,36 @@ from jaxkin.mobility.twists import constraints, middle
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-ROUND = 0.84
-"""Least over greatest half width of a part that is round about an axis: a hexagon has 0.866, a square 0.707."""
-SAME = 1e-6
-"""Entries of unit twists that are equal: far above rounding, far below design."""
+MIN_ROUNDNESS = 0.84
+"""Smallest ratio of least to greatest half width of a part that is round about an axis: a hexagon has 0.866, a square
+0.707."""
+TWIST_TOLERANCE = 1e-6
+"""Entries of unit twists below this count as zero: far above rounding, far below design."""
 
 
 @dataclass(frozen=True, eq=False)
 class Spin:
-    """What a part can do by itself."""
+    """The motion of a part that can move while all other parts rest."""
 
     kind: JointKind
     movement: str
-    """The lower pair that it amounts to: revolute, cylindrical or planar."""
+    """Key of the movement of the lower pair: revolute, cylindrical or planar."""
     frame: Pose
-    """Of that pair, z along the axis of the turn."""
+    """Frame of that pair, z along the axis of rotation."""
     carrier: str = ""
-    """The neighbour that it stays on: relative to it the part never does anything else."""
+    """The neighbour that the part stays on: relative to the carrier it has this motion only."""
 
     @property
     def freedoms(self) -> int:
-        """How many freedoms are the part's alone."""
+        """Number of freedoms of the motion."""
         return freedoms([self.movement])
 
 
 def spins(mechanism: Mechanism) -> tuple[dict[str, Spin], dict[str, Spin]]:
-    """The round parts that can spin while all others rest: those on one neighbour, their carrier, and those that
-    several neighbours hold, as yet without a carrier, of which some may have work to do."""
+    """Find the round parts that can spin while all others rest: those on one neighbour, and those on several.
+
+    The one neighbour is the carrier. Parts on several neighbours have no carrier yet, and some may hold other parts.
+    """
     solids = {part.name: part for part in mechanism.solids}
     around: dict[str, list[Joint]] = defaultdict(list)
     for each in mechanism.all_joints:
@@ -77,22 +80,22 @@ def spins(mechanism: Mechanism) -> tuple[dict[str, Spin], dict[str, Spin]]:
 
 
 def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
-    """What a part can do while its neighbours rest, if that is a turn, perhaps with slides along or across its axis."""
+    """Find the motion of a part whose neighbours rest; None if it is no turn, perhaps with slides along or across."""
     centre, _ = middle(joints)
     forbidden = np.concatenate([constraints(joint, centre, size) for joint in joints])
     _, strengths, directions = np.linalg.svd(forbidden, full_matrices=True)
-    free = directions[int((strengths > SAME).sum()) :]
+    free = directions[int((strengths > TWIST_TOLERANCE).sum()) :]
     _, turns, mixes = np.linalg.svd(free[:, :3].T, full_matrices=True)
-    if int((turns > SAME).sum()) != 1:
+    if int((turns > TWIST_TOLERANCE).sum()) != 1:
         return None
     turn, slides = mixes[0] @ free, (mixes[1:] @ free)[:, 3:]
     axis = turn[:3] / np.linalg.norm(turn[:3])
     along = np.abs(slides @ axis)
     point = np.cross(axis, turn[3:]) / np.linalg.norm(turn[:3])
-    pitched = len(free) == 1 and abs(turn[3:] @ axis) > SAME
-    if len(free) <= 2 and np.all(along > 1 - SAME) and not pitched:
+    pitched = len(free) == 1 and abs(turn[3:] @ axis) > TWIST_TOLERANCE
+    if len(free) <= 2 and np.all(along > 1 - TWIST_TOLERANCE) and not pitched:
         kind, movement = LOWER_PAIRS[1, len(free) - 1]
-    elif len(free) == 3 and np.all(along < SAME):
+    elif len(free) == 3 and np.all(along < TWIST_TOLERANCE):
         (kind, movement), point = LOWER_PAIRS[1, 2], np.zeros(3)
     else:
         return None
@@ -100,8 +103,10 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
 
 
 def _is_round(part: Part, spin: Spin) -> bool:
-    """Whether the outline of a part, seen along an axis, is about the axis all around; about its middle, if it may
-    slide across the axis."""
+    """Whether the outline of a part, seen along the axis, is round about the axis.
+
+    If the part may slide across the axis, the outline need only be round about its own middle.
+    """
     from scipy.spatial import ConvexHull, QhullError
 
     outline = (part.triangles.reshape(-1, 3) - spin.frame[:3, 3]) @ spin.frame[:3, :2]
@@ -116,4 +121,4 @@ def _is_round(part: Part, spin: Spin) -> bool:
         else np.zeros(2)
     )
     inner = -(hull.equations[:, :2] @ centre + hull.equations[:, 2])
-    return bool(inner.min() > ROUND * np.linalg.norm(corners - centre, axis=1).max())
+    return bool(inner.min() > MIN_ROUNDNESS * np.linalg.norm(corners - centre, axis=1).max())

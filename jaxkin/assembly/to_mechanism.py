@@ -92,7 +92,7 @@ def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) 
     """
     every = all_contacts(mechanism)
     by_hand = [each for each in mechanism.all_joints if each.name not in mechanism.contacts]
-    body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == "fixed"])
+    body = bodies(mechanism.parts, mechanism.fixed, [each.parts for each in by_hand if each.kind == JointKind.FIXED])
     given = tuple(each for each in by_hand if each.name not in left_out)
     begun = Begun(given, mechanism.parts, mechanism.fixed, mechanism.unit, mechanism.solids)
     contacts = [each for each in every if each not in left_out]

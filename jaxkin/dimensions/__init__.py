@@ -1,1 +1,1 @@
-"""Link lengths, and frames of joints placed anew."""
+"""Change the dimensions of a mechanism: link lengths by name, and frames of joints."""

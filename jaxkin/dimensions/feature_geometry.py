@@ -1,7 +1,7 @@
-"""Distance, angle and offset of two features of a part, and the least movement that changes one of them alone.
+"""Distance, angle and offset between two features of a part, and the movement that changes only one of them.
 
-Every function takes `xp`, numpy or jax.numpy: on the host for numbers that are there, in JAX for those that are traced.
-Nothing is decided by looking at a number, so that one program serves parallel, skew and intersecting axes.
+Every function takes `xp`, numpy on the host or jax.numpy for traced numbers. No Python branch depends on a number, so
+that one compiled program serves parallel, skew and intersecting axes.
 """
 
 from __future__ import annotations
@@ -12,47 +12,49 @@ from jaxkin.dimensions.features import Feature, Quantity
 
 
 class Between(NamedTuple):
-    """How the second of two features lies to the first; lengths in the unit of the mechanism."""
+    """How the second of two features lies to the first; lengths in the unit of the mechanism, angles in radians."""
 
     distance: Any
-    """Of two points, or along the common normal; from a plane along its normal, negative behind it."""
+    """Between two points, or along the common normal; from a plane along its normal, negative behind the plane."""
     angle: Any
-    """Between the directions, 0 to pi; the direction of a plane is its normal. Zero where one is a point."""
+    """Between the directions, 0 to pi; the direction of a plane is its normal. Zero where a feature is a point."""
     offset: Any
-    """Along the first, from its origin: the foot of the second. Of parallel axes, the origin of the second."""
+    """Position on the first feature, from its origin, of the foot of the common normal; for parallel axes, of the
+    origin of the second."""
     away: Any
-    """Unit vector along which the second moves to change the distance alone."""
+    """Unit vector along which the second feature moves to change only the distance."""
     hinge: Any
-    """Unit vector about which the second turns to change the angle alone."""
+    """Unit vector of the axis about which the second feature turns to change only the angle."""
     about: Any
-    """A point of that axis."""
+    """A point of the axis `hinge`."""
     across: Any
-    """The distance as a vector, from the first to the second."""
+    """The distance as a vector, from the first feature to the second."""
     parallel: Any
-    """Whether the two directions are parallel, or one is a point."""
+    """Whether the two directions are parallel, or a feature is a point."""
 
 
 class _Ends(NamedTuple):
-    """Two features where they are; vectors of three numbers."""
+    """Positions and directions of two features: vectors of three numbers."""
 
     origin_2: Any
     direction_1: Any
     direction_2: Any
     delta: Any
-    """From the origin of the first to that of the second."""
+    """From the origin of the first feature to that of the second."""
     side_1: Any
     side_2: Any
-    """Across the direction of either: what is chosen where the two features coincide."""
+    """Unit vectors perpendicular to the direction of either feature: stand in for `away` where the two coincide."""
     square: Any
-    """Of the distances of both origins from that of the world: what rounding is measured by."""
+    """Sum of the squared distances of both origins from that of the world: the scale of rounding errors."""
 
 
 class _Inclination(NamedTuple):
-    """How two directions lie to each other."""
+    """The angle between two directions."""
 
     cross: Any
+    """Cross product of the two."""
     square: Any
-    """Squared sine of their angle; 1 where they are parallel."""
+    """Squared sine of the angle; 1 where they are parallel, so that it can be divided by."""
     angle: Any
     parallel: Any
 
@@ -82,12 +84,14 @@ def between(xp, one: Feature, pose1, two: Feature, pose2) -> Between:
 
 
 def _of_points(xp, ends: _Ends) -> Between:
+    """Measure between two points."""
     zero = xp.zeros(())
     length, away = _unit(xp, ends.delta, ends.side_1, ends.square)
     return Between(length, zero, -zero, away, ends.side_1, ends.origin_2, ends.delta, xp.asarray(True))
 
 
 def _of_point_and_plane(xp, ends: _Ends, plane_first: bool) -> Between:
+    """Measure between a point and a plane: along the normal."""
     normal, sign = (ends.direction_1, 1.0) if plane_first else (ends.direction_2, -1.0)
     along = ends.delta @ normal
     return Between(
@@ -103,6 +107,7 @@ def _of_point_and_plane(xp, ends: _Ends, plane_first: bool) -> Between:
 
 
 def _of_point_and_axis(xp, ends: _Ends, axis_first: bool) -> Between:
+    """Measure between a point and an axis: perpendicular to the axis."""
     axis = ends.direction_1 if axis_first else ends.direction_2
     side = ends.side_1 if axis_first else ends.side_2  # perpendicular to the axis
     along = ends.delta @ axis
@@ -113,7 +118,7 @@ def _of_point_and_axis(xp, ends: _Ends, axis_first: bool) -> Between:
 
 
 def _with_plane(xp, ends: _Ends, plane_first: bool) -> Between:
-    """Of a plane and an axis, or of two planes."""
+    """Measure between a plane and an axis, or between two planes: along the normal of the first plane."""
     lie = _inclination(xp, ends)
     normal, sign = (ends.direction_1, 1.0) if plane_first else (ends.direction_2, -1.0)
     along = ends.delta @ normal
@@ -123,7 +128,7 @@ def _with_plane(xp, ends: _Ends, plane_first: bool) -> Between:
 
 
 def _of_axes(xp, ends: _Ends) -> Between:
-    """Of two axes: along their common normal, or across them where they are parallel."""
+    """Measure between two axes: along their common normal, or perpendicular to both where they are parallel."""
     lie = _inclination(xp, ends)
     u1, u2, delta, parallel = ends.direction_1, ends.direction_2, ends.delta, lie.parallel
     across = delta - (delta @ u1) * u1
@@ -146,6 +151,7 @@ def _of_axes(xp, ends: _Ends) -> Between:
 
 
 def _inclination(xp, ends: _Ends) -> _Inclination:
+    """Measure the angle between two directions; sines below about 7 roundings count as parallel."""
     cross = xp.cross(ends.direction_1, ends.direction_2)
     square = cross @ cross
     parallel = square < 50 * xp.finfo(square.dtype).eps
@@ -156,20 +162,21 @@ def _inclination(xp, ends: _Ends) -> _Inclination:
 
 
 def value(found: Between, quantity: Quantity):
-    """The quantity of that name; a radius is the distance from a plane, on whichever side."""
+    """Pick a quantity by its name; a radius is the distance from a plane, positive on both sides."""
     if quantity == "radius":
         return found.distance * _side(found)
     return {"distance": found.distance, "angle": found.angle, "offset": found.offset}[quantity]
 
 
 def _side(found: Between):
+    """+1 where the distance is positive or zero, -1 where it is negative."""
     return 1.0 - 2.0 * (found.distance < 0)
 
 
 def moved(xp, quantity: Quantity, found: Between, change, direction, pose):
-    """The pose of the second feature after its quantity grew by `change`, all its others to the first unchanged.
+    """Move the pose of the second feature so that one quantity grows by `change` and its others to the first stay.
 
-    `direction` is that of the first, along which an offset moves the second.
+    `direction` is that of the first feature: an offset grows along it.
     """
     if quantity == "angle":
         return turned(xp, pose, change * found.hinge, found.about)
@@ -178,13 +185,13 @@ def moved(xp, quantity: Quantity, found: Between, change, direction, pose):
 
 
 def shifted(xp, pose, by):
-    """The pose moved by a vector."""
+    """Translate a pose by a vector."""
     column = xp.concatenate([pose[:3, 3] + by, xp.ones(1)])
     return xp.concatenate([pose[:, :3], column[:, None]], axis=1)
 
 
 def turned(xp, pose, vector, about):
-    """The pose turned by a rotation vector about an axis through a point."""
+    """Rotate a pose by a rotation vector (axis times radians) about an axis through the point `about` (Rodrigues)."""
     square = vector @ vector
     small = square < 1e-6
     angle = xp.sqrt(xp.where(small, 1.0, square))
@@ -200,7 +207,10 @@ def turned(xp, pose, vector, about):
 
 
 def _unit(xp, vector, instead, size):
-    """Length and direction of a vector; zero, and the direction given, where only rounding of `size` is left of it."""
+    """Compute length and direction of a vector; where it is rounding error only, zero and the direction `instead`.
+
+    `size` is the square of the numbers that were subtracted.
+    """
     square = vector @ vector
     nothing = square <= 1e4 * xp.finfo(square.dtype).eps ** 2 * size
     length = xp.sqrt(xp.where(nothing, 1.0, square))

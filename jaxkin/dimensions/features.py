@@ -1,8 +1,8 @@
-"""What the joints of a part are to that part: points, axes and planes. Its lengths are the distances between them.
+"""The features by which the lengths of parts are measured: points, axes and planes, one for each joint of a part.
 
-A joint is to each of its two parts what its movements leave in place there: a ball its centre, a hinge or a pin its
-axis, a plane on a plane the plane. Between two frames of a contact joint lies a body of its own, without a name in the
-mechanism: the round surface that rolls and slides, whose length is a radius.
+The feature of a joint on a part is what the movement there leaves in place: the centre of a ball, the axis of a hinge
+or a pin, the plane of a plane on a plane. Between two successive frames of a contact joint lies a body without a name:
+the round surface that rolls and slides. Its length is a radius.
 """
 
 from __future__ import annotations
@@ -21,32 +21,33 @@ Key = tuple[str, ...]
 
 
 class Feature(NamedTuple):
-    """One end of a joint, as the part sees it."""
+    """The point, axis or plane of a joint on one of its parts."""
 
     joint: int
-    """Its column in the mechanism."""
+    """Column of the joint in the mechanism."""
     side: Side
     frame: int
+    """Index of the frame in the chain of the joint."""
     kind: Kind
     axis: int
     """Which axis of the frame is the axis, or the normal of the plane."""
     marked: bool
-    """Whether the place along the axis matters: it does for a hinge, not for a pin that slides."""
+    """Whether the origin on the axis has a meaning: it does for a hinge, not for a pin that slides."""
 
 
 class Length(NamedTuple):
     """A named quantity between two features of one body."""
 
     body: tuple[Feature, ...]
-    """All features of the body that the two belong to; none for the pitch of a screw."""
+    """All features of the body that the two features belong to; none for the pitch of a screw."""
     first: int
     second: int
-    """Indices in `body`; the column of the joint for a pitch."""
+    """Indices of the two features in `body`; for a pitch both are the column of the joint."""
     quantity: Quantity
 
 
 def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
-    """For each row of the incidence matrix (all fixed parts are one) its features, in the order of the joints."""
+    """Find the features of each row of the incidence matrix (all fixed parts are one), in the order of the joints."""
     row_of = linkage.structure.row_of
     found: dict[str, list[Feature]] = {row: [] for row in linkage.structure.parts}
     for column, joint in enumerate(linkage.joints):
@@ -59,7 +60,7 @@ def part_features(linkage: Linkage) -> dict[str, tuple[Feature, ...]]:
 
 
 def length_table(linkage: Linkage) -> dict[Key, Length]:
-    """All lengths of a mechanism by name; see `Mechanism.lengths`. It depends on the structure only."""
+    """List all lengths of a mechanism by name, see `Mechanism.lengths`; only structure and movements are used."""
     table: dict[Key, Length] = {}
     names = [joint.name for joint in linkage.joints]
     for row, features in part_features(linkage).items():
@@ -86,6 +87,7 @@ def length_table(linkage: Linkage) -> dict[Key, Length]:
 
 
 def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
+    """Find the feature of one frame of a joint; ValueError for a movement without one."""
     movement = MOVEMENTS[joint.movements[frame]]
     left = movement.feature
     if len(joint.movements) == 1 and movement.features_alone:
@@ -96,4 +98,5 @@ def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
 
 
 def _has_offset(along: Feature, of: Feature) -> bool:
+    """Whether the place of a feature along an axis is a length: both have a meaningful origin."""
     return along.kind == "axis" and along.marked and (of.kind == "point" or (of.kind == "axis" and of.marked))

@@ -1,4 +1,4 @@
-"""Frames and points of joints placed anew, on both of their parts or on one of them."""
+"""Replace frames and points of joints, on both of their parts or on one part only."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.pose import RIGID_TOLERANCE, is_rigid
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
@@ -18,7 +19,7 @@ Place = str | tuple[str, str]
 
 
 def with_frames(linkage: Linkage, frames: Mapping[Any, Any]) -> Linkage:
-    """Give some joint frames anew: see `Mechanism.with_frames`."""
+    """Replace the frames of some joints: see `Mechanism.with_frames`."""
     for place, pose in by_name(frames, "frames", "{'A': pose}").items():
         linkage = _placed(linkage, place, _pose(place, pose), lambda _, new: new)
     return linkage
@@ -43,6 +44,7 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
 
 
 def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
+    """Replace the frame at a place by `change(frame, given)`; ValueError where it is not clear which frame is meant."""
     column, side = locate(linkage, place)
     joint = linkage.joints[column]
     if side is None and len(joint.movements) > 1:
@@ -62,7 +64,7 @@ def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
 
 
 def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
-    """The column of a joint, and which copy of its frame: None for both. Raises ValueError for unknown names."""
+    """Find the column of a joint, and which copy of its frame is meant: None for both. ValueError for unknown names."""
     part, name = (None, place) if isinstance(place, str) else place
     names = linkage.structure.joints
     if name not in names:
@@ -77,15 +79,15 @@ def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
 
 
 def _pose(place: Place, pose):
+    """Check that numbers are a rigid 4x4 pose (ValueError); traced ones are not checked."""
     if traced(pose):
         return pose
     array = np.asarray(pose, float)
     if array.shape != (4, 4) or not np.all(np.isfinite(array)):
         raise ValueError(f"the frame of {place!r} must be a 4x4 pose of finite numbers, got shape {array.shape}")
-    turn = array[:3, :3]
-    if np.abs(turn.T @ turn - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0 or np.any(array[3] != [0, 0, 0, 1]):
+    if not is_rigid(array):
         raise ValueError(
             f"the frame of {place!r} is no rigid pose: its first three columns must be a right-handed rotation "
-            "(orthonormal within 1e-9), its last row 0, 0, 0, 1"
+            f"(orthonormal within {RIGID_TOLERANCE:g}), its last row 0, 0, 0, 1"
         )
     return array

@@ -1,4 +1,4 @@
-"""Link lengths: all distances and angles between the joints of each part, by name, to be read and to be changed."""
+"""Link lengths: read and change all distances and angles between the joints of each part, by name."""
 
 from __future__ import annotations
 
@@ -18,24 +18,31 @@ from jaxkin.dimensions.rearrange import Change, Layout, arrange
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 
-MISFIT = 1e-9
-"""Largest error of a length, relative to the size of its part, at which lengths are said to hold together."""
+MAX_MISFIT = 1e-9
+"""Largest misfit of the lengths of a part, relative to its size, that is not reported as a contradiction: far above
+rounding in float64."""
 
 _ORDER = ("angle", "distance", "radius", "offset")
+"""Order in which the quantities of a body are changed."""
+
+Body = tuple[Feature, ...]
+"""The features of one part, or of a body between two frames of a contact joint."""
 
 
 def lengths(linkage: Linkage) -> dict[Key, float | jax.Array]:
-    """The values of all lengths by name: see `Mechanism.lengths`."""
+    """Measure all lengths by name: see `Mechanism.lengths`."""
     table = length_table(linkage)
     xp = jnp if traced(linkage) else np
     return {key: _number(_measured(xp, linkage, length)) for key, length in table.items()}
 
 
 def _number(quantity):
+    """Turn a numpy scalar into a float; JAX arrays stay as they are."""
     return quantity if isinstance(quantity, jax.Array) else float(quantity)
 
 
 def _measured(xp, linkage: Linkage, length: Length):
+    """Measure one length."""
     if length.quantity == "pitch":
         return linkage.joints[length.first].pitch
     one, two = length.body[length.first], length.body[length.second]
@@ -44,11 +51,12 @@ def _measured(xp, linkage: Linkage, length: Length):
 
 
 def _pose(xp, linkage: Linkage, feature: Feature):
+    """Look up the 4x4 pose of a feature."""
     return xp.asarray(getattr(linkage.joints[feature.joint], feature.side)[feature.frame])
 
 
 def find_length(linkage: Linkage, key: object) -> Length:
-    """The length of that name, its two joints in the order given. Raises ValueError with the nearest names."""
+    """Find a length by its name, with its two joints in either order. Raises ValueError with the nearest names."""
     table = length_table(linkage)
     if not isinstance(key, tuple) or not all(isinstance(name, str) for name in key):
         example = next(iter(table), ("coupler", "B", "C"))
@@ -57,14 +65,15 @@ def find_length(linkage: Linkage, key: object) -> Length:
     same = (row, *key[1:])
     if same in table:
         return table[same]
-    turned = (row, *key[1:3][::-1], *key[3:])
-    if len(key) >= 3 and key[3:] != ("offset",) and turned in table:
-        length = table[turned]
+    exchanged = (row, *key[1:3][::-1], *key[3:])
+    if len(key) >= 3 and key[3:] != ("offset",) and exchanged in table:
+        length = table[exchanged]
         return length._replace(first=length.second, second=length.first)
     raise ValueError(_unknown(linkage, key, row, table))
 
 
 def _unknown(linkage: Linkage, key: Key, row: str, table: dict[Key, Length]) -> str:
+    """Say that there is no such length, with the nearest names or all lengths of the part."""
     start = f"there is no length {key!r}"
     joints = list(linkage.structure.joints)
     if row not in linkage.structure.parts and row not in joints:
@@ -77,14 +86,14 @@ def _unknown(linkage: Linkage, key: Key, row: str, table: dict[Key, Length]) -> 
 
 
 def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
-    """The mechanism with some lengths changed: see `Mechanism.with_lengths`."""
+    """Change some lengths: see `Mechanism.with_lengths`."""
     changed, misfits = rearranged(linkage, changes)
-    if linkage.ideal:  # the lengths are given to the joints that move as to those that disagree
+    if linkage.ideal:  # both the joints as given and their mobile replacements get the lengths
         ideal = with_lengths(linkage.with_joints(linkage.ideal), changes)
         changed = changed.with_joints(changed.joints, ideal.joints)
     for row, misfit in misfits.items():
         if not traced(misfit):
-            if not float(misfit) <= MISFIT:
+            if not float(misfit) <= MAX_MISFIT:
                 asked = ", ".join(f"{key!r}: {_shown(changes[key])}" for key in changes)
                 raise ValueError(
                     f"part {row!r} cannot have {asked} with all its other lengths as they are (they miss by "
@@ -92,8 +101,8 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
                     "together, or place its joints by with_points"
                 )
         else:
-            # seen as the status NONFINITE of every pose: never as a wrong length
-            spoilt = jnp.where(misfit <= MISFIT, 0.0, jnp.nan)
+            # traced numbers cannot raise: every pose gets the status NONFINITE instead of a wrong length
+            spoilt = jnp.where(misfit <= MAX_MISFIT, 0.0, jnp.nan)
             joints = [
                 replace(joint, frames_1=joint.frames_1 + spoilt)
                 if row in [linkage.structure.row_of[part] for part in joint.parts]
@@ -105,12 +114,32 @@ def with_lengths(linkage: Linkage, changes: Mapping[Any, Any]) -> Linkage:
 
 
 def rearranged(linkage: Linkage, changes: Mapping[Any, Any]) -> tuple[Linkage, dict[str, np.floating | jax.Array]]:
-    """The mechanism with some lengths changed, and for each part with three joints or more what they miss by.
+    """Change some lengths; return the mechanism, and the misfit of each part with three joints or more.
 
-    Where the lengths asked for and those to be kept cannot hold together, the nearest place of the joints is given, and
-    the misfit (relative to the size of the part) is a differentiable measure of it.
+    Where the new lengths and those to be kept contradict each other, the joints get the nearest places, and the misfit
+    (relative to the size of the part) is a differentiable measure of the contradiction.
     """
-    bodies: dict[tuple[Feature, ...], list[tuple[Length, Any]]] = {}
+    bodies, pitches = _by_body(linkage, changes)
+    xp = jnp if traced(linkage, *(wanted for group in bodies.values() for _, wanted in group)) else np
+    frames: dict[tuple[int, str, int], Any] = {}
+    misfits: dict[str, np.floating | jax.Array] = {}
+    for body, group in bodies.items():
+        poses, misfit = _rearranged_body(xp, linkage, body, group)
+        if misfit is not None:
+            misfits[_row(linkage, body)] = misfit
+        frames.update({(f.joint, f.side, f.frame): pose for f, pose in zip(body, poses, strict=True)})
+    joints = [
+        _with_frames(joint, {key[1:]: pose for key, pose in frames.items() if key[0] == column}, pitches.get(column))
+        for column, joint in enumerate(linkage.joints)
+    ]
+    return linkage.with_joints(joints), misfits
+
+
+def _by_body(
+    linkage: Linkage, changes: Mapping[Any, Any]
+) -> tuple[dict[Body, list[tuple[Length, Any]]], dict[int, Any]]:
+    """Check the new lengths (ValueError) and group them by body, angles first; pitches by the column of their joint."""
+    bodies: dict[Body, list[tuple[Length, Any]]] = {}
     pitches: dict[int, Any] = {}
     named: dict[Length, Any] = {}
     for key, wanted in by_name(changes, "lengths", "{('coupler', 'B', 'C'): 3.6}").items():
@@ -126,39 +155,37 @@ def rearranged(linkage: Linkage, changes: Mapping[Any, Any]) -> tuple[Linkage, d
             pitches[length.first] = np.array(wanted, float) if plain else jnp.asarray(wanted, float) + 0.0
         else:
             bodies.setdefault(length.body, []).append((length, wanted))
-    xp = jnp if traced(linkage, *(wanted for group in bodies.values() for _, wanted in group)) else np
-    frames: dict[tuple[int, str, int], Any] = {}
-    misfits: dict[str, np.floating | jax.Array] = {}
-    for body, group in bodies.items():
+    for group in bodies.values():
         group.sort(key=lambda entry: _ORDER.index(entry[0].quantity))
-        poses = [_pose(xp, linkage, feature) for feature in body]
-        original = xp.stack(poses)
-        for length, wanted in group:
-            one, two = body[length.first], body[length.second]
-            found = between(xp, one, poses[length.first], two, poses[length.second])
-            change = xp.asarray(wanted) - value(found, length.quantity)
-            direction = poses[length.first][:3, one.axis]
-            poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
-        if len(body) > 2:
-            layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length, _ in group))
-            targets = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
-            moved_poses, misfit = arrange(xp, layout, original, xp.stack(poses), targets)
-            poses, misfits[_row(linkage, body)] = list(moved_poses), misfit
-        frames.update({(f.joint, f.side, f.frame): pose for f, pose in zip(body, poses, strict=True)})
-    joints = [
-        _with_frames(joint, {key[1:]: pose for key, pose in frames.items() if key[0] == column}, pitches.get(column))
-        for column, joint in enumerate(linkage.joints)
-    ]
-    return linkage.with_joints(joints), misfits
+    return bodies, pitches
 
 
-def _row(linkage: Linkage, body: tuple[Feature, ...]) -> str:
+def _rearranged_body(xp, linkage: Linkage, body: Body, group: list[tuple[Length, Any]]) -> tuple[list[Any], Any]:
+    """Change lengths of one body; return the poses of its features, and the misfit, None for two features only."""
+    poses = [_pose(xp, linkage, feature) for feature in body]
+    original = xp.stack(poses)
+    for length, wanted in group:
+        one, two = body[length.first], body[length.second]
+        found = between(xp, one, poses[length.first], two, poses[length.second])
+        change = xp.asarray(wanted) - value(found, length.quantity)
+        direction = poses[length.first][:3, one.axis]
+        poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
+    if len(body) == 2:
+        return poses, None
+    layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length, _ in group))
+    targets = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
+    moved_poses, misfit = arrange(xp, layout, original, xp.stack(poses), targets)
+    return list(moved_poses), misfit
+
+
+def _row(linkage: Linkage, body: Body) -> str:
+    """Name the row of the incidence matrix that a body belongs to."""
     joint = linkage.joints[body[0].joint]
     return linkage.structure.row_of[joint.parts[0 if body[0].side == "frames_1" else 1]]
 
 
 def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint:
-    """The joint with some of its frames replaced, by (side, index)."""
+    """Replace some frames of a joint, given by (side, index), and its pitch if it is not None."""
     sides = {}
     for side in ("frames_1", "frames_2"):
         given = getattr(joint, side)
@@ -168,6 +195,7 @@ def _with_frames(joint: Joint, frames: Mapping[tuple, Any], pitch: Any) -> Joint
 
 
 def _checked(key: Key, length: Length, wanted):
+    """Check that a new length is a finite number in its range (ValueError); traced numbers are not checked."""
     if traced(wanted):
         return wanted
     try:
@@ -193,4 +221,5 @@ def _checked(key: Key, length: Length, wanted):
 
 
 def _shown(wanted: object) -> str:
+    """Write a new length for a message."""
     return f"{float(wanted):.6g}" if isinstance(wanted, int | float | np.ndarray) else repr(wanted)

@@ -1,8 +1,8 @@
-"""Parts with three joints or more: places for their joints at which the lengths asked for hold, and all others too.
+"""Place the joints of a part with three joints or more so that new lengths hold, and all its other lengths stay.
 
-The closed movements of `measure` change one length between two features. With a third one the moved feature must keep
-its distances to that as well (a triangle is given by its three sides), which is a small system of equations in the
-positions: solved by damped Gauss-Newton steps, differentiated by the implicit function theorem.
+The formulas of `feature_geometry` change one length between two features. With a third feature the one that moves must
+also keep its lengths to that (a triangle is given by its three sides). This is a small system of equations in the
+positions, solved by damped Gauss-Newton steps and differentiated by the implicit function theorem.
 """
 
 from __future__ import annotations
@@ -20,49 +20,51 @@ from jaxtyping import Array, Float
 from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
 
-STEPS = 60
+PLACEMENT_ITERATIONS = 60
+"""Gauss-Newton steps at most; the loop ends before when a step is of rounding size."""
 
 
 class Change(NamedTuple):
-    """A length to be changed: static, its target is given beside it."""
+    """A length to be changed: static, since its target is given separately."""
 
     first: int
     second: int
+    """Indices of the two features; the second one moves."""
     quantity: Quantity
 
 
 class Layout(NamedTuple):
-    """What is static: the features of a part and which of its lengths change."""
+    """The static input: the features of a part, and which of its lengths change."""
 
     features: tuple[Feature, ...]
     changes: tuple[Change, ...]
 
 
 class _Pairs(NamedTuple):
-    """The equations of all pairs (first index) for the vectors d from one feature to the other, over the size."""
+    """The equations of all pairs of features (first axis) for the vectors d between them, divided by the size."""
 
     project: Any
-    """3x3: what of d is the distance."""
+    """3x3: projects d onto the directions in which the distance is measured."""
     distance: Any
     along: Any
     """Direction of the distance where the equation is linear in d: `project d = distance along`."""
     linear: Any
-    """Elsewhere it is `|project d| = distance`."""
+    """Whether it is linear; otherwise it is `|project d| = distance`."""
     offsets: Any
-    """Two vectors, one for either end: `offset d = place`, all zero where nothing is held."""
+    """Two vectors, one for the offset along either feature: `offset . d = place`; zero where there is no offset."""
     places: Any
     angles: Any
-    """What the cosines of the angles miss by: directions are given, only positions are solved for."""
+    """Errors of the cosines of the angles: constant, since only positions are solved for."""
     weights: Any
-    """Of the features: 1 for those that move, else 0."""
+    """One for each feature: 1 if it moves, else 0."""
 
 
 def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
-    """Poses of all features near the guess, and what is left of the equations, relative to the size of the part.
+    """Solve for poses of all features near the guess; return them and the misfit, relative to the size of the part.
 
-    `original` and `guess` are 4x4 poses (features, 4, 4), `targets` one number a change. The second feature of every
-    change moves, and all that coincide with it; the others stay where they are. What is left is at rounding where the
-    lengths can hold together, and a differentiable measure of by how much they cannot.
+    `original` and `guess` are 4x4 poses (features, 4, 4), `targets` one number for each change. The second feature of
+    every change moves, and so do all that coincide with it; the others stay. The misfit is the norm of all residuals:
+    of rounding size where the lengths agree, else a differentiable measure of their contradiction.
     """
     places = original[:, :3, 3]
     size = xp.sqrt(xp.sum((places - places.mean(axis=0)) ** 2)) + 1e-300
@@ -71,20 +73,22 @@ def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
     positions = _search(np, _host_loop, pairs, start) if xp is np else _solve(pairs, start)
     rows, _ = _rows(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
     misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angles**2) + 1e-300)
-    moved = guess[:, :3, 3] + size * (positions - start)  # exactly nothing for what stays
+    moved = guess[:, :3, 3] + size * (positions - start)  # exactly zero for features that stay
     poses = xp.concatenate([guess[:, :3, :3], moved[:, :, None]], axis=2)
     return xp.concatenate([poses, guess[:, 3:]], axis=1), misfit
 
 
 class _Pair(NamedTuple):
-    """Two features of the part, as they are and as they are guessed."""
+    """Two features of the part, at their original and at their guessed poses."""
 
     i: int
     j: int
     one: Feature
     two: Feature
     was: Between
+    """As they are."""
     now: Between
+    """As they are guessed."""
     direction_1: Any
     direction_2: Any
     """As they are guessed."""
@@ -93,7 +97,7 @@ class _Pair(NamedTuple):
 
 
 def _pairs(xp, layout: Layout, original, guess, targets, size) -> _Pairs:
-    """Put together the equations of all pairs of features; `size` is what lengths are divided by."""
+    """Collect the equations of all pairs of features; lengths are divided by `size`."""
     wanted: dict[tuple[int, int, str], Any] = {
         (change.first, change.second, change.quantity): target
         for change, target in zip(layout.changes, targets, strict=True)
@@ -129,12 +133,12 @@ def _pairs(xp, layout: Layout, original, guess, targets, size) -> _Pairs:
 
 
 def _wanted(pair: _Pair, quantity: Quantity, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
-    """The length asked for between the two, whichever is named first; None where it is to be kept."""
+    """Look up the new length between two features, in either order; None where the length is kept."""
     return wanted.get((pair.i, pair.j, quantity), wanted.get((pair.j, pair.i, quantity)))
 
 
 def _distance(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any], coincident: Mapping[tuple[int, int], Any]):
-    """The distance that the two are to have: features in one place have one distance to all others."""
+    """Find the distance that two features have to get; coinciding features get one distance to each other feature."""
     if (asked := _wanted(pair, "distance", wanted)) is not None:
         return asked
     kept = pair.was.distance
@@ -146,12 +150,12 @@ def _distance(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any], coinc
 
 
 def _distance_equation(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> tuple[Any, Any, Any]:
-    """What of the vector from one to the other is their distance (3x3), its direction, and whether it is linear."""
+    """Make the distance equation of a pair: its projection (3x3), its direction, and whether it is linear in d."""
     one, two, u, v = pair.one, pair.two, pair.direction_1, pair.direction_2
-    # what coincides stays so in all directions: a distance has no slope at zero
+    # features that coincide keep all three components: a distance has no derivative at zero
     together = (pair.was.distance == 0) & (_wanted(pair, "distance", wanted) is None)
     plane = "plane" in (one.kind, two.kind)
-    # from one to two; for planes the distance is counted along the normal of the plane
+    # from the first to the second; from a plane the distance is measured along its normal
     along = u if one.kind == "plane" else -v if two.kind == "plane" else pair.now.away
     level = xp.eye(3) - xp.outer(v, v) if two.kind == "axis" else xp.eye(3) - xp.outer(u, u)
     if (one.kind, two.kind) == ("point", "point"):
@@ -162,7 +166,7 @@ def _distance_equation(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], An
 
 
 def _angle_misfit(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
-    """What the cosine of their angle misses by; nothing where one is a point."""
+    """Compute the error of the cosine of the angle of a pair; zero where a feature is a point."""
     if "point" in (pair.one.kind, pair.two.kind):
         return 0.0
     target = _wanted(pair, "angle", wanted)
@@ -172,8 +176,7 @@ def _angle_misfit(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -
 def _offset_equations(
     xp, pair: _Pair, original, wanted: Mapping[tuple[int, int, str], Any], size
 ) -> Iterator[tuple[Any, Any]]:
-    """For either end the vector that the offset is counted along, and its place over the size; zeros where none is
-    held."""
+    """Make the offset equation along either feature: (vector, offset over the size), zeros where there is none."""
     u, v = pair.direction_1, pair.direction_2
     for a, b, feature, other, axis, across, sign in (
         (pair.i, pair.j, pair.one, pair.two, u, v, 1.0),
@@ -184,7 +187,7 @@ def _offset_equations(
             yield 0.0 * axis, 0.0 * size
             continue
         vector = axis
-        if other.kind == "axis":  # linear in the vector between them: the foot of the common normal
+        if other.kind == "axis":  # the foot of the common normal is linear in d
             cross = xp.cross(axis, across)
             square = xp.where(pair.now.parallel, 1.0, cross @ cross)
             vector = xp.where(pair.now.parallel, axis, xp.cross(across, cross) / square)
@@ -194,10 +197,10 @@ def _offset_equations(
 
 
 def _movers(xp, layout: Layout, coincident):
-    """1 for features that move, 0 for those that stay; what coincides with a moving one goes along."""
+    """Make the weights of the features: 1 for those that move and those that coincide with them, 0 for the others."""
     count = len(layout.features)
     moving = sorted({change.second for change in layout.changes})
-    moving = moving if len(moving) < count else moving[1:]  # one must stay
+    moving = moving if len(moving) < count else moving[1:]  # at least one feature stays
     firsts = {change.first for change in layout.changes}
     weights = []
     for i in range(count):
@@ -209,7 +212,7 @@ def _movers(xp, layout: Layout, coincident):
 
 
 def _rows(xp, pairs: _Pairs, positions):
-    """What the equations miss by, and their Jacobian for the positions (rows, features, 3)."""
+    """Compute the residuals of all equations, and their Jacobian by the positions (rows, features, 3)."""
     count = len(positions)
     first, second = np.array(list(combinations(range(count), 2))).T
     incidence = np.zeros((len(first), count))
@@ -231,6 +234,7 @@ def _rows(xp, pairs: _Pairs, positions):
 
 
 def _search(xp, loop, pairs: _Pairs, start):
+    """Solve for the positions (features, 3) by damped Gauss-Newton steps of length 0.5 at most, run by `loop`."""
     weights = xp.repeat(pairs.weights, 3)
 
     def step(positions):
@@ -247,7 +251,8 @@ def _search(xp, loop, pairs: _Pairs, start):
 
 
 def _host_loop(step, positions):
-    for _ in range(STEPS):
+    """Repeat steps in numpy until they are of rounding size."""
+    for _ in range(PLACEMENT_ITERATIONS):
         positions, length = step(positions)
         if length < 1e-16:
             break
@@ -255,17 +260,20 @@ def _host_loop(step, positions):
 
 
 def _device_loop(step, positions):
+    """Repeat steps in JAX until they are of rounding size."""
+
     def go(carry):
         count, positions, _ = carry
         return count + 1, *step(positions)
 
     start = (jnp.asarray(0), positions, jnp.asarray(jnp.inf, positions.dtype))
     least = 2.0 * float(jnp.finfo(positions.dtype).eps)
-    return lax.while_loop(lambda carry: (carry[0] < STEPS) & (carry[2] > least), go, start)[1]
+    return lax.while_loop(lambda carry: (carry[0] < PLACEMENT_ITERATIONS) & (carry[2] > least), go, start)[1]
 
 
 @jax.custom_jvp
 def _solve(pairs: _Pairs, start: Float[Array, "features 3"]) -> Float[Array, "features 3"]:
+    """Solve the equations in JAX, with derivatives by the implicit function theorem."""
     return _search(jnp, _device_loop, pairs, start)
 
 
@@ -273,7 +281,7 @@ def _solve(pairs: _Pairs, start: Float[Array, "features 3"]) -> Float[Array, "fe
 def _solve_jvp(primals, tangents):
     (pairs, start), (d_pairs, d_start) = primals, tangents
     positions = _solve(pairs, start)
-    # features that stay follow the start, those that move follow the equations from there, by the least norm
+    # features that stay have the derivative of the start; the others correct it by the least norm
     _, d_rows = jax.jvp(lambda p, x: _rows(jnp, p, x)[0], (pairs, positions), (d_pairs, d_start))
     rows, jacobian = _rows(jnp, pairs, positions)
     weights = jnp.repeat(pairs.weights, 3)

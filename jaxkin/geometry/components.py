@@ -7,7 +7,7 @@ from jaxtyping import Int
 
 
 def components(count: int, edges: Int[np.ndarray, "edges 2"]) -> Int[np.ndarray, " count"]:
-    """The number of the component of each of `count` nodes, from 0 in the order of their first nodes."""
+    """Number the connected components of `count` nodes, from 0 in the order of their first nodes: one number a node."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -20,6 +20,6 @@ def components(count: int, edges: Int[np.ndarray, "edges 2"]) -> Int[np.ndarray,
 
 
 def grouped(label: Int[np.ndarray, "_"]) -> list[Int[np.ndarray, "_"]]:
-    """The places of each label, by increasing label."""
+    """Group the indices of equal labels, by increasing label."""
     order = np.argsort(label, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(label[order])) + 1) if len(order) else []

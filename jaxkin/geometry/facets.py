@@ -1,7 +1,7 @@
-"""A triangulated solid in flat facets: triangles that lie in one plane, and which facets may be of one curved face.
+"""The flat facets of a triangulated solid, and which neighbouring facets may belong to one curved face.
 
-A tessellation replaces a curved face by facets that meet at small angles, and other faces meet it at its rim. The
-corners of the facets are all that it keeps of the true surface.
+A facet is a set of connected triangles in one plane. A tessellation replaces a curved face by facets that meet at small
+angles; only their corners lie on the true surface.
 """
 
 from __future__ import annotations
@@ -14,42 +14,46 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.components import components
 from jaxkin.geometry.pose import Points
 
-COPLANAR = 1e-3
-"""Radians at which two triangles are still one flat facet; facets of curved faces meet at 1e-2 and more."""
+COPLANAR_ANGLE = 1e-3
+"""Angle between two neighbouring triangles, radians, below which they form one flat facet; facets of curved faces meet
+at 1e-2 and more."""
 
-SMOOTH = 0.65
-"""Radians at which two facets may still be of one curved face: ten facets a turn."""
+SMOOTH_ANGLE = 0.65
+"""Angle between two neighbouring facets, radians, below which they may belong to one curved face: ten facets a turn."""
 
-SLIVER = 20.0
-"""A triangle lower than this many times the rounding has no normal worth the name."""
+SLIVER_HEIGHT = 20.0
+"""Height of a triangle, as a multiple of the rounding of its corners, below which its normal is not used."""
 
 Rows = Int[np.ndarray, "_"]
 
 
 @dataclass(frozen=True, eq=False)
 class Facets:
-    """The triangles of a solid and the facets that they make up."""
+    """The triangles of a solid, grouped into facets."""
 
     points: Float[np.ndarray, "points 3"]
+    """Corners of all triangles, each point once, in the unit of the assembly."""
     triangles: Int[np.ndarray, "triangles 3"]
     """Indices into `points`, wound outwards."""
     tolerance: float
-    """The length by which points may miss the surface that they were made on."""
+    """Rounding of the points, a length: how far a corner may lie from the surface that it was made on."""
     normals: Float[np.ndarray, "triangles 3"]
-    """Outward unit normals; a sliver has that of its facet."""
+    """Outward unit normals; a sliver has the normal of its facet."""
     areas: Float[np.ndarray, "triangles"]
     facet_of: Int[np.ndarray, "triangles"]
+    """Number of the facet of each triangle."""
     pairs: Int[np.ndarray, "pairs 2"]
     """Pairs of triangles that share an edge."""
     smooth: Int[np.ndarray, "_ 2"]
-    """Pairs of triangles of two facets that meet smoothly at an edge."""
+    """Pairs of triangles that share an edge, of two facets that meet there below `SMOOTH_ANGLE`."""
 
     @property
     def count(self) -> int:
+        """Number of facets."""
         return int(self.facet_of.max(initial=-1)) + 1
 
     def corner_normals(self, rows: Rows) -> Float[np.ndarray, "_ 3 3"]:
-        """At the corners of some triangles the mean normal of those of them that meet there, weighted by angle."""
+        """Average the normals of the triangles `rows` that meet at each of their corners, weighted by angle."""
         corners = self.triangles[rows]
         edges = self.points[np.roll(corners, -1, axis=1)] - self.points[corners]
         before = -np.roll(edges, 1, axis=1)
@@ -64,31 +68,38 @@ class Facets:
 
 
 def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"], tolerance: float) -> Facets:
-    """The facets of welded triangles; `pairs` are those that share an edge, `tolerance` the rounding of the points."""
+    """Group welded triangles into facets.
+
+    `points` and `triangles` are as in `Welded`; `pairs` are the triangles that share an edge; `tolerance` is the
+    rounding of the points, a length.
+    """
     corners = points[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     double = np.linalg.norm(cross, axis=-1)
     normals = cross / np.where(double > 0, double, 1.0)[:, None]
     edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=-1)
     heights = double / edges.max(axis=1)
-    leader = _leaders(triangles, pairs, edges, heights < SLIVER * tolerance)
+    leader = _leaders(triangles, pairs, edges, heights < SLIVER_HEIGHT * tolerance)
     normals = normals[leader]
 
     i, j = pairs.T
     angle = _angles(normals[i], normals[j])
     noise = tolerance * (1 / heights[leader[i]] + 1 / heights[leader[j]])
-    flat = (angle < np.maximum(COPLANAR, noise)) | (leader[i] == leader[j])
+    flat = (angle < np.maximum(COPLANAR_ANGLE, noise)) | (leader[i] == leader[j])
     label = components(len(triangles), np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], -1)]))
-    # what bends by less than the angle from triangle to triangle is no plane all the same
+    # triangles that each bend by less than the angle may together be a curved strip: no facet
     bent = np.flatnonzero(_bent(label, normals, corners, double, 5 * tolerance))
     label[bent] = label.max(initial=0) + 1 + np.arange(len(bent))
     label = np.unique(label, return_inverse=True)[1]
-    smooth = (angle < SMOOTH) & (label[i] != label[j])
+    smooth = (angle < SMOOTH_ANGLE) & (label[i] != label[j])
     return Facets(points, triangles, tolerance, normals, double / 2, label, pairs, pairs[smooth])
 
 
 def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> Rows:
-    """For each sliver the triangle beyond its longest edge, or beyond that one's if it is a sliver too, and so on."""
+    """For each triangle the one whose normal it gets: itself, or for a sliver the triangle beyond its longest edge.
+
+    Where that is a sliver too, the triangle beyond its longest edge, and so on.
+    """
     leader = np.arange(len(triangles))
     if not sliver.any():
         return leader
@@ -98,13 +109,13 @@ def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver
     for one, other in (pairs.T, pairs.T[::-1]):
         shares = sliver[one] & np.all((triangles[other][:, :, None] == edge[one][:, None]).any(axis=1), axis=-1)
         leader[one[shares]] = other[shares]
-    for _ in range(32):  # by doubling: more than any chain
+    for _ in range(32):  # each pass doubles the length of the chains followed: 2^32 in all
         leader = leader[leader]
     return leader
 
 
 def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
-    """Which triangles are of a group whose corners are not all in its mean plane."""
+    """Which triangles belong to a group whose corners are not all within `tolerance` of its mean plane."""
     count = np.maximum(np.bincount(label), 1)
     normal = np.stack([np.bincount(label, weights * n) for n in normals.T], axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
@@ -117,4 +128,5 @@ def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray
 
 
 def _angles(a: Points, b: Points) -> np.ndarray:
+    """Angles between unit vectors, radians, accurate for small ones."""
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.sum(a * b, axis=-1))

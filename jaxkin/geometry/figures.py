@@ -1,6 +1,6 @@
-"""Solids that show what a movement does; the rows of `MOVEMENTS` hold them, `jaxkin.view.sticks` draws them.
+"""Simple solids that symbolise the two sides of a joint: rows of `MOVEMENTS` hold them, `jaxkin.view.sticks` draws.
 
-All measures are multiples of the radius of a drawn bar.
+All lengths are multiples of the radius of a drawn bar.
 """
 
 from __future__ import annotations
@@ -32,5 +32,4 @@ class BallFigure(NamedTuple):
 Figure = CylinderFigure | BoxFigure | BallFigure
 
 ROD = CylinderFigure(2, 0.7, 32.0)
-"""What slides is drawn on a rod: about half as long as the mechanism, since the joint does not know how far it will
-slide."""
+"""The rod on which a sliding part is drawn: about half as long as the mechanism, since the travel is not known."""

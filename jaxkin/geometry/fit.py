@@ -1,7 +1,8 @@
-"""The plane, cylinder, cone or sphere that a set of points with normals lies on, if there is one.
+"""Fit a plane, cylinder, cone, sphere or torus to points with normals.
 
-For faces that arrive without their surface: as splines, or as triangles only. The corners of a tessellation lie on the
-true surface, so they are fitted, to rounding; normals choose the kind and the first guess, no more.
+For faces that the file holds as splines or as triangles only. The corners of a tessellation lie on the true surface, so
+a surface has to pass all of them within their rounding. The normals only choose the kind of surface and the first
+guess.
 """
 
 from __future__ import annotations
@@ -17,18 +18,21 @@ from jaxkin.geometry.refine import refined
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
-_STRAY = 0.1
-"""Radians by which a few normals that are not those of the surface may turn the axis that is guessed from all."""
+_AXIS_ALLOWANCE = 0.1
+"""Angle, radians, by which a few wrong normals may turn the axis that is guessed from all normals."""
 
 
 def rounding(points: Points) -> float:
-    """The length by which points that went through float32 miss their surface: by their extent and their distance."""
+    """Estimate how far points that went through float32 lie from their surface: a length.
+
+    Rounding is relative to the extent of the points and to their distance from the origin.
+    """
     points = points.reshape(-1, 3)
     return max(1e-6 * float(np.linalg.norm(np.ptp(points, axis=0))), 3e-7 * float(np.abs(points).max()))
 
 
 def flipped(surface: Surface) -> Surface:
-    """The same surface with the material on its other side."""
+    """Return the same surface with the material on its other side."""
     if isinstance(surface, Plane):
         return replace(surface, normal=-surface.normal)
     return replace(surface, side=-surface.side)
@@ -37,11 +41,11 @@ def flipped(surface: Surface) -> Surface:
 def fit_surface(
     points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float, angle: float
 ) -> Surface | None:
-    """The simplest of plane, cylinder, cone, sphere that all points lie on within `tolerance` (a length).
+    """Find the simplest of plane, cylinder, cone, sphere that all points lie on within `tolerance` (a length).
 
-    `normals` are unit vectors out of the material at the points; where they deviate by more than `angle` (radians)
-    from those of the surface, it is another surface through the same points. None where no surface fits, or where
-    there are too few points to tell.
+    `normals` are unit vectors out of the material at the points. A surface whose own normals deviate from them by more
+    than `angle` (radians) is rejected: it passes through the points by chance. Returns None where no surface fits, or
+    where there are too few points to tell.
     """
     points, first = np.unique(points, axis=0, return_index=True)
     normals = normals[first]
@@ -58,7 +62,7 @@ def fit_surface(
 
 
 def _candidates(points: Points, normals: Points, angle: float) -> Iterator[Surface]:
-    """Best fits, of the kinds that the normals allow, to points around the origin of size one; the simplest first."""
+    """Fit all kinds of surface that the normals allow, the simplest first, to points around the origin of size one."""
     for enough, fit in ((3, _plane), (6, _cylinder), (7, _cone), (5, _sphere)):
         if len(points) >= enough:
             surface = fit(points, normals, angle)
@@ -73,7 +77,7 @@ def _plane(points: Points, normals: Points, angle: float) -> Plane:
 
 def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
     axis = np.linalg.eigh(normals.T @ normals)[1][:, 0]
-    if np.median(np.abs(normals @ axis)) > angle + _STRAY:
+    if np.median(np.abs(normals @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
     x = perpendicular(axis)
     y = np.cross(axis, x)
@@ -86,7 +90,7 @@ def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
 def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
     spread = normals - normals.mean(axis=0)
     axis = np.linalg.eigh(spread.T @ spread)[1][:, 0]
-    if np.median(np.abs(spread @ axis)) > angle + _STRAY:
+    if np.median(np.abs(spread @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
     # all tangent planes go through the apex
     apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)
@@ -104,13 +108,14 @@ def _sphere(points: Points, normals: Points, angle: float) -> Sphere:
 
 
 def _ball(points: Float[np.ndarray, "n d"]) -> tuple[Float[np.ndarray, "d"], float]:
-    """Centre and radius of the circle or sphere through points: 2 p c + (r^2 - c^2) = p^2 is linear."""
+    """Fit a circle (d = 2) or sphere (d = 3): 2 p . c + (r^2 - c . c) = p . p is linear in c and r^2 - c . c."""
     columns = np.column_stack([2 * points, np.ones(len(points))])
     *centre, rest = np.linalg.lstsq(columns, np.sum(points**2, axis=-1), rcond=None)[0]
     return np.array(centre), float(np.sqrt(max(rest + np.dot(centre, centre), 0.0)))
 
 
 def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
+    """Scale a surface about the origin, then move the origin to `centre`."""
     match surface:
         case Plane():
             return Plane(centre + scale * surface.point, surface.normal)
@@ -123,9 +128,10 @@ def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
 
 
 def fit_torus(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float) -> Torus | None:
-    """The torus that all points lie on within `tolerance` (a length), None if there is none.
+    """Find the torus that all points lie on within `tolerance` (a length); None if there is none.
 
-    All normals of a surface of revolution meet its axis: a linear condition on the coordinates of that line.
+    The normals of a surface of revolution all meet its axis: a linear condition on the Pluecker coordinates of the
+    axis.
     """
     if len(points) < 10:
         return None

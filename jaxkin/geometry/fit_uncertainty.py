@@ -1,4 +1,4 @@
-"""How well a surface that was fitted to the corners of triangles is known, where rounding moved them."""
+"""The uncertainty of a surface that was fitted to rounded vertices."""
 
 from __future__ import annotations
 
@@ -7,16 +7,18 @@ import numpy as np
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.surfaces import Cone, Plane
 
-_FREE = 1e-9
-"""Of the largest: what the corners say less about, squared, is a movement of the surface in itself."""
+_FREE_MOVEMENT = 1e-9
+"""Eigenvalues of the normal equations below this, relative to the largest, belong to movements of the surface in
+itself (a cylinder about its axis): about the square of single precision."""
 
 
-def doubt(face: Face, grain: float) -> tuple[float, float]:
-    """Radians and length by which the surface of a face may be turned, and be off at the middle of the face.
+def fit_uncertainty(face: Face, vertex_resolution: float) -> tuple[float, float]:
+    """Estimate how far the surface of a face may be turned, in radians, and be off at the middle of the face, a length.
 
-    `grain` is the length by which its corners are rounded at most. From the covariance of the least squares fit: the
-    distance of a corner changes with a turn w and a shift t of the surface by n.(w x r + t), and with its size. A short
-    pin and a narrow plane are turned easily; movements of a surface in itself do not count.
+    `vertex_resolution` is the length by which the vertices are rounded at most. The estimate is the covariance of the
+    least-squares fit: a rotation w and a translation t of the surface change the distance of a vertex at r from the
+    middle by n . (w x r + t), with n the normal there; so does a change of its radius. The surfaces of short pins and
+    narrow planes are uncertain in direction; movements of a surface in itself do not count.
     """
     points = np.unique(face.triangles.reshape(-1, 3), axis=0)
     normals = face.surface.normals(points)
@@ -31,6 +33,6 @@ def doubt(face: Face, grain: float) -> tuple[float, float]:
         case _:
             columns.append(np.ones((len(points), 1)))
     table = np.concatenate(columns, axis=-1)
-    known = np.linalg.pinv(table.T @ table, rcond=_FREE, hermitian=True)
+    known = np.linalg.pinv(table.T @ table, rcond=_FREE_MOVEMENT, hermitian=True)
     turn, shift = (float(np.linalg.eigvalsh(known[k : k + 3, k : k + 3])[-1]) for k in (0, 3))
-    return grain * np.sqrt(max(turn, 0.0)) / extent, grain * np.sqrt(max(shift, 0.0))
+    return vertex_resolution * np.sqrt(max(turn, 0.0)) / extent, vertex_resolution * np.sqrt(max(shift, 0.0))

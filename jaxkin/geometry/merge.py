@@ -1,4 +1,4 @@
-"""Faces of one part that lie on the same surface become one: half cylinders, split planes, the knuckles of a hinge."""
+"""Unite the faces of one part that lie on the same surface: half cylinders, split planes, the knuckles of a hinge."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from jaxkin.geometry.part import Face
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 
 _PARALLEL = 0.99
-"""Cosine between the normals of faces in one plane; triangles of a few roundings have no better normal."""
+"""Cosine between the normals of faces in one plane: the normals of faces a few roundings wide agree no better."""
 
 
 def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
-    """The faces with those on the same surface, material on the same side, united; in the order of their first members.
+    """Unite faces on the same surface with the material on the same side, in the order of their first members.
 
     Two faces are on the same surface when the corners of each lie within `tolerance` (a length) of the surface of the
-    other, and their radii agree within it. Of a small plane the corners are enough: those of a large one are far off
-    where it was fitted to a few triangles. A united face has the surface of its largest member, and is called by all
-    of them, "face 3, 8".
+    other, and their radii agree within it. For two planes only the corners of the smaller face are compared: a plane
+    fitted to a few triangles is far off at the corners of a larger face. A united face has the surface of its largest
+    member and the names of all of them, "face 3, 8".
     """
-    # a corner of every face: most faces are told apart by one point of each, without a look at all their triangles
+    # one corner of every face: most faces are told apart by it, without a look at all their triangles
     points = np.array([face.triangles[0, 0] for face in faces]).reshape(-1, 3)
     free = np.ones(len(faces), bool)
     groups = []
@@ -47,7 +47,7 @@ def _same(a: Face, b: Face, tolerance: float) -> bool:
 
 
 def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
-    """What the distances of the corners do not tell: the side of the material, and the radii of small patches."""
+    """Whether surfaces agree in what distances of corners do not show: side of the material, radii of small faces."""
     match a, b:
         case Plane(), Plane():
             return float(a.normal @ b.normal) > _PARALLEL

@@ -1,9 +1,10 @@
 """The paper's allowable movements T_z, T_phi, T_z_phi, T_xy_phi, T_theta_phi, T_theta_phi_psi (Section 3) in JAX.
 
-Each movement displaces a local frame; `x, y, z` are translations along and `theta, phi, psi` rotations about its axes.
-The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. A movement is one row of
-`MOVEMENTS`: it is written as a product of elementary motions, from which displacements, screws and closure equations
-follow, and the row says all else that differs from movement to movement. No other table is keyed by movements.
+A movement displaces a local frame: `x, y, z` are translations along its axes, `theta, phi, psi` rotations about its
+axes x, y, z. The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. Each
+movement is one row of `MOVEMENTS`. The row holds the movement as a product of elementary motions, from which
+displacements, screws and closure equations follow, and all else that differs from movement to movement: no other table
+is keyed by movements.
 `T_screw`, the helical pair, and `I`, no movement, are not in the paper.
 """
 
@@ -35,7 +36,7 @@ class ElementaryMotion:
 class InvariantFeature(NamedTuple):
     """The point, axis or plane that a movement leaves in place: lengths of a part are measured between such features.
 
-    An axis that is `marked` has a place along it too: that of a hinge does, that of a pin that slides does not.
+    On an axis that is `marked` the origin has a meaning too: on that of a hinge, not on that of a pin that slides.
     """
 
     kind: Literal["point", "axis", "plane"]
@@ -45,9 +46,9 @@ class InvariantFeature(NamedTuple):
 
 
 class AngleLock(NamedTuple):
-    """Where the angles of two successive movements lock: a ball has rolled a quarter turn, contact states (d), (p).
+    """The gimbal lock of two successive movements: after a quarter turn of the rolling ball in contact states (d), (p).
 
-    A ball turns in place of the angles then (`jaxkin.solve.system.loop_system`).
+    The solver uses a quaternion in place of the angles (`jaxkin.solve.system.loop_system`).
     """
 
     follower: str
@@ -55,40 +56,41 @@ class AngleLock(NamedTuple):
     ball: int
     """The movement in whose frame the ball turns: 0 for this one, 1 for the follower."""
     columns: tuple[int, ...]
-    """Columns that turn the ball about x, y, z, counted from the first of this movement. A third turn that is missing
-    is left to the movement behind."""
+    """Columns that turn the ball about x, y, z, counted from the first column of this movement. Where only two are
+    given, the third turn belongs to the movement that follows."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Movement:
-    """All that is to be said of an allowable movement: a row of `MOVEMENTS`."""
+    """All that defines an allowable movement: one row of `MOVEMENTS`."""
 
     coordinates: tuple[str, ...] = ()
+    """Names of its coordinates."""
     elements: tuple[ElementaryMotion, ...] = ()
     """The elementary motions of which the movement is the product, leftmost factor first."""
     ball: bool = False
-    """True where the motions are the angles of a ball: solved without angles, since they lock at phi = 90 deg."""
+    """True for the three angles of a ball, in gimbal lock at phi = 90 deg: the solver uses a quaternion instead."""
     pair: str | None = None
     """Name of the lower pair that has this movement, a `JointKind`; None where no lower pair has it."""
     feature: InvariantFeature | None = None
-    """What the movement leaves in place on both parts; None for no movement at all."""
+    """The feature that the movement leaves in place on both parts; None for no movement at all."""
     features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
-    """What the movement leaves in place on part 1 and on part 2 where it is a joint by itself, if not `feature`."""
+    """The features of part 1 and part 2 where the movement is a joint by itself, if they are not `feature`."""
     surface: Literal["plane", "cylinder", "cone", "sphere"] | None = None
-    """The kind of surface that the movement maps onto itself; of several movements the one with most freedoms says so.
-    """
+    """The kind of surface that the movement maps onto itself; set only for the one with most freedoms that does."""
     aligned: frozenset[Literal["axis", "direction", "centre"]] = frozenset()
-    """Where the frame has to be aligned with others for the loops to close: "axis", the line along z; "direction",
-    the direction of z; "centre", the origin."""
+    """What of the frame has to be aligned with other frames for the loops to close: "axis", the line along z;
+    "direction", the direction of z; "centre", the origin."""
     figures: tuple[tuple[Figure, ...], tuple[Figure, ...]] = ((), ())
-    """What is drawn on the side of part 1 (bearing, rail, plate) and of part 2 (pin, slider, puck, ball)."""
+    """The solids drawn for part 1 (bearing, rail, plate) and for part 2 (pin, slider, puck, ball)."""
     without_normal: str | None = None
-    """What is left of the movement where its translation along z is one along the normal of a planar loop and rests."""
+    """Key of the movement that is left in a planar loop whose normal is z, since the translation along z rests there;
+    None for movements without such a translation."""
     lock: AngleLock | None = None
 
     @property
     def has_pitch(self) -> bool:
-        """Whether the movement advances by a pitch, which is a length then."""
+        """Whether the movement advances by a pitch."""
         return any(element.kind == "screw" for element in self.elements)
 
     @property
@@ -180,7 +182,7 @@ MOVEMENTS: dict[str, Movement] = {
         figures=((CylinderFigure(2, 1.8, 2.0),), (BallFigure(2.2),)),
     ),
 }
-"""Key of a movement -> its row. Joints (`jaxkin.joints.pairs`) and contact states (`jaxkin.contacts.states`) name the
+"""Key of a movement -> its row. Joints (`jaxkin.joints.pairs`) and contact states (`jaxkin.contacts.states`) give the
 movements of their chains by these keys."""
 
 
@@ -197,10 +199,11 @@ def is_length(coordinate: str) -> bool:
 def displaced(
     frame: Rigid, movement: str, q: Float[Array, "k *#poses"], pitch: Float[Array, ""] | float = 0.0
 ) -> Rigid:
-    """The frames F followed by a movement, F T: elementary ones one by one, of which each changes two columns at most.
+    """Multiply frames F by a movement T from the right, F T, one elementary motion after the other.
 
-    `q` has a row for each of `MOVEMENTS[movement].coordinates`: radians, and lengths in the unit of the mechanism; so
-    is `pitch`, per turn, which only `T_screw` has. Frames and `q` may be one for all poses.
+    `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
+    `pitch` is the advance per turn of `T_screw`, in that unit too. Frames and `q` may be one for all poses. An
+    elementary motion changes at most two columns of F, so that this is cheaper than a product of matrices.
     """
     for element in MOVEMENTS[movement].elements:
         frame = _displaced(frame, element, q[element.coordinate], pitch)
@@ -210,6 +213,7 @@ def displaced(
 def _displaced(
     frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
 ) -> Rigid:
+    """Multiply frames by one elementary motion from the right."""
     i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
     columns = [frame[:, column] for column in range(4)]
     if element.kind != "rotate":

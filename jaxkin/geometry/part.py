@@ -1,4 +1,4 @@
-"""Parts as the solids give them: named sets of analytic faces with the triangles that bound them."""
+"""Parts and their faces: analytic surfaces, with triangles that say where on the surface a face lies."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from jaxkin.geometry.surfaces import Surface
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """One face of a part: its infinite surface, and the triangles that say where on it the face lies."""
+    """One face of a part: its unbounded surface, and the triangles that say where on the surface the face lies."""
 
     name: str
     """Unique within the part, such as "face 7"."""
@@ -29,6 +29,7 @@ class Face:
 
     @cached_property
     def area(self) -> float:
+        """Sum of the areas of the triangles."""
         edges = self.triangles[:, 1:] - self.triangles[:, :1]
         return float(np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=-1).sum() / 2)
 
@@ -44,9 +45,9 @@ class Part:
     color: tuple[float, float, float] | None = None
     """Red, green, blue in 0..1 where the file gives a colour."""
     notes: tuple[str, ...] = field(default=())
-    """What of this part could not be read as one of the four surfaces, in words."""
-    grain: float = 0.0
-    """Length by which the corners are rounded that the surfaces were fitted to; 0 where the file says the surfaces."""
+    """Messages about faces of this part that could not be read as one of the four surfaces."""
+    vertex_resolution: float = 0.0
+    """Length by which the vertices that surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:
@@ -56,6 +57,6 @@ class Part:
 
 
 def size(parts: tuple[Part, ...]) -> float:
-    """The diagonal of the box around all parts: the length that tolerances are relative to."""
+    """Measure the diagonal of the bounding box of all parts, the length that tolerances are relative to."""
     boxes = np.stack([part.box for part in parts])
     return float(np.linalg.norm(boxes[:, 1].max(axis=0) - boxes[:, 0].min(axis=0)))

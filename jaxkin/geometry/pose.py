@@ -13,9 +13,13 @@ Vector = Float[np.ndarray, "3"]
 Points = Float[np.ndarray, "*batch 3"]
 Pose = Float[np.ndarray, "4 4"]
 
+RIGID_TOLERANCE = 1e-6
+"""Largest error of the entries of a matrix that is taken for a rigid pose: poses that went through single precision are
+rigid to a few times 1e-7."""
+
 
 def unit(vector: Vector) -> Vector:
-    """The vector divided by its length; a zero or non-finite vector is refused with ValueError."""
+    """Divide a vector by its length; ValueError for a zero or non-finite vector."""
     vector = np.asarray(vector, float)
     length = float(np.linalg.norm(vector))
     if not np.isfinite(length) or length == 0.0:
@@ -24,13 +28,13 @@ def unit(vector: Vector) -> Vector:
 
 
 def perpendicular(direction: Vector) -> Vector:
-    """A unit vector perpendicular to a unit direction, chosen by a fixed rule: equal input gives equal output."""
+    """Choose a unit vector perpendicular to a unit direction by a fixed rule: equal input gives equal output."""
     least = np.eye(3)[int(np.argmin(np.abs(direction)))]
     return unit(least - (least @ direction) * direction)
 
 
 def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
-    """The pose of a right-handed frame with the given z axis; `x` is projected perpendicular to it if given."""
+    """Make the pose of a right-handed frame with the given z axis; its x axis is `x` projected perpendicular to z."""
     z = unit(z)
     x = perpendicular(z) if x is None else unit(np.asarray(x, float) - (np.asarray(x, float) @ z) * z)
     pose = np.eye(4)
@@ -39,27 +43,37 @@ def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
 
 
 def inverse(pose: Pose) -> Pose:
-    """The inverse of a rigid pose, by transposition."""
+    """Invert a rigid pose, by transposition of its rotation."""
     result = np.eye(4)
     result[:3, :3] = pose[:3, :3].T
     result[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
     return result
 
 
+def is_rigid(matrix: Pose) -> bool:
+    """Whether a 4x4 matrix of finite numbers is a right-handed rotation with a translation (`RIGID_TOLERANCE`).
+
+    The columns x, y, z of a rotation R satisfy R^T R = I and det R = 1; the last row is 0, 0, 0, 1.
+    """
+    turn = matrix[:3, :3]
+    errors = np.concatenate([(turn.T @ turn - np.eye(3)).ravel(), matrix[3] - [0.0, 0.0, 0.0, 1.0]])
+    return bool(np.all(np.isfinite(matrix)) and np.abs(errors).max() <= RIGID_TOLERANCE and np.linalg.det(turn) > 0)
+
+
 def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:
-    """The rotation matrix about a unit axis through the origin, right-hand rule (Rodrigues)."""
+    """Make the matrix of a rotation about a unit axis by an angle in radians, right-hand rule (Rodrigues)."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
 
 
 def apply(pose: Pose, points: Points) -> Points:
-    """Points moved by the pose."""
+    """Map points from the local coordinates of a pose to world coordinates, or move them by a displacement."""
     return points @ pose[:3, :3].T + pose[:3, 3]
 
 
 def turned_by(pose: Pose) -> float:
-    """The angle of the rotation of a pose, 0 to pi."""
+    """Measure the angle of the rotation of a pose, 0 to pi."""
     turn = pose[:3, :3]
     sine = np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     return float(np.arctan2(sine, np.trace(turn) - 1.0))

@@ -1,7 +1,7 @@
-"""Least squares of the distances of points from a surface, by Gauss and Newton from a guess that is near.
+"""Gauss-Newton fits of cylinders, cones and tori to points, from a first guess that is near.
 
-The distance from each of these surfaces has a simple derivative by everything that moves or bends it, which makes a fit
-some hundred times as fast as differences would: faces of meshes are found by thousands of small fits.
+The derivatives of the distance from a surface by its position, direction and size are closed formulas, which makes a
+fit some hundred times as fast as one with finite differences. Faces of meshes are found by thousands of small fits.
 """
 
 from __future__ import annotations
@@ -17,17 +17,19 @@ from jaxkin.geometry.torus import Torus
 
 Round = TypeVar("Round", Cylinder, Cone, Torus)
 
-_STEPS = 30
+_MAX_REFINEMENTS = 30
+"""Gauss-Newton steps at most; the loop ends before where the largest distance no longer falls."""
 
 
 def refined(surface: Round, points: Points) -> Round:
-    """The surface moved, tilted and resized to the least sum of squared distances; points around the origin, size one.
+    """Move, tilt and resize a surface to the least sum of squared distances of points around the origin, of size one.
 
-    It ends where two steps no longer lessen the largest distance: at the rounding of the points, or early where they
-    are on no such surface. The first step may go too far: the guess for a small piece of a torus is a poor one.
+    The steps end when two in a row do not lessen the largest distance by a tenth: at the rounding of the points, or
+    early where the points lie on no such surface. One such step is allowed, since the first may go too far: the guess
+    for a small piece of a torus is a poor one. Returns the surface with the smallest largest distance.
     """
     best, least, before, stuck = surface, np.inf, np.inf, 0
-    for _ in range(_STEPS):
+    for _ in range(_MAX_REFINEMENTS):
         distance = np.asarray(surface.distance(points))
         largest = float(np.abs(distance).max())
         stuck = 0 if largest < 0.9 * before else stuck + 1
@@ -45,14 +47,14 @@ def refined(surface: Round, points: Points) -> Round:
 
 
 def _axes(axis: Vector, direction: Points) -> tuple[np.ndarray, Vector, Vector]:
-    """Two directions across an axis in which it may tilt, and the components of vectors along them."""
+    """Choose x and y across an axis, towards which it may tilt; return components of vectors along both, x and y."""
     x = perpendicular(axis)
     y = np.cross(axis, x)
     return np.stack([direction @ x, direction @ y], axis=-1), x, y
 
 
 def _split(points: Points, origin: Vector, axis: Vector) -> tuple[np.ndarray, np.ndarray, Points]:
-    """Heights along an axis, distances from it, and unit vectors away from it."""
+    """Return heights along an axis, distances from the axis, and unit vectors away from the axis."""
     offset = points - origin
     height = offset @ axis
     radial = offset - height[:, None] * axis

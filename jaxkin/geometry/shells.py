@@ -1,4 +1,4 @@
-"""Welded triangles as solids: closed, wound outwards, and each connected body by itself."""
+"""Solids from welded triangles: holes, closed surfaces, bodies with their cavities, and the sense of their winding."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from jaxkin.geometry.weld import Corners, Welded
 
 Rows = Int[np.ndarray, "_"]
 
-_SAMPLES = 200
-"""Triangles at whose middles the sides are checked."""
+_SIDE_SAMPLES = 200
+"""Number of triangles at which `wrong_side` checks the two sides."""
 
-_SOLID_ANGLES = 8_000_000
-"""Bounds the time of that check."""
+_MAX_SOLID_ANGLES = 8_000_000
+"""Largest number of solid angles (samples times triangles times two sides) that `wrong_side` computes: bounds its
+time."""
 
 
 def open_loops(welded: Welded, tolerance: float) -> list[Points]:
-    """The points of the holes of a surface: loops of edges without a partner that go round some area.
+    """Find the holes of a surface: for each the points of connected edges without a partner that enclose an area.
 
-    Where two tessellations meet with corners in between, edges without a partner lie on each other and leave no hole.
+    Where two tessellations meet with corners between those of the other, edges without a partner lie on each other;
+    they enclose no area, and there is no hole. `tolerance` is the width, a length, below which there is none.
     """
     edges = welded.open_edges
     if not len(edges):
@@ -39,12 +41,12 @@ def open_loops(welded: Welded, tolerance: float) -> list[Points]:
 
 
 def shells(welded: Welded) -> list[Rows]:
-    """The triangles of each closed surface, by their pairs."""
+    """Group the triangles that are connected through shared edges: the closed surfaces."""
     return grouped(components(len(welded.triangles), welded.pairs))
 
 
 def bodies(corners: Corners, surfaces: list[Rows]) -> list[Rows]:
-    """Closed surfaces joined to bodies: each one that is wound inwards is a cavity of the smallest around it."""
+    """Join closed surfaces to bodies: a surface wound inwards is a cavity of the smallest outer surface around it."""
     volumes = np.array([volume(corners[rows]) for rows in surfaces])
     outer = [k for k in np.argsort(volumes) if volumes[k] > 0]
     members = {int(k): [surfaces[k]] for k in outer}
@@ -58,13 +60,16 @@ def bodies(corners: Corners, surfaces: list[Rows]) -> list[Rows]:
 
 
 def volume(corners: Corners) -> float:
-    """What a closed surface holds; negative where it is wound inwards."""
+    """Compute the volume inside a closed surface, negative where it is wound inwards (divergence theorem)."""
     local = corners - corners.reshape(-1, 3).mean(axis=0)
     return float(np.sum(local[:, 0] * np.cross(local[:, 1], local[:, 2])) / 6)
 
 
 def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "points"]:
-    """How often a closed surface goes round each point: 1 inside, 0 outside (Van Oosterom and Strackee)."""
+    """Compute how often a closed surface winds round each point: 1 inside, 0 outside.
+
+    It is the sum of the signed solid angles of the triangles over 4 pi (Van Oosterom and Strackee 1983).
+    """
     numbers = np.empty(len(points))
     for k, point in enumerate(points):
         a, b, c = np.moveaxis(corners - point, 1, 0)
@@ -75,15 +80,16 @@ def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "poin
     return numbers
 
 
-def wrong_side(corners: Corners, tolerance: float, samples: int = _SAMPLES) -> Points | None:
-    """A place where a solid is not on the inner side of its surface, or also on the outer one; None if none was found.
+def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES) -> Points | None:
+    """Find a point of a surface that does not have the solid on its inner side only; None if none was found.
 
-    Looked for at the largest triangles and at some at random: solids that overlap or touch in one surface, surfaces
-    that cut themselves or are wound inwards in part.
+    It is found in solids that overlap or touch within one surface, and in surfaces that intersect themselves or are
+    wound inwards in part. The largest triangles are checked, and some at random, `samples` in all, with points at ten
+    times `tolerance` (a length) on both sides.
     """
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     double = np.linalg.norm(cross, axis=-1)
-    count = max(2, min(samples, _SOLID_ANGLES // (2 * len(corners)), len(corners)))
+    count = max(2, min(samples, _MAX_SOLID_ANGLES // (2 * len(corners)), len(corners)))
     largest = np.argsort(-double, kind="stable")[: count // 2]
     chance = np.random.default_rng(0).choice(len(corners), count, p=double / double.sum())
     some = np.unique(np.concatenate([largest, chance[: count - len(largest)]]))
@@ -96,9 +102,11 @@ def wrong_side(corners: Corners, tolerance: float, samples: int = _SAMPLES) -> P
 
 
 def _in_box(point: np.ndarray, corners: Corners) -> bool:
+    """Whether a point is in the bounding box of some triangles."""
     flat = corners.reshape(-1, 3)
     return bool(np.all((point >= flat.min(axis=0)) & (point <= flat.max(axis=0))))
 
 
 def _winds(point: np.ndarray, corners: Corners) -> bool:
+    """Whether a closed surface winds round a point."""
     return bool(winding_numbers(point[None], corners)[0] > 0.5)

@@ -15,14 +15,16 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Points, Pose, Vector
 
 Distances = Float[np.ndarray, "*batch"] | np.floating
-"""One for each point; numpy gives a scalar for a single point."""
+"""One number for each point; numpy gives a scalar for a single point."""
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
+    """A plane."""
+
     point: Vector
     normal: Vector
-    """Outward: it points out of the material."""
+    """Points out of the material."""
     kind: ClassVar[str] = "plane"
 
     def distance(self, points: Points) -> Distances:
@@ -34,12 +36,14 @@ class Plane:
         return np.broadcast_to(self.normal, points.shape)
 
     def moved(self, pose: Pose) -> Plane:
-        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return Plane(pose[:3, :3] @ self.point + pose[:3, 3], pose[:3, :3] @ self.normal)
 
 
 @dataclass(frozen=True, eq=False)
 class Cylinder:
+    """A circular cylinder, unbounded along its axis."""
+
     point: Vector
     """A point of the axis."""
     axis: Vector
@@ -56,22 +60,24 @@ class Cylinder:
         return self.side * _unit(_radial(points, self.point, self.axis))
 
     def moved(self, pose: Pose) -> Cylinder:
-        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, point=pose[:3, :3] @ self.point + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
 
 
 @dataclass(frozen=True, eq=False)
 class Cone:
+    """One half of a circular double cone."""
+
     apex: Vector
     axis: Vector
-    """From the apex into the half of the double cone that the face lies on."""
+    """Points from the apex into the half of the double cone that the face lies on."""
     half_angle: float
     """Radians, 0 < half_angle < pi/2."""
     side: int
     kind: ClassVar[str] = "cone"
 
     def distance(self, points: Points) -> Distances:
-        """Distance from the surface (exact on the side of the rulings), positive outside the material."""
+        """Distance from the surface, positive outside the material; beyond the apex, from the extended rulings."""
         height = (points - self.apex) @ self.axis
         radius = np.linalg.norm(_radial(points, self.apex, self.axis), axis=-1)
         return self.side * (radius * np.cos(self.half_angle) - height * np.sin(self.half_angle))
@@ -82,12 +88,14 @@ class Cone:
         return self.side * (radial * np.cos(self.half_angle) - self.axis * np.sin(self.half_angle))
 
     def moved(self, pose: Pose) -> Cone:
-        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, apex=pose[:3, :3] @ self.apex + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
 
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
+    """A sphere."""
+
     centre: Vector
     radius: float
     side: int
@@ -102,7 +110,7 @@ class Sphere:
         return self.side * _unit(points - self.centre)
 
     def moved(self, pose: Pose) -> Sphere:
-        """The surface displaced by a rigid 4x4 displacement in world coordinates."""
+        """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, centre=pose[:3, :3] @ self.centre + pose[:3, 3])
 
 
@@ -116,5 +124,6 @@ def _radial(points: Points, origin: Vector, axis: Vector) -> Points:
 
 
 def _unit(vectors: Points) -> Points:
+    """Divide vectors by their lengths; zero vectors stay zero."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return vectors / np.where(length > 0, length, 1.0)  # a point on the axis has no normal: zero, not NaN

@@ -1,7 +1,8 @@
-"""Whether some triangles look like a tessellation of a surface, and not only have their corners on it.
+"""The test whether triangles are a tessellation of a surface, and do not only have their corners on it by chance.
 
-Few corners lie on many surfaces: those of two facets on some cylinder, those of two bands about an axis on some torus.
-What tells is that facets are nearly tangent, about equally wide, and more than it takes to fit the surface.
+A few corners lie on many surfaces: those of two facets on some cylinder, those of two bands about an axis on some
+torus. The triangles of a tessellation are nearly tangent to the surface, about equally wide, and more than the fit
+needs.
 """
 
 from __future__ import annotations
@@ -14,46 +15,52 @@ from jaxkin.geometry.fit import fit_surface, fit_torus
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
-CHORD = 0.36
-"""Radians between a facet and its surface at the corners of the facet: a polygon of nine sides and more is round."""
+CHORD_ANGLE = 0.36
+"""Largest angle, radians, between a facet and its surface at the corners of the facet: little above pi / 9, so that a
+polygon of nine sides or more is round."""
 
-UNEVEN = 3.0
-"""How many times the arc of one facet may be that of its neighbours on the same face."""
+MAX_WIDTH_RATIO = 3.0
+"""Largest ratio of the arc that one facet spans to that of its neighbours on the same face."""
 
-_SHALLOW = 20.0
-"""Times the rounding: how deep under a surface triangles may lie that count as one facet since they bend by less."""
+_SHALLOW_DEPTH = 20.0
+"""Depth under a surface, as a multiple of the rounding, of facets that are several triangles merged by rounding."""
 
-_CORNERS = 8
-"""Of a flat facet on a ball or a torus at most: what has more is a flat face with a round rim."""
+_MAX_FACET_CORNERS = 8
+"""Largest number of corners of a facet on a ball or a torus; a facet with more is a flat face with a round rim."""
 
-_FITTED = 600
-"""Points that a surface is fitted to; all others are compared with it."""
+_MAX_FITTED_POINTS = 600
+"""Number of points at most that a surface is fitted to; all others are compared with it."""
 
 
 def surface_of(
     mesh: Facets, rows: Rows, tolerance: float, *, one_facet: bool = False, torus: bool = False
 ) -> Surface | Torus | None:
-    """The surface, or with `torus` also the torus, that some triangles are a tessellation of; None if there is none.
+    """Find the surface that the triangles `rows` are a tessellation of; None if there is none.
 
-    `tolerance` is the length by which corners may miss it. `one_facet` says that the triangles are of one facet.
+    `tolerance` is the largest distance of a corner from it. With `one_facet` the triangles are all of
+    one facet; with `torus` a torus is looked for too.
     """
     corners = mesh.points[mesh.triangles[rows]].reshape(-1, 3)
     normals = mesh.normals[rows][:, None].repeat(3, 1) if one_facet else mesh.corner_normals(rows)
     _, first = np.unique(mesh.triangles[rows], return_index=True)
-    some = first if len(first) <= _FITTED else np.random.default_rng(0).choice(first, _FITTED, replace=False)
+    some = (
+        first
+        if len(first) <= _MAX_FITTED_POINTS
+        else np.random.default_rng(0).choice(first, _MAX_FITTED_POINTS, replace=False)
+    )
     points, directions = corners[some], normals.reshape(-1, 3)[some]
-    surface = fit_surface(points, directions, tolerance, CHORD)
+    surface = fit_surface(points, directions, tolerance, CHORD_ANGLE)
     if surface is None and torus:
         surface = fit_torus(points, directions, tolerance)
     if surface is None or np.abs(surface.distance(corners)).max() > tolerance:
         return None
     if isinstance(surface, Plane):
-        return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD)) else None
+        return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD_ANGLE)) else None
     sizes = _corner_counts(mesh, rows)
     # four rulings, or five points: any three rulings lie on some cylinder, any four points on some sphere
-    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD)) <= 0.9:
+    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD_ANGLE)) <= 0.9:
         return None
-    if isinstance(surface, Sphere | Torus) and sizes.max() > _CORNERS and _cut(mesh, surface, rows, sizes):
+    if isinstance(surface, Sphere | Torus) and sizes.max() > _MAX_FACET_CORNERS and _cut(mesh, surface, rows, sizes):
         return None
     return None if isinstance(surface, Torus) and _rings(surface, corners[first], 4 * tolerance) < 4 else surface
 
@@ -70,7 +77,7 @@ def tangent(mesh: Facets, surface: Surface | Torus, rows: Rows, angle: float) ->
 
 
 def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray, "_"]:
-    """Radians between each triangle and the surface at the corner where they are greatest: half the arc it spans."""
+    """Measure the largest angle (radians) between triangle and surface at its corners: half the arc that it spans."""
     corners = mesh.points[mesh.triangles[rows]]
     along = np.sum(surface.normals(corners) * mesh.normals[rows][:, None], axis=-1)
     if isinstance(surface, Torus):  # its side is not known
@@ -88,14 +95,16 @@ def _corner_counts(mesh: Facets, rows: Rows) -> np.ndarray:
 
 
 def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray) -> bool:
-    """Whether one of the facets with many corners is as deep as a flat cut; shallower ones are facets lost in noise."""
+    """Whether a facet with many corners lies so deep under the surface that it is a flat cut, not merged triangles."""
     facet = np.unique(mesh.facet_of[rows], return_inverse=True)[1]
     middles = mesh.points[mesh.triangles[rows]].mean(axis=1)
-    return bool(np.any(np.abs(surface.distance(middles[corners[facet] > _CORNERS])) > _SHALLOW * mesh.tolerance))
+    return bool(
+        np.any(np.abs(surface.distance(middles[corners[facet] > _MAX_FACET_CORNERS])) > _SHALLOW_DEPTH * mesh.tolerance)
+    )
 
 
 def _rings(surface: Torus, points: np.ndarray, tolerance: float) -> int:
-    """How many circles about the axis the points lie on, up to four: any three are on some torus."""
+    """Count the circles about the axis that the points lie on, up to four: any three lie on some torus."""
     offset = points - surface.centre
     height = offset @ surface.axis
     section = np.stack([np.linalg.norm(offset - height[:, None] * surface.axis, axis=-1), height], axis=-1)

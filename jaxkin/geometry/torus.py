@@ -1,4 +1,4 @@
-"""Tori, recognised in order to be named: no contact state of the paper has one."""
+"""Tori: recognised so that they can be named to the user, since no contact state of the paper has one."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from jaxkin.geometry.pose import Points, Vector
 
 @dataclass(frozen=True, eq=False)
 class Torus:
+    """A torus: the surface at a distance `radius` from a circle."""
+
     centre: Vector
     axis: Vector
     ring: float
-    """Radius of the circle of the centres of the tube."""
+    """Radius of the circle that the centre of the tube follows."""
     radius: float
-    """Of the tube."""
+    """Radius of the tube."""
     kind: ClassVar[str] = "torus"
 
     def distance(self, points: Points) -> Float[np.ndarray, "*batch"]:
@@ -26,12 +28,13 @@ class Torus:
         return np.linalg.norm(self._from_tube(points), axis=-1) - self.radius
 
     def normals(self, points: Points) -> Points:
-        """Out of the tube."""
+        """Unit normals that point out of the tube."""
         offset = self._from_tube(points)
         length = np.linalg.norm(offset, axis=-1, keepdims=True)
         return offset / np.where(length > 0, length, 1.0)
 
     def _from_tube(self, points: Points) -> Points:
+        """Vectors to the points from the nearest point of the circle in the middle of the tube."""
         offset = points - self.centre
         height = (offset @ self.axis)[..., None]
         radial = offset - height * self.axis

@@ -1,8 +1,8 @@
-"""Cosine and sine of many angles, several times as fast as one by one: by one series that vector units can run.
+"""Cosine and sine of many angles, several times as fast as by the library functions: one polynomial, vectorised.
 
-Both are sines: an angle is brought to within a quarter turn of the nearest zero by whole half turns, which are taken
-off in three parts, so that none of its digits is lost (Cody and Waite 1980); a short polynomial does the rest. That
-they stand in one array lets the compiler make them in one stroke.
+Both functions are computed as sines. The multiple of pi at the nearest zero is subtracted from the angle, in three
+parts so that no digit is lost (Cody and Waite 1980); a polynomial gives the sine of the rest, at most pi / 2. Both
+stand in one array, which the compiler computes in one loop.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 from jaxtyping import Array, Float
 
 TURN = 2 * math.pi
+"""A full turn, radians."""
 HALF = (float.fromhex("0x1.921fb544p+1"), float.fromhex("0x1.0b4611a6p-33"), float.fromhex("0x1.3198a2e037073p-68"))
-"""Half a turn as a sum: the first two parts hold 33 bits each, so that multiples up to a million are exact; beyond, the
-angle itself is not given to more digits than are lost."""
+"""pi as a sum. The first two parts have 33 bits each, so that their products with whole numbers up to a million are
+exact; larger angles have lost as many digits themselves."""
 SERIES = tuple(
     map(
         float.fromhex,
@@ -33,13 +34,13 @@ SERIES = tuple(
         ),
     )
 )
-"""(sin r - r) / r^3 by powers of r^2, interpolated at the zeros of a Chebyshev polynomial: up to a quarter turn the
-sine is right to 1.3e-18 but for rounding."""
+"""Coefficients of (sin r - r) / r^3 in powers of r^2, interpolated at Chebyshev nodes: the error of the sine is below
+1.3e-18 for |r| up to pi / 2, before rounding."""
 
 
 @jax.custom_jvp
 def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"]:
-    """Cosine and sine of any angles."""
+    """Compute the cosines and sines, first axis, of angles in radians; single precision uses the library functions."""
     if jnp.finfo(angles.dtype).bits != 64:
         return jnp.stack([jnp.cos(angles), jnp.sin(angles)])
     # zeros of the cosine lie half way between those of the sine
@@ -52,9 +53,9 @@ def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"
     *lower, total = SERIES
     for term in reversed(lower):
         total = total * square + term
-    # the sine changes its sign with every half turn; that of the cosine falls where it is zero for the first time
+    # the sine changes its sign with every half turn; the cosine falls at pi / 2, its first zero
     odd = turns - 2 * jnp.floor(0.5 * turns)
-    # divided by the sign: XLA takes a quotient for costly, and does not compute it anew wherever it is used
+    # divide by the sign: XLA takes a quotient for costly, and does not compute it again wherever it is used
     return (rest + rest * (square * total)) / ((1 - 2 * odd) * (1 - 4 * shift))
 
 

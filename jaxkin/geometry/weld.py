@@ -1,7 +1,7 @@
-"""Loose triangles welded into a surface: which corners are the same point, and which triangles share an edge.
+"""Weld triangles into a surface: find which corners are the same point, and which triangles share an edge.
 
-Files hold every triangle by itself, or split where colours or shading change. Corners that are equal are one point;
-corners at edges that find no partner are one where they are equal within the rounding of the file.
+Files hold every triangle by itself, or split the surface where colours or shading change. Equal corners are one point;
+corners at edges without a partner are one point where they are equal within the rounding of the file.
 """
 
 from __future__ import annotations
@@ -16,24 +16,25 @@ from jaxkin.geometry.components import components
 Corners = Float[np.ndarray, "_ 3 3"]
 Rows = Int[np.ndarray, "_ 3"]
 
-_LEAST = 1e-2
-"""Radians of a wedge of material; below it two triangles lie on each other but for rounding, with material apart."""
+_MIN_WEDGE = 1e-2
+"""Smallest angle, radians, of a wedge of material between two triangles at an edge; below it the triangles lie on each
+other but for rounding, and bound different wedges."""
 
 
 @dataclass(frozen=True, eq=False)
 class Welded:
-    """Triangles by the indices of their corners, and their pairs."""
+    """Triangles by the indices of their corners, and the pairs of triangles that share an edge."""
 
     points: Float[np.ndarray, "points 3"]
     triangles: Rows
     pairs: Int[np.ndarray, "pairs 2"]
-    """Triangles on either side of an edge, each edge once."""
+    """The two triangles at an edge, one pair for each edge."""
     open_edges: Int[np.ndarray, "edges 2"]
-    """Points from and to which an edge without a partner runs."""
+    """Start and end point of each edge without a partner."""
 
 
 def weld(corners: Corners, tolerance: float) -> Welded:
-    """The triangles without those that are a line or a point, welded; `tolerance` is the rounding of the file."""
+    """Weld triangles, but for those that are a line or a point; `tolerance` is the rounding of the file, a length."""
     points, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     triangles = _proper(index.reshape(-1, 3))
     pairs, lone = pair_edges(points, triangles)
@@ -45,10 +46,10 @@ def weld(corners: Corners, tolerance: float) -> Welded:
 
 
 def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of triangles that share an edge in opposite directions, and the edges left over.
+    """Find the pairs of triangles that share an edge in opposite directions, and the edges left over.
 
-    Where more than two triangles meet at an edge, as where two solids touch, those are a pair that bound one wedge of
-    material.
+    Where more than two triangles meet at an edge, as where two solids touch, two triangles are a pair if they bound
+    one wedge of material. Returns the pairs (indices of triangles) and the edges (indices of points) left over.
     """
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     owner = np.repeat(np.arange(len(triangles)), 3)
@@ -75,7 +76,11 @@ def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndar
 def _wedges(
     points: np.ndarray, triangles: Rows, owner: np.ndarray, side: np.ndarray, forward: np.ndarray, body: np.ndarray
 ):
-    """Of triangles around one edge those that bound one wedge of material, as pairs of their places in the list."""
+    """Pair the triangles around one edge that bound one wedge of material; returns indices into the list given.
+
+    `owner` holds the triangles, `side` the number of the edge within each, `forward` whether the edge runs from its
+    lower to its higher point there, `body` the number of the surface that ordinary pairs connect the triangle to.
+    """
     rows = triangles[owner]
     place = np.arange(len(owner))
     low = np.where(forward, rows[place, side], rows[place, (side + 1) % 3])[0]
@@ -90,9 +95,9 @@ def _wedges(
     found, taken = [], np.zeros(len(owner), bool)
     for one in np.flatnonzero(forward):
         wedge = np.mod(angle[one] - angle, 2 * np.pi)
-        wedge = np.where(wedge < _LEAST, 2 * np.pi, wedge)
+        wedge = np.where(wedge < _MIN_WEDGE, 2 * np.pi, wedge)
         wedge[forward | taken] = np.inf
-        # chords of a ball and of its socket pierce each other: what else joins two triangles says more than the angle
+        # facets of a ball and of its socket intersect: to be connected elsewhere says more than the angle
         akin = (body == body[one]) & np.isfinite(wedge)
         wedge[akin.any() & ~akin] = np.inf
         other = int(np.argmin(wedge))
@@ -103,12 +108,12 @@ def _wedges(
 
 
 def _proper(triangles: Rows) -> Rows:
-    """Without triangles two of whose corners are the same point."""
+    """Leave out triangles two of whose corners are the same point."""
     return triangles[np.all(triangles != np.roll(triangles, 1, axis=1), axis=1)]
 
 
 def _merged(points: np.ndarray, at: np.ndarray, tolerance: float) -> np.ndarray:
-    """For each point its own index, or for the points `at` the first of those within the tolerance."""
+    """Map each point to its own index, but the points `at` to the first of those within the tolerance of each other."""
     from scipy.spatial import KDTree
 
     index = np.arange(len(points))

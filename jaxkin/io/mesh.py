@@ -39,7 +39,7 @@ def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None 
     nodes, unit = read_nodes(path, limit)
     if whole is not None:
         corners = np.concatenate([node.corners for node in nodes])
-        solids = [Node(whole, nodes[0].color, corners, max(node.grain for node in nodes))]
+        solids = [Node(whole, nodes[0].color, corners, max(node.vertex_resolution for node in nodes))]
     elif len(nodes) > 1:
         solids = nodes
     else:
@@ -61,8 +61,11 @@ def _bodies(node: Node, path: Path) -> list[Node]:
         raise ValueError(f"{path.name} holds {len(closed)} bodies, more than {PARTS}: export it part by part")
     found = bodies(corners, closed) if closed else []
     if len(found) < 2 or len(welded.open_edges):
-        return [Node(path.stem, node.color, node.corners, node.grain)]
-    return [Node(f"part {number}", node.color, corners[rows], node.grain) for number, rows in enumerate(found, start=1)]
+        return [Node(path.stem, node.color, node.corners, node.vertex_resolution)]
+    return [
+        Node(f"part {number}", node.color, corners[rows], node.vertex_resolution)
+        for number, rows in enumerate(found, start=1)
+    ]
 
 
 def _part(name: str, solid: Node, source: str) -> Part:
@@ -100,4 +103,4 @@ def _part(name: str, solid: Node, source: str) -> Part:
             notes.append(f"{label}: {kind}, not one of the four surfaces")
         else:
             faces.append(Face(label, region.surface, corners[region.rows]))
-    return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.grain)
+    return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.vertex_resolution)

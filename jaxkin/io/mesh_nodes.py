@@ -33,13 +33,13 @@ class Node:
     color: tuple[float, float, float] | None
     corners: Float[np.ndarray, "triangles 3 3"]
     """In world coordinates, in the unit of the file."""
-    grain: float
+    vertex_resolution: float
     """The length by which numbers as large as those of the file are rounded."""
 
     @property
     def tolerance(self) -> float:
         """The length by which corners may miss the surface that they were made on: see `rounding`."""
-        return max(1e-6 * float(np.linalg.norm(np.ptp(self.corners.reshape(-1, 3), axis=0))), self.grain)
+        return max(1e-6 * float(np.linalg.norm(np.ptp(self.corners.reshape(-1, 3), axis=0))), self.vertex_resolution)
 
 
 def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
@@ -91,14 +91,16 @@ def _node(name: str, color: list[float] | None, corners: np.ndarray, pose: np.nd
     scale = np.linalg.svd(pose[:3, :3], compute_uv=False)
     if np.linalg.det(pose[:3, :3]) < 0:
         corners = corners[:, ::-1]
-    grain = 3e-7 * float(np.abs(corners).max() * scale.max())
-    node = Node(name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), grain)
+    vertex_resolution = 3e-7 * float(np.abs(corners).max() * scale.max())
+    node = Node(
+        name, None if color is None else (color[0], color[1], color[2]), apply(pose, corners), vertex_resolution
+    )
     size = float(np.linalg.norm(np.ptp(node.corners.reshape(-1, 3), axis=0)))
     if size == 0:
         raise ValueError(f"{source}: all its triangles are one point: export the part as a solid")
     if not _LEAST < size < _GREATEST:
         raise ValueError(f"{source}: a part of the size {size:.2g} is none in any unit: export it in a usual one")
-    if size < 200 * grain:
+    if size < 200 * vertex_resolution:
         raise ValueError(
             f"{source}: coordinates up to {np.abs(node.corners).max():.2g} leave too few digits for a part of the size "
             f"{size:.2g}: export it nearer to the origin"

@@ -1,1 +1,1 @@
-"""Joints as chains of movements: by hand, from contacts, and several of one pair combined into one."""
+"""Joints as chains of movements: written by hand, from single contacts, and from several contacts combined."""

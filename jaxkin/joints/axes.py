@@ -1,4 +1,4 @@
-"""Axes and centres that coincide or meet but for noise, made exactly so (host code, float64)."""
+"""Make axes and centres that coincide or meet within the noise do so exactly (host code, float64)."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ Points = Float[np.ndarray, "_ 3"]
 Star = tuple[int, Int[np.ndarray, "lines"]]
 """A point, by its index, and the lines through it."""
 
-CROSSING = 0.1
-"""Radians. The point where two axes meet is known to the noise over the sine of their angle: nearer to parallel, it is
-not well enough known to say which other axes pass through it."""
+MIN_CROSSING_ANGLE = 0.1
+"""Smallest angle, radians, between two axes whose common point is used. The point is uncertain by the noise over the
+sine of that angle: for axes nearer to parallel it does not tell which other axes pass through it."""
 
 
 def align_positions(points: Points, axes: Points, centres: Points, noise: float) -> tuple[Points, Points]:
-    """Points of lines along the unit vectors `axes`, and centres, moved so that what coincides within `noise` does.
+    """Move lines (a point and a unit vector of `axes` each) and centres so that near coincidences become exact.
 
-    Lines of one direction that coincide become one line, centres that coincide one point; axes that pass through a
-    centre, and axes that meet in one point, do so exactly. Parallel axes must be the same vector up to its sign
-    (`align_directions`). Lines move at right angles to themselves only. What would move farther than `noise` for one of
-    the two reasons does not move for it. Lengths in the unit of the input.
+    1. Parallel lines within `noise` (a length) of each other become one line, centres within `noise` one point.
+    2. Axes that pass a centre within `noise` pass through it, and axes that meet within `noise` meet in one point.
+
+    Parallel axes must be the same vector up to its sign (`align_directions`). Lines move perpendicular to themselves
+    only. A step that would move something farther than `noise` leaves it where it is. Returns the points and centres.
     """
     if len(points) + len(centres) == 0:
         return points, centres
@@ -48,10 +49,12 @@ def align_positions(points: Points, axes: Points, centres: Points, noise: float)
 
 
 def _along(vectors: Points, axes: Points) -> Points:
+    """Project vectors onto unit axes."""
     return np.sum(vectors * axes, axis=-1, keepdims=True) * axes
 
 
 def _coinciding(points: Points, noise: float) -> list[Int[np.ndarray, "members"]]:
+    """Group points that are all within `noise` of their mean."""
     near = np.linalg.norm(points[:, None] - points[None], axis=-1) < noise
 
     def tight(members) -> bool:
@@ -61,10 +64,10 @@ def _coinciding(points: Points, noise: float) -> list[Int[np.ndarray, "members"]
 
 
 def _make_incident(lines: Points, axes: Points, nodes: Points, noise: float) -> tuple[Points, Points]:
-    """Lines and nodes moved the least so that every line passes exactly through the nodes that it passes nearly.
+    """Move lines and nodes (points) the least so that each line passes exactly through the nodes that it nearly passes.
 
-    With the directions given, "the line passes through the node" is linear and homogeneous in both positions: all
-    such conditions together always have a solution, and the nearest one is a projection.
+    With the directions given, "the line passes through the node" is a linear homogeneous equation in both positions:
+    all these equations together have a solution, and the nearest one is an orthogonal projection.
     """
     stars, points = _stars(lines, axes, nodes, noise)
     count = len(lines)
@@ -92,7 +95,10 @@ def _make_incident(lines: Points, axes: Points, nodes: Points, noise: float) -> 
 
 
 def _stars(lines: Points, axes: Points, nodes: Points, noise: float) -> tuple[list[Star], Points]:
-    """The lines that pass each node within `noise`, and further nodes where lines meet, best crossings first."""
+    """Find the lines that pass each node within `noise`; add nodes where lines meet, nearest to a right angle first.
+
+    Returns (node, lines) for each node that some line passes, and the positions of all nodes.
+    """
     points = list(nodes)
     stars: list[Star] = []
 
@@ -107,8 +113,8 @@ def _stars(lines: Points, axes: Points, nodes: Points, noise: float) -> tuple[li
     between = lines[None] - lines[:, None]
     normals = np.cross(axes[:, None], axes[None])
     sines = np.linalg.norm(normals, axis=-1)
-    gaps = np.sum(between * normals, axis=-1) / np.maximum(sines, CROSSING)
-    crossings = np.argwhere(np.triu((sines > CROSSING) & (np.abs(gaps) <= noise)))
+    gaps = np.sum(between * normals, axis=-1) / np.maximum(sines, MIN_CROSSING_ANGLE)
+    crossings = np.argwhere(np.triu((sines > MIN_CROSSING_ANGLE) & (np.abs(gaps) <= noise)))
     for i, j in sorted(crossings.tolist(), key=lambda pair: -sines[*pair]):
         if any(i in members and j in members for _, members in stars):
             continue

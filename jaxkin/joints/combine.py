@@ -1,11 +1,13 @@
-"""Several contacts of the same two parts, combined exactly into the one lower pair that they amount to.
+"""Combine several contacts of the same two parts into the one lower pair that they are exactly equivalent to.
 
-A displacement keeps all contacts if it lies in the displacement set of each. To first order those sets are spaces of
-twists, and their intersection names the only lower pair that may be meant. That pair is then verified where it
-matters, at finite displacements: contact of the four surfaces is algebraic, so a pair that keeps the contacts at a
-displacement drawn at random keeps them everywhere; and no larger set can, since none has more freedoms at the pose.
+A displacement keeps all contacts if it lies in the displacement set of each contact. To first order these sets are
+spaces of twists, and their intersection leaves one candidate for the lower pair. The candidate is then verified at
+finite displacements: contact of the four surfaces is an algebraic condition, so a pair that keeps the contacts at a
+random displacement keeps them at every displacement. No larger set keeps them, since none has more freedoms at the
+pose.
 
-A screw is never the result: its helix is not algebraic, so contacts that allow it also allow turning and sliding alone.
+The result is never a screw: a helix is not algebraic, so contacts that allow a screw motion also allow its rotation and
+its translation separately.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ LOWER_PAIRS = {
     for name, movement in MOVEMENTS.items()
     if movement.pair and not movement.has_pitch
 }
-"""Number of rotations and of translations, which tell the lower pairs apart -> kind and movement of the pair."""
+"""Number of rotations and of translations, which no two lower pairs share -> kind and movement of the pair."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,23 +42,24 @@ class LowerPair:
     frame: Pose
     """In world coordinates at the assembled pose."""
     margin: float
-    """How clearly the contacts forbid all else: the least violation by a unit twist outside the pair, in radians or
-    lengths per size of the assembly. Little above the noise, it tells of contacts that were perhaps meant to agree."""
+    """How strictly the contacts forbid all other motions: the smallest violation by a unit twist outside of the pair,
+    in radians or lengths per size of the assembly. A margin little above the noise says that the contacts were perhaps
+    meant to allow more."""
 
 
 def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
-    """The lower pair that the contacts of two parts amount to; None if there is none.
+    """Find the lower pair that the contacts of two parts are equivalent to; None if there is none.
 
-    The contacts may name the two parts in either order, since a lower pair allows the inverse of what it allows. Where
-    the pair leaves its origin free, the origin is the place nearest to the origin of the first contact; x is that of
-    the first contact frame with the same z axis.
+    The contacts may give the two parts in either order, since a lower pair allows the inverse of each displacement that
+    it allows. Where the origin of the pair is arbitrary, it is the possible one nearest to the origin of the first
+    contact; the x axis is that of the first contact frame with the same z axis.
     """
     centre, size = contacts[0].frames[0, :3, 3], noise.size
     scaled = [_scaled(contact.frames, centre, size) for contact in contacts]
     allowed = [
         chain(movements(c), f, np.zeros(freedoms(movements(c))))[1] for c, f in zip(contacts, scaled, strict=True)
     ]
-    # a few sums of entries that are each within the noise
+    # entries of the matrices are sums of a few numbers, each within the noise
     tolerance = 4 * noise.angle
     forbidden = np.vstack([complement(screws) for screws in allowed])
     _, strengths, twists = np.linalg.svd(forbidden, full_matrices=True)
@@ -77,13 +80,14 @@ def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
 
 
 def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
+    """Move the origins of frames by `-centre` and divide them by `size`."""
     result = frames.copy()
     result[:, :3, 3] = (result[:, :3, 3] - centre) / size
     return result
 
 
 def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Pose] | None:
-    """The lower pair with as many freedoms of rotation and of translation, through the same axis or centre."""
+    """Find the lower pair with as many rotations and translations as some twists, about the same axis or centre."""
     directions, strengths, mixes = np.linalg.svd(twists[:3], full_matrices=True)
     rotations = int(np.sum(strengths > tolerance))
     slides = (twists @ mixes[rotations:].T)[3:]
@@ -98,7 +102,7 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[Jo
         z = slides[:, 0]
     aligned = MOVEMENTS[movement].aligned
     if aligned & {"axis", "centre"}:
-        # A turn w about the point p moves the origin of the world by v = p x w.
+        # a rotation w about the point p moves the origin of the world by v = p x w
         crosses = np.vstack([-_cross_matrix(w) for w in turns[:3].T])
         point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
         origin = point + z * ((origin - point) @ z) if "axis" in aligned else point
@@ -107,4 +111,5 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[Jo
 
 
 def _cross_matrix(vector: Vector) -> np.ndarray:
+    """The matrix of the cross product, `vector` from the left."""
     return np.cross(vector, np.eye(3)).T

@@ -1,4 +1,4 @@
-"""Directions that are parallel or perpendicular but for noise, made exactly so (host code, float64)."""
+"""Make directions that are parallel or perpendicular within the noise exactly so (host code, float64)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Directions = Float[np.ndarray, "directions 3"]
 
 
 def components(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]]:
-    """The connected components of the graph whose symmetric adjacency matrix is given, as lists of its nodes."""
+    """Find the connected components, as arrays of nodes, of the graph with a symmetric adjacency matrix."""
     from scipy.sparse.csgraph import connected_components
 
     count, label = connected_components(near, directed=False)
@@ -17,10 +17,10 @@ def components(near: Bool[np.ndarray, "n n"]) -> list[Int[np.ndarray, "members"]
 
 
 def clusters(near: Bool[np.ndarray, "n n"], spread) -> list[Int[np.ndarray, "members"]]:
-    """Components whose `spread(members)` is true, and all other nodes alone.
+    """Group near nodes: connected components for which `spread(members)` is true, and each other node alone.
 
-    Nearness is not transitive: a chain of small steps may join what is far apart. Such a chain is no noise and no
-    cluster, and none of its members is moved.
+    Nearness is not transitive: a chain of near nodes may connect nodes that are far apart. Such a chain is no cluster,
+    and its members stay where they are.
     """
     found = []
     for members in components(near):
@@ -29,25 +29,25 @@ def clusters(near: Bool[np.ndarray, "n n"], spread) -> list[Int[np.ndarray, "mem
 
 
 def align_directions(directions: Directions, noise: float) -> Directions:
-    """Unit vectors near to the given ones: those parallel or perpendicular within `noise` (radians) are exactly so.
+    """Change unit vectors so that those parallel or perpendicular within `noise` (radians) are exactly so.
 
-    Parallel directions come back as one vector, up to their signs; perpendicular ones have a dot product of rounding
-    size (2e-16). No direction moves by more than `noise` to become parallel and as much again to become perpendicular;
+    Parallel directions become one vector, up to their signs; perpendicular ones get a dot product of rounding size
+    (2e-16). No direction moves by more than `noise` to become parallel and as much again to become perpendicular;
     where that is not enough, the directions stay as they are.
     """
     if len(directions) == 0:
         return directions
-    # 1 - |cos| = angle^2 / 2 resolves angles down to 2e-8 rad in float64, enough to decide what is noise.
+    # 1 - |cos| = angle^2 / 2 resolves angles down to 2e-8 rad in float64, far below the noise
     near = 1.0 - np.abs(directions @ directions.T) < noise**2 / 2
 
-    def turned(members) -> Directions:
+    def same_sense(members) -> Directions:
         return directions[members] * np.where(directions[members] @ directions[members[0]] < 0, -1.0, 1.0)[:, None]
 
     def mean(members) -> np.ndarray:
-        total = turned(members).sum(axis=0)
+        total = same_sense(members).sum(axis=0)
         return total / np.linalg.norm(total)
 
-    found = clusters(near, lambda members: np.all(np.linalg.norm(turned(members) - mean(members), axis=1) <= noise))
+    found = clusters(near, lambda members: np.all(np.linalg.norm(same_sense(members) - mean(members), axis=1) <= noise))
     means = make_perpendicular(np.array([mean(members) for members in found]), noise)
     aligned = np.empty_like(directions)
     for members, direction in zip(found, means, strict=True):
@@ -56,9 +56,10 @@ def align_directions(directions: Directions, noise: float) -> Directions:
 
 
 def make_perpendicular(directions: Directions, noise: float) -> Directions:
-    """The nearest unit vectors of which those pairs are exactly perpendicular that are so within `noise`.
+    """Change unit vectors the least so that all pairs that are perpendicular within `noise` (radians) are exactly so.
 
-    Newton's method on all dot products that should vanish, with the least change of the vectors in each step.
+    Newton's method on the dot products that should vanish, each step of least norm. Connected groups of directions in
+    which one would move by more than `noise` stay as they are.
     """
     result = directions.copy()
     right = np.abs(directions @ directions.T) < noise

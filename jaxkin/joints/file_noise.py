@@ -1,4 +1,4 @@
-"""The noise of the file that faces come from, which their contacts share."""
+"""The noise that all contacts of an assembly share, since its faces come from one file."""
 
 from __future__ import annotations
 
@@ -7,14 +7,26 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.fit_uncertainty import doubt
+from jaxkin.geometry.fit_uncertainty import fit_uncertainty
 from jaxkin.geometry.part import Part
 from jaxkin.joints.regularise import Noise
 
 
 def noise_of(parts: Sequence[Part], contacts: Sequence[Contact]) -> Noise:
-    """The noise of single precision; more where surfaces were fitted to few corners that are near to each other."""
-    faces = {(part.name, face.name): (face, part.grain) for part in parts if part.grain for face in part.faces}
+    """Estimate the noise of contacts: that of single precision, more where surfaces were fitted to few near vertices.
+
+    See `fit_uncertainty`: only parts with a `vertex_resolution` have fitted surfaces.
+    """
+    faces = {
+        (part.name, face.name): (face, part.vertex_resolution)
+        for part in parts
+        if part.vertex_resolution
+        for face in part.faces
+    }
     touching = dict.fromkeys(key for contact in contacts for key in zip(contact.parts, contact.faces, strict=True))
-    doubts = [doubt(*faces[key]) for key in touching if key in faces]
-    return Noise.of(contacts).with_doubt(*np.max(doubts, axis=0, initial=0.0)) if doubts else Noise.of(contacts)
+    uncertainties = [fit_uncertainty(*faces[key]) for key in touching if key in faces]
+    return (
+        Noise.of(contacts).with_uncertainty(*np.max(uncertainties, axis=0, initial=0.0))
+        if uncertainties
+        else Noise.of(contacts)
+    )

@@ -2,8 +2,8 @@
 
 The displacement of part 2 relative to part 1, in world coordinates, is the product over the frames of the chain of
 `frames_1[i] T_i frames_2[i]^-1`. At the assembled pose `frames_1 == frames_2`, and the joint is the paper's
-`M_i^-1 T_i M_i`.
-The two copies of a frame move with different parts, so that link lengths can change independently.
+`M_i^-1 T_i M_i`. A frame is stored twice since its two copies move with different parts: a link length changes one of
+them.
 """
 
 from __future__ import annotations
@@ -28,12 +28,13 @@ from jaxkin.joints.kinds import JointKind
 Array = np.ndarray | jax.Array
 
 _CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state for state in CONTACT_STATES}
-"""The movements tell a contact on a circle, (j) and (n), from the contact at a point with the same letter."""
+"""(kind, movements) -> contact state. The movements distinguish a contact on a circle, (j) and (n), from the contact at
+a point with the same letter."""
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A joint between two parts. A pytree: its frames and its pitch are leaves, all else is static."""
+    """A joint between two parts. It is a pytree: frames and pitch are leaves, all else but `evidence` is static."""
 
     name: str
     parts: tuple[str, str]
@@ -48,11 +49,11 @@ class Joint:
     pitch: Float[Array, "*batch"]
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
     evidence: Evidence | None = None
-    """What the joint is known from; left behind, None then, where JAX takes the joint apart."""
+    """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Names of the joint's coordinates; a name that its chain holds twice is numbered: phi1, phi2."""
+        """Names of the coordinates of the joint; a name that occurs twice in its chain is numbered: phi1, phi2."""
         names = [name for movement in self.movements for name in MOVEMENTS[movement].coordinates]
         seen: Counter[str] = Counter()
         result = []
@@ -63,8 +64,7 @@ class Joint:
 
     @property
     def driven_together(self) -> tuple[tuple[int, ...], ...]:
-        """The coordinates by their indices, those that can be driven together only in one tuple: a ball's angles are
-        one rotation."""
+        """Indices of the coordinates in tuples that can only be driven together: the angles of a ball are one turn."""
         groups: list[tuple[int, ...]] = []
         for movement in self.movements:
             first = sum(map(len, groups))
@@ -74,7 +74,7 @@ class Joint:
 
     @property
     def contact_state(self) -> ContactState | None:
-        """The row of the paper's Tables 1 and 2 that the joint is; None for a joint that is no contact state."""
+        """The contact state (Tables 1 and 2) of the joint; None for a joint that is no contact state."""
         return _CONTACT_STATES.get((self.kind, self.movements))
 
     @property
@@ -83,11 +83,12 @@ class Joint:
         return len(self.coordinates)
 
 
-# By hand, since `drop_fields` of `register_dataclass` works from jax 0.10 on only.
+# registered by hand, since `drop_fields` of `register_dataclass` works only from jax 0.10 on
 _LEAVES = ("frames_1", "frames_2", "pitch")
 
 
 def _static(joint: Joint) -> tuple[str, tuple[str, str], JointKind, tuple[str, ...]]:
+    """The static fields of a joint, in the order of the class."""
     return joint.name, joint.parts, joint.kind, joint.movements
 
 
@@ -110,7 +111,8 @@ def joint(
 ) -> Joint:
     """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 
-    Numbers stay float64 on the host until JAX computes with them; numbers that JAX traces stay traced.
+    `frames` are 4x4 poses in world coordinates at the assembled pose, one for each movement; `pitch` is the advance per
+    turn of a screw. Numbers stay float64 on the host until JAX computes with them; traced numbers stay traced.
     """
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
@@ -118,7 +120,7 @@ def joint(
 
 
 def check_joints(given: Any) -> None:
-    """Refuse what is no list of joints: ValueError that says what stands there."""
+    """Refuse what is no list of joints: a ValueError says what was given."""
     if isinstance(given, Joint):
         wrong = f"the joint {given.name!r} alone"
     elif not isinstance(given, Iterable):

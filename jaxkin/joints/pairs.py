@@ -1,7 +1,7 @@
 """Joints written by hand: the lower pairs, and the contact states of the paper, in world coordinates.
 
-All points and directions are those of the assembled pose. Part 2 moves relative to part 1: positive along and about the
-given axis by the right-hand rule.
+All points and directions are those of the assembled pose. Coordinates are those of part 2 relative to part 1, positive
+along the given axis and about it by the right-hand rule.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
-from jaxkin.geometry.pose import frame
+from jaxkin.geometry.pose import frame, is_rigid
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 
@@ -23,37 +23,40 @@ Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 
 def revolute(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
-    """A hinge about the axis through the point. Coordinate: phi."""
+    """Make a hinge about the axis through the point. Coordinate: phi."""
     return joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [_frame(name, point, axis)])
 
 
 def prismatic(name: str, part1: str, part2: str, *, axis: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
-    """A slide along the axis; the point only says where it is drawn. Coordinate: z."""
+    """Make a slide along the axis; the point only says where it is drawn. Coordinate: z."""
     return joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [_frame(name, point, axis)])
 
 
 def cylindrical(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
-    """A pin that slides in its hole, contact state (e). Coordinates: z, phi."""
+    """Make a pin that turns and slides in its hole, contact state (e). Coordinates: z, phi."""
     return joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [_frame(name, point, axis)])
 
 
 def planar(name: str, part1: str, part2: str, *, normal: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
-    """A plane on a plane, contact state (a), about the point. Coordinates: x, y, phi."""
+    """Make a plane on a plane, contact state (a), that turns about the point. Coordinates: x, y, phi."""
     return joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [_frame(name, point, normal, "normal")])
 
 
 def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
-    """A ball in its socket, contact state (o), about axes parallel to the world's. Coordinates: theta, phi, psi."""
+    """Make a ball in its socket, contact state (o), with axes parallel to those of the world.
+
+    Coordinates: theta, phi, psi, angles about x, y, z; the rotation is Rz(psi) Ry(phi) Rx(theta).
+    """
     return joint(
         name, (part1, part2), JointKind.SPHERICAL, ("T_theta_phi_psi",), [_frame(name, point, (0.0, 0.0, 1.0))]
     )
 
 
 def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple) -> Joint:
-    """A cross: it turns in part 1 about axis1 (phi) and part 2 turns on it about axis2 (theta), perpendicular to axis1.
+    """Make a cross that turns in part 1 about axis1 (phi), and on which part 2 turns about axis2 (theta).
 
-    The movement is T_theta_phi with its y axis along axis1 and its x axis along axis2. Raises ValueError where the axes
-    are not perpendicular within 1e-6.
+    The movement is T_theta_phi with y along axis1 and x along axis2. Coordinates: theta, phi. Raises ValueError where
+    the axes are not perpendicular within 1e-6.
     """
     pose = _frame(name, point, axis1, "axis1")
     x = _frame(name, point, axis2, "axis2")[:3, 2]
@@ -72,14 +75,14 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
 
 
 def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float | int | jax.Array) -> Joint:
-    """A helical pair that advances by `pitch` a turn (positive: right-handed). Coordinate: phi."""
+    """Make a helical pair that advances by `pitch` per turn (positive: right-handed). Coordinate: phi."""
     if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
         raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
     return joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [_frame(name, point, axis)], pitch)
 
 
 def fixed(name: str, part1: str, part2: str) -> Joint:
-    """No movement at all. No coordinates."""
+    """Connect two parts rigidly. No coordinates."""
     return joint(name, (part1, part2), JointKind.FIXED, ("I",), [np.eye(4)])
 
 
@@ -92,7 +95,7 @@ def contact_joint(
     frames: Sequence[np.ndarray] | np.ndarray | jax.Array,
     region: Literal["circle"] | None = None,
 ) -> Joint:
-    """One of the paper's sixteen contact states, "a" to "p" (Table 2 as corrected).
+    """Make a joint that is one of the sixteen contact states of the paper, "a" to "p" (Table 2 as corrected).
 
     `frames` are the 4x4 poses that Table 1 prescribes, in world coordinates; surface 1 of the table belongs to part 1.
     `region="circle"` selects the contacts on a circle: a ball that fills a bore (j), a ball seated in a cone (n).
@@ -109,7 +112,7 @@ def contact_joint(
             f"joint {name!r}: contact state ({state}) has {len(movements)} frames (Table 1), got {len(frames)}"
         )
     for number, pose in enumerate(frames, start=1):
-        if not traced(pose) and not _is_rigid(np.asarray(pose, float)):
+        if not traced(pose) and not is_rigid(np.asarray(pose, float)):
             raise ValueError(
                 f"joint {name!r}: frame {number} is no rigid pose: its first three columns must be perpendicular unit "
                 f"vectors, right-handed, its last row 0, 0, 0, 1; got {np.asarray(pose).tolist()}"
@@ -117,19 +120,11 @@ def contact_joint(
     return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
 
 
-def _is_rigid(pose: np.ndarray) -> bool:
-    """Within 1e-6, which is what a pose in single precision is good for."""
-    axes = pose[:3, :3]
-    return bool(
-        np.all(np.isfinite(pose))
-        and np.allclose(pose[3], [0.0, 0.0, 0.0, 1.0], atol=1e-6)
-        and np.allclose(axes.T @ axes, np.eye(3), atol=1e-6)
-        and np.linalg.det(axes) > 0
-    )
-
-
 def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:
-    """The frame with its z axis along the axis; numbers that JAX traces are taken as they are, others are checked."""
+    """Make the frame at the point with z along the axis; numbers are checked (ValueError), traced ones are not.
+
+    `what` is the name of the axis in messages.
+    """
     if traced(point, axis):
         return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
     checked = {}
@@ -147,7 +142,7 @@ def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.nda
 
 
 def _traced_frame(point: jax.Array, axis: jax.Array) -> jax.Array:
-    """`frame` for traced numbers."""
+    """Make a frame from traced numbers as `frame` does from others."""
     z = axis / jnp.linalg.norm(axis)
     least = jnp.eye(3)[jnp.argmin(jnp.abs(z))]
     x = least - (least @ z) * z

@@ -1,9 +1,9 @@
-"""Take the noise of files out of contacts: what is parallel, perpendicular, coaxial or meets but for it is exactly so.
+"""Remove the noise of files from contacts: axes that are parallel, perpendicular, coaxial or meet do so exactly.
 
 Readers pass the placements of parts through float32. Axes that are parallel by design arrive 1e-8 to 1e-7 rad apart,
-and a planar loop of such axes does not close exactly anywhere but in the pose that was read. Relations are looked for
-among all contacts together, since the axes of one loop belong to different contacts. Only what the motion depends on is
-aligned: for a face on a face its normal and not its height, for a pin its axis and not the place along it.
+and a planar loop of such axes closes exactly only in the pose that was read. Relations are looked for among all
+contacts together, since the axes of one loop belong to different contacts. Only that is aligned which the motion
+depends on: of a face on a face its normal and not its height, of a pin its axis and not the place along it.
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ from jaxkin.joints.directions import align_directions
 
 Frames = Float[np.ndarray, "frames 4 4"]
 
-_MOST = 1e-4
-"""Radians, as of `Assembly.contacts`."""
+_MAX_ANGLE = 1e-4
+"""Largest angle that counts as noise, radians: the default angle tolerance of `Assembly.contacts`, since surfaces that
+are farther apart are not in contact."""
 
 
 @dataclass(frozen=True)
 class Noise:
-    """What counts as the noise of a file and not as design."""
+    """The largest deviations that count as the noise of a file and not as design."""
 
     angle: float
     """Radians."""
@@ -39,20 +40,23 @@ class Noise:
 
     @property
     def size(self) -> float:
-        """The length over which the two are equivalent: the size of the assembly."""
+        """The length over which angle and length are equivalent: the size of the assembly."""
         return self.length / self.angle
 
-    def with_doubt(self, angle: float, length: float) -> Noise:
-        """The same, enlarged where directions and places are known less well, up to what is no contact any more."""
-        factor = max(1.0, min(max(angle / self.angle, length / self.length), _MOST / self.angle))
+    def with_uncertainty(self, angle: float, length: float) -> Noise:
+        """Enlarge this noise to given uncertainties of angles (radians) and lengths, up to `_MAX_ANGLE` of the angle.
+
+        Both entries grow by one factor, so that `size` stays.
+        """
+        factor = max(1.0, min(max(angle / self.angle, length / self.length), _MAX_ANGLE / self.angle))
         return Noise(float(factor * self.angle), float(factor * self.length))
 
     @staticmethod
     def of(contacts: Sequence[Contact]) -> Noise:
-        """The noise of single precision for contacts of this size, ten times over.
+        """Return ten times the noise of single precision for contacts of this size.
 
-        One rounding to float32 is 6e-8 of the number: an entry of a rotation matrix (up to 1e-7 rad in all), or a
-        coordinate, however far from the origin the assembly stands. Design deviates by 1e-5 or more.
+        Rounding to float32 changes a number by up to 6e-8 of itself: an entry of a rotation matrix (1e-7 rad in all),
+        or a coordinate, which grows with the distance of the assembly from the origin. Design deviates by 1e-5 or more.
         """
         origins = np.concatenate([contact.frames[:, :3, 3] for contact in contacts] or [np.zeros((1, 3))])
         radii = [getattr(surface, "radius", 0.0) for contact in contacts for surface in contact.surfaces]
@@ -62,7 +66,7 @@ class Noise:
 
 @dataclass(frozen=True, eq=False)
 class Regularised:
-    """Contacts without noise, and how far they were moved for it."""
+    """Contacts without noise, and the largest corrections that this took."""
 
     contacts: tuple[Contact, ...]
     angle: float
@@ -72,9 +76,9 @@ class Regularised:
 
 
 def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
-    """The contacts with their frames and surfaces aligned with each other; centres and misfits stay as they were found.
+    """Align the frames and surfaces of all contacts with each other; their centres and misfits stay as they were found.
 
-    Applied again it changes nothing, and the result moves and scales with the input, both up to rounding.
+    A second application changes nothing, and the result moves and scales with the input, both up to rounding.
     """
     names = [name for contact in contacts for name in movements(contact)]
     names += [symmetry_of(surface.kind) for contact in contacts for surface in contact.surfaces]
@@ -83,20 +87,21 @@ def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
     frames = np.array(given, float).reshape(-1, 4, 4)
     aligned, angle, length = align(names, frames, noise)
     rest = iter(aligned)
-    settled = [replace(contact, frames=np.array([next(rest) for _ in contact.frames])) for contact in contacts]
-    settled = [
-        replace(contact, surfaces=tuple(_settled(s, next(rest)) for s in contact.surfaces)) for contact in settled
-    ]
-    return Regularised(tuple(settled), angle, length)
+    placed = [replace(contact, frames=np.array([next(rest) for _ in contact.frames])) for contact in contacts]
+    placed = [replace(contact, surfaces=tuple(_placed(s, next(rest)) for s in contact.surfaces)) for contact in placed]
+    return Regularised(tuple(placed), angle, length)
 
 
 def movements(contact: Contact) -> tuple[str, ...]:
-    """The movement of each frame of a contact (Table 2)."""
+    """Look up the movement of each frame of a contact (Table 2)."""
     return find_state(contact.state, contact.region).movements
 
 
 def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frames, float, float]:
-    """Frames aligned with each other as far as their movements depend on them; largest change of angle and length."""
+    """Align frames with each other in what their movements depend on (`Movement.aligned`).
+
+    Returns the frames, and the largest change of a direction (radians) and of a place (length).
+    """
     has_axis, has_direction, has_centre = (
         np.array([what in MOVEMENTS[name].aligned for name in movements], bool)
         for what in ("axis", "direction", "centre")
@@ -108,7 +113,7 @@ def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frame
     )
     aligned = frames.copy()
     for k in np.flatnonzero(has_direction):
-        # columns set one by one: a frame that normalised z again could lose the last bit of equality
+        # the columns are set one by one: normalising z again could change its last bit
         x = frames[k, :3, 0] - (frames[k, :3, 0] @ z[k]) * z[k]
         x /= np.linalg.norm(x)
         aligned[k, :3, :3] = np.stack([x, np.cross(z[k], x), z[k]], axis=1)
@@ -119,6 +124,7 @@ def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frame
 
 
 def _surface_frame(surface: Surface) -> np.ndarray:
+    """Make the frame of a surface that takes part in the alignment: z along its axis or normal."""
     match surface:
         case Plane():
             return frame(surface.point, surface.normal)
@@ -130,7 +136,8 @@ def _surface_frame(surface: Surface) -> np.ndarray:
             return frame(surface.centre, np.array([0.0, 0.0, 1.0]))
 
 
-def _settled(surface: Surface, pose: np.ndarray) -> Surface:
+def _placed(surface: Surface, pose: np.ndarray) -> Surface:
+    """Move a surface to its aligned frame."""
     origin, z = pose[:3, 3].copy(), pose[:3, 2].copy()
     match surface:
         case Plane():

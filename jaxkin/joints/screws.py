@@ -1,6 +1,7 @@
-"""Chains of movements on the host (numpy, float64): displacements, screws, and the way back from a displacement.
+"""Chains of movements on the host (numpy, float64): displacements, screws, and the fit to a given displacement.
 
-The same products as `geometry.motions` in JAX, for decisions that must not depend on the precision of the device.
+The products are those of `geometry.movements` in JAX, for decisions that must not depend on the precision of the
+device.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from jaxkin.joints.joint import Joint
 
 Frames = Float[np.ndarray, "frames 4 4"]
 Screws = Float[np.ndarray, "6 freedoms"]
-"""Columns (w; v): angular velocity, and velocity of the point of the body at the world's origin."""
+"""Columns (w; v): angular velocity, and velocity of the point of the body at the origin of the world."""
 
 
 def chain(
@@ -26,11 +27,11 @@ def chain(
     pitch: float = 0.0,
     frames_2: Frames | None = None,
 ) -> tuple[Pose, Screws]:
-    """The displacement of part 2 relative to part 1 in world coordinates, and the screws of the freedoms there.
+    """Compute the displacement D of part 2 relative to part 1 in world coordinates, and the screws of its freedoms.
 
-    `q` holds the coordinates of the movements in turn. A column of the screws is the rate of the displacement for one
-    coordinate; its product with the displacement is the derivative. `pitch` is the advance of a screw in a turn;
-    `frames_2` are the frames on the side of part 2 where they are not those of part 1.
+    `q` holds the coordinates of the movements, one after the other. Column k of the screws is the twist S_k with
+    dD/dq_k = [S_k] D. `pitch` is the advance of a screw per turn; `frames_2` are the frames on the side of part 2, by
+    default those of part 1.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
@@ -53,7 +54,7 @@ def chain(
 
 
 def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
-    """The displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses at once."""
+    """Compute the displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses."""
     found, first = np.eye(4)[:3, :, None], 0
     for movement, frame_1, frame_2 in zip(joint.movements, joint.frames_1, joint.frames_2, strict=True):
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
@@ -74,36 +75,40 @@ def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float
 
 
 def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 poses"]:
-    """The displacements back: R^T, and -R^T t for the origin."""
-    turned = poses[:, :3].swapaxes(0, 1)
-    return np.concatenate([turned, -np.einsum("ijn,jn->in", turned, poses[:, 3])[:, None]], axis=1)
+    """Invert displacements: rotation R^T, translation -R^T t."""
+    rotated = poses[:, :3].swapaxes(0, 1)
+    return np.concatenate([rotated, -np.einsum("ijn,jn->in", rotated, poses[:, 3])[:, None]], axis=1)
 
 
 def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
-    """An orthonormal basis of what is forbidden: all rows vanish on the screws that are allowed."""
+    """Find an orthonormal basis of the constraints: rows that vanish on all given screws.
+
+    Singular values of the screws below 1e-9 count as zero.
+    """
     basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
     return basis[:, int(np.sum(strengths > 1e-9)) :].T
 
 
 def moved(pose: Pose, screws: Screws) -> Screws:
-    """The screws of a body that has been displaced with them."""
-    turned = pose[:3, :3] @ screws[:3]
-    return np.concatenate([turned, pose[:3, :3] @ screws[3:] + np.cross(pose[:3, 3], turned, axisb=0, axisc=0)])
+    """Displace screws together with the body that they belong to."""
+    rotated = pose[:3, :3] @ screws[:3]
+    return np.concatenate([rotated, pose[:3, :3] @ screws[3:] + np.cross(pose[:3, 3], rotated, axisb=0, axisc=0)])
 
 
 def freedoms(movements: Sequence[str]) -> int:
-    """Number of coordinates of a chain."""
+    """Count the coordinates of a chain."""
     return sum(len(MOVEMENTS[movement].coordinates) for movement in movements)
 
 
 def misfit(movements: Sequence[str], frames: Frames, displacement: Pose) -> float:
-    """How far the chain stays from a displacement, from the assembled pose on: zero if the joint allows it.
+    """Measure how near a chain comes to a displacement, starting at the assembled pose: zero if the chain allows it.
 
-    Gauss-Newton on the twist that is missing; radians and the unit of the frames taken as equal.
+    Gauss-Newton steps on the twist from the displacement reached to the one wanted. The result is the Frobenius norm of
+    their difference, with radians and the unit of the frames taken as equal.
     """
     q = np.zeros(freedoms(movements))
     best = np.inf
-    for _ in range(12):  # from a radian away: some steps of approach, then the digits double
+    for _ in range(12):  # from a radian away: some steps of approach, then quadratic convergence
         reached, screws = chain(movements, frames, q)
         missing = displacement @ inverse(reached)
         skew = missing[:3, :3] - missing[:3, :3].T

@@ -1,4 +1,7 @@
-"""The displacement subgroup that holds all joints of a loop: how many equations the loop needs (Herve 1978)."""
+"""The displacement subgroup that contains all joints of a loop: its dimension is the number of closure equations.
+
+Herve 1978 lists the subgroups.
+"""
 
 from __future__ import annotations
 
@@ -18,17 +21,16 @@ class Subgroup(NamedTuple):
 
     name: str
     dimension: int
-    """Its freedoms, and the equations by which a loop within it closes."""
+    """Number of its freedoms, and of the closure equations of a loop within it."""
 
 
 def subgroup(screws: Screws, least: float = 1e-8) -> Subgroup:
-    """The smallest subgroup that holds all displacements about these screws, lengths of the order of one.
+    """Find the smallest displacement subgroup that contains the motions about all given screws.
 
-    A screw of unit size is new if more than `least` of it lies outside of those before; what comes from files was
-    aligned exactly before (`jaxkin.joints.regularise`).
-
-    Its tangent at rest is the smallest space that holds the screws and their Lie brackets; what it holds once the
-    joints of a loop have moved, it held before.
+    Its tangent space is the Lie algebra that the screws generate: the smallest space that contains them and all their
+    Lie brackets. It stays the same when the joints of a loop move. Lengths are of the order of one. A unit screw counts
+    as new if its part outside of the space so far is larger than `least`; screws from files have been aligned exactly
+    (`jaxkin.joints.regularise`).
     """
     basis = _basis(screws, least)
     while True:
@@ -39,21 +41,21 @@ def subgroup(screws: Screws, least: float = 1e-8) -> Subgroup:
 
 
 def _basis(screws: Screws, least: float) -> Basis:
-    """An orthonormal basis of the space of the screws."""
+    """Find an orthonormal basis of the space of the screws."""
     sizes = np.linalg.norm(screws, axis=0)
     directions, values, _ = np.linalg.svd(screws / np.where(sizes > least, sizes, np.inf), full_matrices=False)
     return directions[:, values > least]
 
 
 def _brackets(screws: Basis) -> Float[np.ndarray, "6 pairs"]:
-    """The Lie brackets of all pairs of screws (w; v)."""
+    """Compute the Lie brackets of all pairs of screws (w; v)."""
     first, second = np.triu_indices(screws.shape[1], 1)
     (w1, v1), (w2, v2) = ((screws[:3, pick].T, screws[3:, pick].T) for pick in (first, second))
     return np.concatenate([np.cross(w1, w2), np.cross(w1, v2) + np.cross(v1, w2)], axis=1).T
 
 
 def _name(basis: Basis, least: float) -> str:
-    """The name of a subgroup by its dimension and its rotations, with a pitch or without."""
+    """Name a subgroup by its dimension, the number of its rotations, and whether they have a pitch."""
     dimension = basis.shape[1]
     directions, values, mixes = np.linalg.svd(basis[:3], full_matrices=True)
     turns = int((values > least).sum())
@@ -61,7 +63,7 @@ def _name(basis: Basis, least: float) -> str:
         return {(0, 0): "no motion", (0, 1): "straight", (0, 2): "translation in a plane", (0, 3): "translation"}.get(
             (turns, dimension), "spherical" if dimension == 3 else "spatial"
         )
-    # of all elements that turn, that without translation in the directions that the subgroup has anyway
+    # of all twists with a rotation, the one without translation in directions that the subgroup contains anyway
     turn = basis @ mixes[0] / values[0]
     slides = (basis @ mixes[1:].T)[3:]
     pitch = abs((turn[3:] - slides @ (slides.T @ turn[3:])) @ directions[:, 0]) > least

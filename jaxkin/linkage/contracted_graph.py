@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
 from heapq import heappop, heappush
 
-from jaxkin.topology.graph import Circuit, Step
+from jaxkin.topology.graph import Circuit, WalkStep
 
 Ends = Mapping[int, tuple[str, str]]
 """For each joint its part 1 and part 2."""
@@ -52,10 +52,10 @@ class ContractedGraph:
                 if other not in came:
                     came[other] = joint, sign, part
                     queue.append(other)
-        path: list[Step] = []
+        path: list[WalkStep] = []
         while (step := came[end]) is not None:
             joint, sign, end = step
-            path.append(Step(joint, sign))
+            path.append(WalkStep(joint, sign))
         return tuple(reversed(path))
 
     def closed(self, circuit: Circuit) -> Circuit:
@@ -63,16 +63,16 @@ class ContractedGraph:
         left = dict(circuit)
         (joint, sign), *_ = circuit
         start = part = self.ends[joint][0 if sign > 0 else 1]
-        travelled: list[Step] = []
+        travelled: list[WalkStep] = []
         while left:
             joint, sign = self._onward(part, left, travelled)
             entered, left_by = self.ends[joint][::sign]
-            travelled += [*self.known_path(part, entered), Step(joint, sign)]
+            travelled += [*self.known_path(part, entered), WalkStep(joint, sign)]
             del left[joint]
             part = left_by
         return tuple([*travelled, *self.known_path(part, start)])
 
-    def _onward(self, part: str, left: Mapping[int, int], travelled: Sequence[Step]) -> tuple[int, int]:
+    def _onward(self, part: str, left: Mapping[int, int], travelled: Sequence[WalkStep]) -> tuple[int, int]:
         """The joint of a circuit by which the parts known relative to this one are left, and its sign."""
         here = self.representative[part]
         if not travelled:
@@ -145,7 +145,7 @@ class ContractedGraph:
         for joint in sorted(closing):
             there, back = (to_root(self.representative[part]) for part in self.ends[joint])
             signs = {j: there.get(j, 0) - back.get(j, 0) for j in {**there, **back}}
-            circuits.append((Step(joint, 1), *(Step(j, sign) for j, sign in signs.items() if sign)))
+            circuits.append((WalkStep(joint, 1), *(WalkStep(j, sign) for j, sign in signs.items() if sign)))
         return circuits
 
 

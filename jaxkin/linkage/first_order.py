@@ -11,30 +11,34 @@ from jaxtyping import Float
 from jaxkin.joints.screws import Screws
 
 
-class Noise(NamedTuple):
-    """What counts as zero, lengths over the characteristic one: what the numbers of a mechanism are good for."""
+class Thresholds(NamedTuple):
+    """Below what a number of a mechanism counts as zero, in one floating-point precision.
 
-    closed: float
-    """Largest residual of a closed pose."""
+    Lengths are divided by the characteristic length of the loops.
+    """
+
+    residual: float
+    """Largest closure residual of a pose whose loops are closed."""
     rank: float
-    """Singular values of a Jacobian below this, over the largest, are zero: for mobility, plan and sweep alike, since
-    the solver damps its least-norm steps by the square of this."""
+    """Singular values of a closure Jacobian below this, relative to the largest, are zero. Mobility, plan and sweep
+    agree on the rank, since the solver damps its least-norm steps by the square of this number."""
     rate: float
-    """Rates below this, of motions of unit size, are zero: a few roundings of numbers of six digits, since what moves
-    about itself (a leg that slides along its line) need not be aligned for the loops to move."""
+    """Joint rates below this, in motions of unit norm, are zero: a few roundings of numbers of six digits. A part that
+    moves about itself (a leg that slides along its line) need not be aligned for the loops to move, so its frames may
+    keep the rounding of the file."""
 
 
-DOUBLE = Noise(1e-11, 1e-7, 2e-5)
+DOUBLE = Thresholds(1e-11, 1e-7, 2e-5)
 """For mechanisms in float64."""
-SINGLE = Noise(1e-5, 1e-3, 1e-3)
+SINGLE = Thresholds(1e-5, 1e-3, 1e-3)
 """For mechanisms in float32."""
 
 SPREAD = 30.0
-"""Singular values of a closure Jacobian, over the largest, that an error of the frames may bring about, over that
-error: sums of a few lever arms, each of the characteristic length."""
-LARGEST_DOUBT = 0.03
-"""Singular values above this, over the largest, hold the loops whatever the error of the frames: those of sound designs
-are larger."""
+"""How large a singular value of a closure Jacobian (relative to the largest) may result from an error of the frames, as
+a multiple of that error: sums of a few lever arms, each of the characteristic length."""
+LARGEST_UNCERTAIN = 0.03
+"""Singular values above this, relative to the largest, count in the rank whatever the error of the frames: those of
+sound designs are larger."""
 
 EQUATIONS = 6
 """Independent closure equations of a loop at most, of the twelve of Eq. 11: three of rotation, three of translation."""
@@ -75,16 +79,16 @@ def null_space(
 
 
 def without(
-    motions: Float[np.ndarray, "n columns"], resting: Sequence[int], noise: Noise
+    motions: Float[np.ndarray, "n columns"], resting: Sequence[int], thresholds: Thresholds
 ) -> Float[np.ndarray, "m columns"]:
     """A basis of those motions in which some columns rest."""
     values, mixes = _right(motions[:, list(resting)].T)
-    return mixes[int((values > noise.rate).sum()) :] @ motions
+    return mixes[int((values > thresholds.rate).sum()) :] @ motions
 
 
-def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], noise: Noise) -> int:
+def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], thresholds: Thresholds) -> int:
     """How many of the rates of these columns the motions allow independently of each other."""
-    return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > noise.rate).sum())
+    return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > thresholds.rate).sum())
 
 
 def _right(matrix: Float[np.ndarray, "rows columns"]) -> tuple[np.ndarray, Float[np.ndarray, "columns columns"]]:

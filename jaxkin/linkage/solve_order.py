@@ -17,7 +17,7 @@ from jaxtyping import Float
 
 from jaxkin.joints.screws import Screws
 from jaxkin.linkage.contracted_graph import ContractedGraph, CycleSpace, Ends
-from jaxkin.linkage.first_order import EQUATIONS, Columns, Noise, independent, loop_jacobian, null_space, without
+from jaxkin.linkage.first_order import EQUATIONS, Columns, Thresholds, independent, loop_jacobian, null_space, without
 from jaxkin.topology.graph import Circuit
 
 _MAX_SETS = 2000
@@ -51,7 +51,12 @@ class Group:
 
 
 def solve_order(
-    ends: Ends, loops: Sequence[Circuit], columns: Columns, screws: Screws, driven: Collection[int], noise: Noise
+    ends: Ends,
+    loops: Sequence[Circuit],
+    columns: Columns,
+    screws: Screws,
+    driven: Collection[int],
+    thresholds: Thresholds,
 ) -> tuple[Group, ...]:
     """Find the groups of one structure element, each as small as was found, every group after those that it needs.
 
@@ -62,14 +67,14 @@ def solve_order(
     """
     unknown = {joint: tuple(c for c, (owner, _) in enumerate(columns) if owner == joint) for joint in ends}
     unknown = {joint: tuple(c for c in found if c not in driven) for joint, found in unknown.items()}
-    order = _Order(ends, loops, columns, screws, unknown, noise)
+    order = _Order(ends, loops, columns, screws, unknown, thresholds)
     while order.remaining:
         order.solve(order.next())
     return (*order.groups, *order.rest())
 
 
 def keep_freedoms_together(
-    groups: Sequence[Group], columns: Columns, screws: Screws, noise: Noise
+    groups: Sequence[Group], columns: Columns, screws: Screws, thresholds: Thresholds
 ) -> tuple[Group, ...]:
     """Merge a group that leaves coordinates undetermined with the later groups that these coordinates move.
 
@@ -81,26 +86,28 @@ def keep_freedoms_together(
     found = list(groups)
     number = 0
     while number < len(found):
-        feeling = _feels(found, number, columns, screws, noise)
+        feeling = _feels(found, number, columns, screws, thresholds)
         if feeling is None:
             number += 1
             continue
         chosen = {number, feeling}
         chosen |= {k for k in range(number, feeling) if number in _needed(found, k) and k in _needed(found, feeling)}
-        found, number = _merged(found, sorted(chosen), columns, screws, noise), 0
+        found, number = _merged(found, sorted(chosen), columns, screws, thresholds), 0
     return tuple(found)
 
 
-def _feels(groups: Sequence[Group], number: int, columns: Columns, screws: Screws, noise: Noise) -> int | None:
+def _feels(
+    groups: Sequence[Group], number: int, columns: Columns, screws: Screws, thresholds: Thresholds
+) -> int | None:
     """Find the first later group whose loops open while a group moves as its loops allow; None if all stay closed."""
     group = groups[number]
     if not group.free or number + 1 == len(groups):
         return None
     own = list(group.unknowns)
-    free = null_space(loop_jacobian(group.loops, columns, screws)[:, own], noise.rank)[1]
+    free = null_space(loop_jacobian(group.loops, columns, screws)[:, own], thresholds.rank)[1]
     for later in range(number + 1, len(groups)):
         misfit = loop_jacobian(groups[later].loops, columns, screws)[:, own] @ free.T
-        if np.abs(misfit).max(initial=0.0) > noise.rate:
+        if np.abs(misfit).max(initial=0.0) > thresholds.rate:
             return later
     return None
 
@@ -111,7 +118,7 @@ def _needed(groups: Sequence[Group], number: int) -> set[int]:
 
 
 def _merged(
-    groups: Sequence[Group], chosen: Sequence[int], columns: Columns, screws: Screws, noise: Noise
+    groups: Sequence[Group], chosen: Sequence[int], columns: Columns, screws: Screws, thresholds: Thresholds
 ) -> list[Group]:
     """Merge the chosen groups into one; in the order that is returned every group still follows those that it needs."""
     first = [k for k in range(len(groups)) if k not in chosen]
@@ -120,7 +127,7 @@ def _merged(
     unknowns = tuple(sorted(column for part in parts for column in part.unknowns))
     loops = tuple(loop for part in parts for loop in part.loops)
     known = {joint for part in parts for joint in part.known_joints} - set(joints)
-    rank = null_space(loop_jacobian(loops, columns, screws)[:, list(unknowns)], noise.rank)[0]
+    rank = null_space(loop_jacobian(loops, columns, screws)[:, list(unknowns)], thresholds.rank)[0]
     after = {other for part in parts for other in part.after} - set(chosen)
     one = Group(joints, unknowns, tuple(sorted(known)), loops, rank, tuple(after), sum(p.merged for p in parts))
     # what the merged group needs comes first, then the merged group, then all that needs it or comes later
@@ -176,9 +183,9 @@ class _Order:
         columns: Columns,
         screws: Screws,
         unknown: Mapping[int, tuple[int, ...]],
-        noise: Noise,
+        thresholds: Thresholds,
     ) -> None:
-        self.columns, self.screws, self.unknown, self.noise = columns, screws, unknown, noise
+        self.columns, self.screws, self.unknown, self.thresholds = columns, screws, unknown, thresholds
         self.groups: list[Group] = []
         self.graph = ContractedGraph(ends)
         self.remaining = [joint for joint, found in unknown.items() if found]
@@ -201,7 +208,7 @@ class _Order:
         if not self.open:
             return np.zeros((0, len(self.columns)))
         jacobian = loop_jacobian(self.graph.circuits(self.remaining), self.columns, self.screws)
-        _, motions = null_space(jacobian[:, self.open], self.noise.rank)
+        _, motions = null_space(jacobian[:, self.open], self.thresholds.rank)
         found = np.zeros((len(motions), len(self.columns)))
         found[:, self.open] = motions
         return found
@@ -241,11 +248,11 @@ class _Order:
         """Whether every motion that these loops allow alone is left to them by all others."""
         unknowns = [column for joint in joints for column in self.unknown[joint]]
         alone = len(unknowns) - self._rank(self.graph.circuits(joints), unknowns)
-        return alone == independent(self.motions, unknowns, self.noise)
+        return alone == independent(self.motions, unknowns, self.thresholds)
 
     def _rank(self, circuits: Sequence[Circuit], unknowns: Sequence[int]) -> int:
         jacobian = loop_jacobian(circuits, self.columns, self.screws)
-        return null_space(jacobian[:, list(unknowns)], self.noise.rank)[0]
+        return null_space(jacobian[:, list(unknowns)], self.thresholds.rank)[0]
 
     def solve(self, joints: Sequence[int]) -> None:
         """Add the group of these joints, and contract them."""
@@ -260,7 +267,7 @@ class _Order:
         for joint in joints:
             self.graph.contract(joint, number)
         self.remaining = [joint for joint in self.remaining if joint not in set(joints)]
-        self.motions = without(self.motions, unknowns, self.noise)
+        self.motions = without(self.motions, unknowns, self.thresholds)
 
     def rest(self) -> list[Group]:
         """The loops of the structure that the groups do not imply, as a group without unknowns: all is given there."""

@@ -146,8 +146,8 @@ def ranked_groups(
     columns = solved_coordinates(linkage, loop_group, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
     given = [columns.index(place) for place in driven]
-    groups = solve_order(freedoms.ends, loop_group.loops, columns, screws, given, freedoms.noise)
-    return keep_freedoms_together(groups, columns, screws, freedoms.noise)
+    groups = solve_order(freedoms.ends, loop_group.loops, columns, screws, given, freedoms.thresholds)
+    return keep_freedoms_together(groups, columns, screws, freedoms.thresholds)
 
 
 def _counted_groups(

@@ -91,7 +91,7 @@ class _Setting:
         for part in mechanism.solids:
             self.faces |= {(part.name, face.name): face for face in part.faces}
         # gaps below what counts as touching in the assembled pose are none, nor are those below rounding of the corners
-        self.length = default_length(mechanism.solids) + 2 * max(part.grain for part in mechanism.solids)
+        self.length = default_length(mechanism.solids) + 2 * max(part.vertex_resolution for part in mechanism.solids)
         self._flush: dict[tuple[str, str], list[Face]] = {}
 
     def flush(self, part: str, name: str) -> list[Face]:

@@ -145,7 +145,7 @@ def _subgroup(element: DrivenElement, group: Group, freedoms: LoopFreedoms) -> S
     """The smallest subgroup that holds the coordinates of a group's loops, those that rest left out."""
     held = {joint for loop in group.loops for joint, _ in loop}
     columns = [freedoms.columns.index(place) for place in element.columns if place[0] in held]
-    return subgroup(freedoms.assembled[:, columns], 10 * freedoms.noise.rank)
+    return subgroup(freedoms.assembled[:, columns], 10 * freedoms.thresholds.rank)
 
 
 def _loop_class(element: DrivenElement, number: int, group: Group) -> str:

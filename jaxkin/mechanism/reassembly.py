@@ -109,21 +109,21 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
     held = {coordinate(mechanism.linkage, key) for key in hold}
     given = replace(mechanism.linkage, ideal=())
-    blocks = [_closed(given, loop_group, held, noise) for loop_group in given.structure.loop_groups]
-    before, after = (float(np.linalg.norm([getattr(block, gap) for block in blocks])) for gap in ("before", "after"))
+    groups = [_close_group(given, loop_group, held, noise) for loop_group in given.structure.loop_groups]
+    before, after = (float(np.linalg.norm([getattr(group, gap) for group in groups])) for gap in ("before", "after"))
     rest = dict.fromkeys(given.parts, Move(0.0, 0.0))
-    if still_open := [block for block in blocks if not block.is_closed]:
-        worst = max(still_open, key=lambda block: block.after)
+    if still_open := [group for group in groups if not group.is_closed]:
+        worst = max(still_open, key=lambda group: group.after)
         left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
     if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
-    moved = [block for block in blocks if block.q.any()]
-    others = [apart for block in moved for apart in other_modes(block.loops, block.q, block.held)]
+    moved = [group for group in groups if group.q.any()]
+    others = [apart for group in moved for apart in other_modes(group.loops, group.q, group.held)]
     coordinates = [np.zeros(joint.freedoms) for joint in given.joints]
-    for block in moved:
-        for index, columns in block.loops.slices.items():
-            coordinates[index] = (block.q * block.loops.units)[columns]
+    for group in moved:
+        for index, columns in group.loops.slices.items():
+            coordinates[index] = (group.q * group.loops.units)[columns]
     places = _places(given, coordinates)
     joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.joints, coordinates, strict=True)]
     linkage, notes = aligned(given.with_joints(joints), noise, mechanism.unit)
@@ -146,7 +146,7 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
 
 
 @dataclass(frozen=True, eq=False)
-class _Block:
+class _ClosedGroup:
     """What became of the loops of a structure element."""
 
     loops: ClosedLoops
@@ -161,24 +161,26 @@ class _Block:
     """Within the rounding of the numbers."""
 
 
-def _closed(linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float) -> _Block:
+def _close_group(
+    linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float
+) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = ClosedLoops(linkage.joints, linkage.structure, loop_group)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
-    if loops.coincide or before <= loops.noise.closed:
-        return _Block(loops, q, held, before, before, True)
+    if loops.coincide or before <= loops.thresholds.residual:
+        return _ClosedGroup(loops, q, held, before, before, True)
     q, found = loops.closed(q, held)
     size = extent([linkage.joints[index] for index in loop_group.joints])
-    enough = max(noise * size / loops.length, loops.noise.closed)
+    enough = max(noise * size / loops.length, loops.thresholds.residual)
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
-    return _Block(loops, q, held, before, found.gap, found.gap <= enough)
+    return _ClosedGroup(loops, q, held, before, found.gap, found.gap <= enough)
 
 
-def _rounding(unit: str, moved: Sequence[_Block]) -> list[str]:
+def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:
     """What was closed for the rounding of the numbers, in words."""
-    left = [block.after * block.loops.length for block in moved if block.after > block.loops.noise.closed]
+    left = [group.after * group.loops.length for group in moved if group.after > group.loops.thresholds.residual]
     said = f"{max(left, default=0.0):.1g} {unit}".rstrip()
     return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
 

@@ -46,4 +46,4 @@ def _rank(linkage: Linkage, number: int, system: LoopSystem, columns: Columns) -
         return min(system.uncut.equations, len(system.free))
     freedoms = loop_freedoms(linkage)[number]
     free = [freedoms.columns.index(columns[column]) for column in system.free]
-    return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.noise.rank)[0]
+    return null_space(freedoms.jacobian[:, np.array(free, int)], freedoms.thresholds.rank)[0]

@@ -57,7 +57,9 @@ def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[fl
     lengths.
     """
     home = loops.travel(q).places
-    distances = [_led_back(loops, *found, home) for found in closed_from_elsewhere(loops, q, loops.noise.closed, held)]
+    distances = [
+        _led_back(loops, *found, home) for found in closed_from_elsewhere(loops, q, loops.thresholds.residual, held)
+    ]
     return [left for left in distances if left > APART]
 
 
@@ -71,15 +73,15 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
     for _ in range(_STEPS):
         if np.abs(apart).max() <= APART or stride < _LEAST_STRIDE:
             break
-        free = null_space(found.jacobian, loops.noise.rank)[1]
+        free = null_space(found.jacobian, loops.thresholds.rank)[1]
         rates = _rates_of_places(loops, found.places, found.screws)
-        step = free.T @ np.linalg.lstsq(rates @ free.T, -apart, rcond=loops.noise.rate)[0]
+        step = free.T @ np.linalg.lstsq(rates @ free.T, -apart, rcond=loops.thresholds.rate)[0]
         step *= min(1.0, stride / max(float(np.linalg.norm(step)), 1e-300))
         trial, there = loops.closed(q + step)
         nearer = _differences(there.places, home)
         # what has jumped to another mode on the way would tell nothing
         stayed = np.linalg.norm(trial - q) <= 2.0 * np.linalg.norm(step) + APART
-        if stayed and there.gap <= loops.noise.closed and np.linalg.norm(nearer) < np.linalg.norm(apart):
+        if stayed and there.gap <= loops.thresholds.residual and np.linalg.norm(nearer) < np.linalg.norm(apart):
             q, found, apart, stride = trial, there, nearer, min(2.0 * stride, _STRIDE)
         else:
             stride /= 4.0

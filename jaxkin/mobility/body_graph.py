@@ -98,7 +98,7 @@ class BodyGraph:
         """A basis of the twists between two bodies, joined to each other, in some motions of the element."""
         joint = self.joints[body, other][0]
         basis, sizes, _ = np.linalg.svd(self._screws(joint) @ motions[:, self._columns(joint)].T)
-        return basis[:, : int((sizes > self._found.noise.rate).sum())]
+        return basis[:, : int((sizes > self._found.thresholds.rate).sum())]
 
     def rates(self, body: str, other: str, twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, " columns"]:
         """Rates of the joints between two bodies that give the one this twist relative to the other."""
@@ -111,7 +111,7 @@ class BodyGraph:
     def free_of(self, rows: Constraints) -> Twists:
         """An orthonormal basis of the twists that some constraints allow."""
         _, sizes, directions = np.linalg.svd(np.concatenate([rows, np.zeros((6, 6))]), full_matrices=False)
-        return directions[int((sizes > self._found.noise.rate).sum()) :].T
+        return directions[int((sizes > self._found.thresholds.rate).sum()) :].T
 
     def _screws(self, joint: int) -> Twists:
         return self._found.screws[:, self._columns(joint)]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD, null_space
+from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD, null_space
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Rows
 
 STEPS = (0.3, 0.1, 0.03)
@@ -38,7 +38,7 @@ class Beside(NamedTuple):
 
 def cutoff(noise: float) -> float:
     """Singular values, over the largest, below which the rank is in doubt for frames that are `noise` radians off."""
-    return min(SPREAD * noise, LARGEST_DOUBT)
+    return min(SPREAD * noise, LARGEST_UNCERTAIN)
 
 
 def rounding(loops: ClosedLoops) -> float:

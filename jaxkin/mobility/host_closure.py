@@ -68,7 +68,7 @@ class ClosedLoops:
         self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
         single = any(np.asarray(leaf).dtype == np.float32 for leaf in jax.tree.leaves(list(joints.values())))
-        self.noise = SINGLE if single else DOUBLE
+        self.thresholds = SINGLE if single else DOUBLE
         row_of = structure.row_of
         self.ends = {index: (row_of[joint.parts[0]], row_of[joint.parts[1]]) for index, joint in joints.items()}
         origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in joints.values()])
@@ -117,7 +117,7 @@ class ClosedLoops:
                 q, found, trust = q - step, trial, max(0.3 * trust, 1e-2)
                 if least:
                     break
-            elif found.gap < self.noise.closed:
+            elif found.gap < self.thresholds.residual:
                 break  # rounding
             else:
                 trust *= 8.0

@@ -109,7 +109,7 @@ class IdleMotions:
                 described = self._described(row, kind, rates)
                 for one in rates:
                     new = one - (one @ basis.T) @ basis
-                    if (size := np.linalg.norm(new)) > self._found.noise.rate:
+                    if (size := np.linalg.norm(new)) > self._found.thresholds.rate:
                         basis = np.concatenate([basis, new[None] / size])
                         motions.append(described)
         return tuple(motions), basis
@@ -185,7 +185,7 @@ class IdleMotions:
         if len(row.moving) == len(bodies) or not apart or len(set(row.resting) - self._left_out) < 2:
             return
         # all about one point: not a rod, but a spherical linkage
-        if _centre(np.concatenate([end.allowed for end in row.ends], axis=1), self._found.noise.rate) is None:
+        if _centre(np.concatenate([end.allowed for end in row.ends], axis=1), self._found.thresholds.rate) is None:
             yield row
 
     def _straight(self, body: str, other: str) -> _End:
@@ -200,9 +200,9 @@ class IdleMotions:
             following = self._graph.beyond(last, before)
             step = self._graph.allowed(last, following)
             allowed = np.concatenate([end.allowed, step], axis=1)
-            if following in end.bodies or _centre(allowed, self._found.noise.rate) is None:
+            if following in end.bodies or _centre(allowed, self._found.thresholds.rate) is None:
                 break
-            forbidden = _complement(allowed, self._found.noise.rate)
+            forbidden = _complement(allowed, self._found.thresholds.rate)
             end = _End((*end.bodies, following), allowed, (*end.sizes, step.shape[1]), forbidden)
         return end
 
@@ -219,14 +219,16 @@ class IdleMotions:
     def _turns_and_slides(self, twists: Twists) -> Iterator[tuple[str, Float[np.ndarray, "twists 6"]]]:
         """A basis of some twists in which as many as can be have no angular velocity, by kind."""
         _, sizes, mixes = np.linalg.svd(twists[:3], full_matrices=True)
-        turning = int((sizes > self._found.noise.rate).sum())
+        turning = int((sizes > self._found.thresholds.rate).sum())
         for kind, some in (("turns", mixes[:turning]), ("slides", mixes[turning:])):
             if len(some):
                 yield kind, some @ twists.T
 
     def _described(self, row: _Row, kind: str, rates: Float[np.ndarray, "motions columns"]) -> IdleMotion:
         joints, rows_of, order = self._linkage.joints, self._graph.parts_of, self._linkage.structure.parts.index
-        shows = [self._found.columns[k] for k in np.flatnonzero((np.abs(rates) > self._found.noise.rate).any(axis=0))]
+        shows = [
+            self._found.columns[k] for k in np.flatnonzero((np.abs(rates) > self._found.thresholds.rate).any(axis=0))
+        ]
         return IdleMotion(
             tuple(sorted((part for body in row.moving for part in rows_of[body]), key=order)),
             kind,

@@ -60,20 +60,22 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
 
 def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
     """Whether the rates of these columns can be given, at the assembled pose or beside it."""
-    return any(independent(motions, columns, found.noise) == len(columns) for motions in (found.at_rest, found.motions))
+    return any(
+        independent(motions, columns, found.thresholds) == len(columns) for motions in (found.at_rest, found.motions)
+    )
 
 
 def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
     """The columns that can be driven, alone or as the angles of a ball: first those that can at the assembled pose."""
     groups = dict.fromkeys(found.driven_together.values())
-    movable = [group for group in groups if independent(found.motions, group, found.noise) == len(group)]
+    movable = [group for group in groups if independent(found.motions, group, found.thresholds) == len(group)]
     surest = _surest(found, movable)
     return [*surest, *(group for group in movable if group not in surest)]
 
 
 def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence[tuple[int, ...]]:
     """Those that can be driven at the assembled pose too, if there are such: not a slide at its dead centre."""
-    at_rest = [group for group in choices if independent(found.at_rest, group, found.noise) == len(group)]
+    at_rest = [group for group in choices if independent(found.at_rest, group, found.thresholds) == len(group)]
     return at_rest or choices
 
 

@@ -38,7 +38,7 @@ class LoopFreedoms:
         self.loop_group = loop_group
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the element's joints in turn."""
-        self.noise = self._loops.noise
+        self.thresholds = self._loops.thresholds
         self.centre, self.length = self._loops.centre, self._loops.length
         """The origin of all numbers here, and the characteristic length."""
         self.ends = self._loops.ends
@@ -61,7 +61,7 @@ class LoopFreedoms:
     @property
     def closes(self) -> bool:
         """Whether Newton's method closes the loops from the assembled pose: of others nothing is known."""
-        return self._loops.coincide or self._home[1].gap < self.noise.closed
+        return self._loops.coincide or self._home[1].gap < self.thresholds.residual
 
     @property
     def assembled(self) -> Screws:
@@ -87,8 +87,8 @@ class LoopFreedoms:
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         beside = found.screws
-        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.noise.rank)[0]
-        is_generic = found.gap < self.noise.closed and rank >= len(self.columns) - len(self.at_rest)
+        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.thresholds.rank)[0]
+        is_generic = found.gap < self.thresholds.residual and rank >= len(self.columns) - len(self.at_rest)
         return (there, beside) if is_generic else (home, screws)
 
     @cached_property
@@ -109,16 +109,16 @@ class LoopFreedoms:
     @cached_property
     def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
         """The same at the assembled pose, where there may be more of them."""
-        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.noise.rank)[1]
+        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.thresholds.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """The smallest displacement subgroup that holds these joints."""
         columns = [column for column, (joint, _) in enumerate(self.columns) if joint in joints]
-        return subgroup(self.assembled[:, columns], 10 * self.noise.rank)
+        return subgroup(self.assembled[:, columns], 10 * self.thresholds.rank)
 
     @cached_property
     def _decomposed(self) -> tuple[int, Float[np.ndarray, "freedoms columns"]]:
-        return null_space(self.jacobian, self.noise.rank)
+        return null_space(self.jacobian, self.thresholds.rank)
 
 
 @once_for_each

@@ -123,7 +123,7 @@ def names(linkage: Linkage, found: LoopFreedoms, columns: Iterable[int]) -> list
 
 def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"]) -> list[int]:
     """The columns that some of the motions move."""
-    return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.noise.rate).tolist()
+    return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.thresholds.rate).tolist()
 
 
 def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
@@ -140,8 +140,8 @@ def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins
     showing = set(moving_columns(found, idle.rates))
     taken = independent_subset(found, [column for column in order if column not in showing], driven)
     for column in (column for column in order if column in showing):
-        left = without(found.motions, [*driven, *taken], found.noise)
-        if independent(np.concatenate([idle.rates, left]), order, found.noise) == len(idle.rates):
+        left = without(found.motions, [*driven, *taken], found.thresholds)
+        if independent(np.concatenate([idle.rates, left]), order, found.thresholds) == len(idle.rates):
             break
         if column not in taken:
             taken += independent_subset(found, found.driven_together[column], [*driven, *taken])
@@ -158,6 +158,6 @@ def independent_subset(found: LoopFreedoms, columns: Iterable[int], given: Seque
         together = [*given, *taken, *group]
         if column in taken or not set(group) <= set(offered):
             continue
-        if independent(found.motions, together, found.noise) == len(together):
+        if independent(found.motions, together, found.thresholds) == len(together):
             taken += group
     return taken

@@ -48,7 +48,7 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     for loop_group in linkage.structure.loop_groups:
         loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
         at_rest = np.zeros(len(loops.columns))
-        if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.noise.closed:
+        if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.thresholds.residual:
             continue
         if worst is None or gap > worst.residual:
             worst = tell_opening(linkage, unit, loops, at_rest)
@@ -90,4 +90,4 @@ def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
     skew = apart[:3, :3] - apart[:3, :3].T
     twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *apart[:3, 3]])
     forbidden = float(np.linalg.norm(complement(screws) @ twist)) if screws.size else float(np.linalg.norm(twist))
-    return forbidden if forbidden > loops.noise.closed else 0.0, float(np.linalg.norm(apart - np.eye(4)))
+    return forbidden if forbidden > loops.thresholds.residual else 0.0, float(np.linalg.norm(apart - np.eye(4)))

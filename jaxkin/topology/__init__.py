@@ -1,1 +1,1 @@
-"""Incidence, closed loops and the order in which they are solved: host code without JAX."""
+"""Incidence, independent loops and the tree of structure elements (Section 4): host code without JAX."""

@@ -1,4 +1,4 @@
-"""Parts that are one body: those declared rigidly connected, and all fixed parts together (Section 4.1)."""
+"""Bodies: parts that are declared rigidly connected form one, and so do all fixed parts (Section 4.1)."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from jaxkin._names import nearest
 
 
 def bodies(parts: Sequence[str], fixed: Sequence[str], rigid: Sequence[Sequence[str]] = ()) -> Mapping[str, str]:
-    """For each part the first part, in the order of `parts`, of the body that it belongs to.
+    """Map each part to the first part, in the order of `parts`, of the body that it belongs to.
 
-    `rigid` holds groups of parts that do not move relative to each other; groups that share a part are one. Raises
-    ValueError for a group that is no list of two or more known parts.
+    `rigid` holds groups of parts that do not move relative to each other; groups that share a part form one body.
+    Raises ValueError for a group that is no list of two or more known parts.
     """
     body = {part: part for part in parts}
     order = {part: place for place, part in enumerate(parts)}
@@ -23,7 +23,7 @@ def bodies(parts: Sequence[str], fixed: Sequence[str], rigid: Sequence[Sequence[
 
 
 def checked_groups(parts: Sequence[str], rigid: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
-    """The groups, if each is a list of two or more known parts: ValueError otherwise."""
+    """Return the groups if each is a list of two or more known parts; raise ValueError otherwise."""
     if isinstance(rigid, str) or any(isinstance(group, str) for group in rigid):
         raise ValueError(f'rigid must be a list of groups of parts, such as [["bolt", "plate"]], got {rigid!r}')
     for group in rigid:

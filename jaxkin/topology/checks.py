@@ -1,4 +1,4 @@
-"""Descriptions that no structure can be made of, refused in words."""
+"""Checks of the names and connections that a structure is made from: ValueErrors that say what is wrong."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from jaxkin.topology.graph import Graph
 
 
 def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:
-    """Raises ValueError for names that repeat or are unknown, a joint between a part and itself, and no fixed part."""
+    """Refuse names that repeat or are unknown, a joint between a part and itself, and no fixed part: ValueError."""
     if isinstance(fixed, str):
         raise ValueError(f"fixed must be a list of part names, got the text {fixed!r}; write fixed=[{fixed!r}]")
     if not parts:
@@ -36,7 +36,7 @@ def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fi
 
 
 def check_chords(joints: Sequence[str], chords: Sequence[str] | None) -> None:
-    """Raises ValueError for chords that repeat or are no joints."""
+    """Refuse chords that repeat or are no joints: ValueError."""
     if isinstance(chords, str):
         raise ValueError(f"chords must be a list of joint names, got the text {chords!r}; write chords=[{chords!r}]")
     _refuse_repeats("chord", chords or ())
@@ -46,7 +46,7 @@ def check_chords(joints: Sequence[str], chords: Sequence[str] | None) -> None:
 
 
 def check_connected(graph: Graph, rows: Sequence[str], root: int) -> None:
-    """Raises ValueError where some parts do not hang on the fixed ones."""
+    """Refuse a graph in which no chain of joints connects some parts to the row of the fixed ones: ValueError."""
     reached, stack = {root}, [root]
     while stack:
         for _, other in graph.around[stack.pop()]:
@@ -64,7 +64,7 @@ def check_connected(graph: Graph, rows: Sequence[str], root: int) -> None:
 
 
 def merged_name(parts: Iterable[str], fixed: Iterable[str]) -> str:
-    """The fixed parts as one row, "p1&p9", in the order of the parts."""
+    """Name the row that stands for all fixed parts, in the order of the parts: "p1&p9"."""
     return "&".join(part for part in parts if part in set(fixed))
 
 

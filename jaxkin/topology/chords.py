@@ -1,20 +1,24 @@
-"""Loops of a spanning tree that is named by its chords (Eq. 3), brought to a common direction (Section 4.1)."""
+"""Fundamental loops of a spanning tree given by its chords (Eq. 3), oriented in one direction (Section 4.1).
+
+A chord is a joint that the spanning tree leaves out; together with the tree it closes one loop.
+"""
 
 from __future__ import annotations
 
 from collections import defaultdict, deque
 from collections.abc import Sequence
 
-from jaxkin.topology.graph import Circuit, Graph, Step
+from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
 
 def fundamental_circuits(graph: Graph, chords: Sequence[int]) -> tuple[Circuit, ...]:
-    """The rows of L = [-S2^T (S1^T)^-1 I] (Eq. 3): each chord from part 1 to part 2 and back through the tree.
+    """Find the loop of each chord: the rows of L = [-S2^T (S1^T)^-1 I] (Eq. 3).
 
-    Raises ValueError where the other joints are no spanning tree.
+    A loop travels its chord from part 1 to part 2, then leads back through the tree. Raises ValueError where the other
+    joints are no spanning tree.
     """
     left = set(range(len(graph.ends))) - set(chords)
-    came: dict[int, Step] = {}
+    came: dict[int, WalkStep] = {}
     depth = {0: 0}
     queue = deque([0])
     while queue:
@@ -30,27 +34,27 @@ def fundamental_circuits(graph: Graph, chords: Sequence[int]) -> tuple[Circuit, 
         raise ValueError("without them some parts hang on nothing while a loop remains; every loop must lose one joint")
 
     def through_tree(start: int, end: int) -> Circuit:
-        up: list[Step] = []
-        down: list[Step] = []
+        up: list[WalkStep] = []
+        down: list[WalkStep] = []
         while start != end:
             higher = depth[start] >= depth[end]
             step = came[start if higher else end]
             if higher:
-                up.append(Step(step.joint, -step.sign))
+                up.append(WalkStep(step.joint, -step.sign))
                 start = graph.tail(step)
             else:
                 down.append(step)
                 end = graph.tail(step)
         return (*up, *reversed(down))
 
-    return tuple((Step(chord, 1), *through_tree(graph.ends[chord][1], graph.ends[chord][0])) for chord in chords)
+    return tuple((WalkStep(chord, 1), *through_tree(graph.ends[chord][1], graph.ends[chord][0])) for chord in chords)
 
 
-def aligned(circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
-    """Operation (a): some circuits turned round so that all travel a joint in the same direction, the first as it is.
+def oriented(circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
+    """Reverse some circuits so that all circuits travel each joint in one direction: operation (a) of Section 4.1.
 
-    The circuits must hang together through joints. Raises ValueError where only another combination of loops, operation
-    (b), would help.
+    The first circuit stays as it is. The circuits must be connected through shared joints. Raises ValueError where no
+    reversal does it, so that other combinations of the loops would be needed: operation (b).
     """
     through: dict[int, list[tuple[int, int]]] = defaultdict(list)
     for number, circuit in enumerate(circuits):
@@ -68,9 +72,9 @@ def aligned(circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
                     queue.append(other)
                 elif turn[other] != direction * other_sign:
                     raise ValueError("no one direction suits their loops; name other chords, or none for short loops")
-    return tuple(circuit if turn[number] > 0 else turned(circuit) for number, circuit in enumerate(circuits))
+    return tuple(circuit if turn[number] > 0 else reversed_circuit(circuit) for number, circuit in enumerate(circuits))
 
 
-def turned(circuit: Circuit) -> Circuit:
-    """The circuit travelled the other way."""
-    return tuple(Step(joint, -sign) for joint, sign in reversed(circuit))
+def reversed_circuit(circuit: Circuit) -> Circuit:
+    """Reverse the direction of travel of a circuit."""
+    return tuple(WalkStep(joint, -sign) for joint, sign in reversed(circuit))

@@ -1,4 +1,7 @@
-"""What of a graph hangs together. By hand: to import a library of graphs takes a quarter of a second at each start."""
+"""Connected and biconnected components of a graph.
+
+Written out here, since the import of a graph library would add a quarter of a second to every start.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ Node = TypeVar("Node", bound=Hashable)
 
 
 def connected(nodes: Iterable[Node], pairs: Iterable[Collection[Node]]) -> list[set[Node]]:
-    """The connected components of a graph, in the order of their first nodes; pairs are among the nodes."""
+    """Find the connected components of a graph, in the order of their first nodes; `pairs` are its edges."""
     component_of = {node: {node} for node in nodes}
     for one, other in pairs:
         small, large = sorted((component_of[one], component_of[other]), key=len)
@@ -20,9 +23,10 @@ def connected(nodes: Iterable[Node], pairs: Iterable[Collection[Node]]) -> list[
 
 
 def biconnected(nodes: int, edges: Sequence[tuple[int, int]]) -> list[list[int]]:
-    """The edges of each biconnected component of a multigraph, in rising order; an edge from a node to itself is one.
+    """Find the biconnected components of a multigraph, each as the rising indices of its edges.
 
-    By depth-first search: a component ends where nothing below an edge leads back to above it (Hopcroft and Tarjan).
+    An edge from a node to itself is a component. Depth-first search (Hopcroft and Tarjan 1973): a component is complete
+    where no node below an edge has an edge to a node above it.
     """
     around: list[list[tuple[int, int]]] = [[] for _ in range(nodes)]
     for edge, (one, other) in enumerate(edges):
@@ -34,7 +38,7 @@ def biconnected(nodes: int, edges: Sequence[tuple[int, int]]) -> list[list[int]]
         if depth[root] >= 0:
             continue
         depth[root], passed = 0, []
-        way = [(root, -1, iter(around[root]))]  # nodes, the edges that led to them, and what is left around them
+        way = [(root, -1, iter(around[root]))]  # (node, edge that led to it, edges left to try)
         while way:
             node, came, rest = way[-1]
             for edge, other in rest:

@@ -1,4 +1,4 @@
-"""Structure elements and loops as a text to read."""
+"""The text of `print(structure)`: the tree of structure elements with their loops."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from jaxkin.topology.loops import Loop
 
 
 def describe(elements: Sequence[StructureElement], loops: Sequence[Loop]) -> str:
-    """The tree of Fig. 4, a line an element, each indented below the one it hangs on, with its loops under it."""
+    """Write the tree of Fig. 4: one line an element, indented below the element above it, then the loops it has."""
     below: dict[int | None, list[int]] = {}
     for number, element in enumerate(elements):
         below.setdefault(element.above, []).append(number)

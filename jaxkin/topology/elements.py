@@ -1,23 +1,27 @@
-"""Structure elements and their tree (Fig. 4): loops and parts in no loop, each below the joint or part it hangs on."""
+"""Structure elements and their tree (Fig. 4).
+
+An element is one closed loop, several loops that share joints, or a part that is in no loop. It stands in the tree
+below the joint or the part that connects it to the fixed parts.
+"""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from jaxkin.topology.graph import Graph, Step
+from jaxkin.topology.graph import Graph, WalkStep
 
 
 @dataclass(frozen=True)
 class StructureElement:
-    """A structure element node of the tree: one closed loop, several that share joints, or a part."""
+    """A structure element, a node of the tree: one closed loop, several that share joints, or a part."""
 
     kind: Literal["single loop", "multiple loop", "part"]
     """"part": a part in no loop, or one that several elements hang on and that none above holds."""
     parts: tuple[str, ...]
-    """Its rows, the upper adjacent part first."""
+    """Names of its rows of the incidence matrix, the upper adjacent part first."""
     loops: tuple[int, ...]
     """Numbers of its loops."""
     upper: str
@@ -30,19 +34,21 @@ class StructureElement:
     """Number of the element above; None for the root."""
 
 
-class Node(NamedTuple):
-    """A structure element in numbers."""
+class ElementNode(NamedTuple):
+    """A structure element by the indices of its rows and joints."""
 
     joints: tuple[int, ...]
-    """Joints of its loops, rising."""
+    """Joints of its loops, rising; none for a part."""
     rows: tuple[int, ...]
-    """The upper adjacent part first."""
-    step: Step | None
-    """Over the joint above, downwards."""
+    """Its rows, the upper adjacent part first."""
+    step: WalkStep | None
+    """The step over the joint above, downwards; None where there is no such joint."""
     above: int | None
+    """Index of the element above; None for the root."""
     depth: int
     """Number of elements above it."""
     lower: tuple[int, ...] = ()
+    """Rows of the lower adjacent parts."""
 
     @property
     def loops(self) -> int:
@@ -50,55 +56,72 @@ class Node(NamedTuple):
         return len(self.joints) - len(self.rows) + 1
 
 
-def element_tree(graph: Graph, root: int) -> tuple[Node, ...]:
-    """The elements, level by level from the one that holds the root row.
+def element_tree(graph: Graph, root: int) -> tuple[ElementNode, ...]:
+    """Build the tree of elements, level by level from the element that contains the row `root`.
 
-    The paper ties elements by joints only. Here those that share a part hang below the one that holds the part first;
-    where none does (the fixed parts, or the part below a joint, in several loops), the part is an element of its own
-    and they hang on it. So the tree does not depend on the order of parts and joints.
+    In the paper a joint always connects two elements. Here elements that share a part are connected too: they hang
+    below the element that contains the part first. Where no element does (the fixed parts, or the part below a joint,
+    in several loops), the part becomes an element by itself, with those loops below it. The tree does not depend on
+    the order of parts and joints.
     """
-    loop_groups = graph.loop_groups
-    groups_at: dict[int, list[tuple[int, ...]]] = defaultdict(list)
-    for loop_group in loop_groups:
-        for row in {row for joint in loop_group for row in graph.ends[joint]}:
-            groups_at[row].append(loop_group)
-    in_loops = {joint for loop_group in loop_groups for joint in loop_group}
-
-    def below_joint(row: int, step: Step | None, above: int | None, depth: int) -> Node:
-        loop_group = groups_at[row][0] if len(groups_at[row]) == 1 else ()
-        return _node(graph, row, loop_group, step, above, depth)
-
-    nodes = [below_joint(root, None, None, 0)]
+    children = _Children.of(graph)
+    nodes = [children.over_joint(root, None, None, 0)]
     placed = set(nodes[0].joints)
     number = 0
     while number < len(nodes):
-        node = nodes[number]
-        below: list[Node] = []
+        below: list[ElementNode] = []
         lower: list[int] = []
-        for row in node.rows:
-            new = [
-                _node(graph, row, loop_group, None, number, node.depth + 1)
-                for loop_group in groups_at[row]
-                if loop_group[0] not in placed
-            ]
-            new += [
-                below_joint(other, step, number, node.depth + 1)
-                for step, other in graph.around[row]
-                if step.joint not in in_loops and step.joint not in placed
-            ]
+        for row in nodes[number].rows:
+            new = children.at_row(row, placed, number, nodes[number].depth + 1)
             for child in new:
                 placed.update(child.joints)
                 placed.update(() if child.step is None else (child.step.joint,))
             lower += [row] if new else []
             below += new
-        nodes[number] = node._replace(lower=tuple(sorted(lower)))
+        nodes[number] = nodes[number]._replace(lower=tuple(sorted(lower)))
         nodes += sorted(below, key=lambda child: (child.rows[0], child.joints))
         number += 1
     return tuple(nodes)
 
 
-def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
-    """The elements by the names of rows and joints; loops are numbered element by element."""
+class _Children(NamedTuple):
+    """Finds the elements that hang below a row of the graph."""
+
+    graph: Graph
+    groups_at: Mapping[int, Sequence[tuple[int, ...]]]
+    """For each row the loop groups (as joints) that contain it."""
+    in_loops: frozenset[int]
+    """Joints of all loops."""
+
+    @staticmethod
+    def of(graph: Graph) -> _Children:
+        groups_at: dict[int, list[tuple[int, ...]]] = defaultdict(list)
+        for loop_group in graph.loop_groups:
+            for row in {row for joint in loop_group for row in graph.ends[joint]}:
+                groups_at[row].append(loop_group)
+        return _Children(graph, groups_at, frozenset(joint for loop_group in graph.loop_groups for joint in loop_group))
+
+    def at_row(self, row: int, placed: Container[int], above: int, depth: int) -> list[ElementNode]:
+        """The elements below a row: loops that contain it, and what its joints hold, but for joints already placed."""
+        loops = [
+            _node(self.graph, row, loop_group, None, above, depth)
+            for loop_group in self.groups_at.get(row, ())
+            if loop_group[0] not in placed
+        ]
+        return loops + [
+            self.over_joint(other, step, above, depth)
+            for step, other in self.graph.around[row]
+            if step.joint not in self.in_loops and step.joint not in placed
+        ]
+
+    def over_joint(self, row: int, step: WalkStep | None, above: int | None, depth: int) -> ElementNode:
+        """The element whose upper adjacent part is a row: the loops through that row if they are one group."""
+        groups = self.groups_at.get(row, ())
+        return _node(self.graph, row, groups[0] if len(groups) == 1 else (), step, above, depth)
+
+
+def named(nodes: Sequence[ElementNode], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
+    """Replace indices by the names of rows and joints; loops are numbered element by element."""
     elements: list[StructureElement] = []
     first = 0
     for node in nodes:
@@ -118,7 +141,7 @@ def named(nodes: Sequence[Node], rows: Sequence[str], joints: Sequence[str]) -> 
 
 
 def _node(
-    graph: Graph, row: int, loop_group: tuple[int, ...], step: Step | None, above: int | None, depth: int
-) -> Node:
+    graph: Graph, row: int, loop_group: tuple[int, ...], step: WalkStep | None, above: int | None, depth: int
+) -> ElementNode:
     others = {other for joint in loop_group for other in graph.ends[joint]} - {row}
-    return Node(loop_group, (row, *sorted(others)), step, above, depth)
+    return ElementNode(loop_group, (row, *sorted(others)), step, above, depth)

@@ -1,4 +1,4 @@
-"""The graph of a mechanism: parts are its rows, joints its columns (Eq. 2)."""
+"""The graph of a mechanism: parts are the rows, joints the columns of the incidence matrix (Eq. 2)."""
 
 from __future__ import annotations
 
@@ -9,48 +9,50 @@ from typing import NamedTuple
 from jaxkin.topology.components import biconnected
 
 
-class Step(NamedTuple):
-    """A joint as travelled in a circuit."""
+class WalkStep(NamedTuple):
+    """One step of a walk through the graph: a joint, and the direction in which it is travelled."""
 
     joint: int
     sign: int
     """+1 from part 1 to part 2, -1 against it."""
 
 
-Circuit = tuple[Step, ...]
-"""A closed walk that meets no part twice."""
+Circuit = tuple[WalkStep, ...]
+"""A closed walk through the graph that meets no part twice."""
 
 
 @dataclass(frozen=True)
 class Graph:
-    """Parts and joints as numbers; the fixed parts are one row."""
+    """Parts (rows) and joints by their indices; all fixed parts are one row."""
 
     rows: int
+    """Number of rows."""
     ends: tuple[tuple[int, int], ...]
     """For each joint the rows of part 1 and part 2; the same row twice for a joint between two fixed parts."""
 
     @cached_property
-    def around(self) -> tuple[tuple[tuple[Step, int], ...], ...]:
-        """For each row the steps that leave it, with the row that each leads to."""
-        around: list[list[tuple[Step, int]]] = [[] for _ in range(self.rows)]
+    def around(self) -> tuple[tuple[tuple[WalkStep, int], ...], ...]:
+        """For each row the steps that leave it, each with the row that it leads to."""
+        around: list[list[tuple[WalkStep, int]]] = [[] for _ in range(self.rows)]
         for joint, (row1, row2) in enumerate(self.ends):
-            around[row1].append((Step(joint, 1), row2))
-            around[row2].append((Step(joint, -1), row1))
+            around[row1].append((WalkStep(joint, 1), row2))
+            around[row2].append((WalkStep(joint, -1), row1))
         return tuple(map(tuple, around))
 
-    def tail(self, step: Step) -> int:
+    def tail(self, step: WalkStep) -> int:
         """The row that a step leaves."""
         return self.ends[step.joint][0 if step.sign > 0 else 1]
 
-    def head(self, step: Step) -> int:
+    def head(self, step: WalkStep) -> int:
         """The row that a step leads to."""
         return self.ends[step.joint][1 if step.sign > 0 else 0]
 
     @cached_property
     def loop_groups(self) -> tuple[tuple[int, ...], ...]:
-        """Joints of each single or multiple closed loop, in rising order: loops that share joints, over any chain.
+        """The joints, rising, of each set of loops that share joints, directly or through other loops of the set.
 
-        These are the biconnected components without the bridges. Loops that share a part but no joint are separate.
+        These are the biconnected components without the bridges. Loops that share a part but no joint are in different
+        groups.
         """
         looped = [
             joints

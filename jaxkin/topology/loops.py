@@ -1,4 +1,4 @@
-"""Loops of all structure elements, and where each starts (loop data, Tables 3, 5 and 7)."""
+"""The independent loops of all structure elements, and the part where each loop starts (Tables 3, 5 and 7)."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
-from jaxkin.topology.chords import aligned, fundamental_circuits
+from jaxkin.topology.chords import fundamental_circuits, oriented
 from jaxkin.topology.cycle_basis import directed_circuits
-from jaxkin.topology.elements import Node
-from jaxkin.topology.graph import Circuit, Graph, Step
+from jaxkin.topology.elements import ElementNode
+from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
 
 @dataclass(frozen=True)
@@ -19,32 +19,36 @@ class Loop:
 
     path: tuple[str, ...]
     """Names of parts and joints in turn, from the first part to the joint that leads back to it."""
-    joints: tuple[Step, ...]
-    """(joint, sign) in the order of the path: the joint's column, +1 where travelled from part 1 to part 2, else -1."""
+    joints: tuple[WalkStep, ...]
+    """Column and sign of each joint in the order of the path: +1 where travelled from part 1 to part 2, else -1."""
 
     def __str__(self) -> str:
         return " - ".join((*self.path, self.path[0]))
 
 
-def loop_data(graph: Graph, nodes: Sequence[Node], chords: Sequence[int] | None) -> tuple[tuple[Circuit, ...], ...]:
-    """For each element its independent loops: all in one direction, in the order and from the parts of Section 4.2.
+def loop_data(
+    graph: Graph, nodes: Sequence[ElementNode], chords: Sequence[int] | None
+) -> tuple[tuple[Circuit, ...], ...]:
+    """Find the independent loops of each element, all in one direction, in the order of Section 4.2.
 
-    With chords, their loops (Eq. 3), turned where one direction asks for it. Raises ValueError where the chords are not
-    those of a spanning tree, or where turning is not enough.
+    Each loop starts at the part that Section 4.2 says. With `chords`, the loops are those of Eq. 3, some reversed so
+    that all have one direction. Raises ValueError where the chords are not those of a spanning tree, or where no
+    reversal gives the loops one direction.
     """
     if chords is None:
         found = [directed_circuits(graph, node.joints, node.rows[0]) if node.joints else () for node in nodes]
     else:
         through = dict(zip(chords, fundamental_circuits(graph, chords), strict=True))
-        found = [aligned([through[chord] for chord in chords if chord in node.joints]) for node in nodes]
+        found = [oriented([through[chord] for chord in chords if chord in node.joints]) for node in nodes]
     return tuple(_from_known_parts(graph, circuits, node.rows[0]) for circuits, node in zip(found, nodes, strict=True))
 
 
 def _from_known_parts(graph: Graph, circuits: Sequence[Circuit], upper: int) -> tuple[Circuit, ...]:
-    """The first loop holds the upper adjacent part, every other one a part of a loop before it; there they start.
+    """Order and rotate circuits so that each starts at a part whose pose is known when its turn comes (Section 4.2).
 
-    They start at the upper adjacent part where they hold it, else at that part which was met first. Of the loops that
-    can come next, the first as given is taken.
+    The first circuit contains the upper adjacent part, the row `upper`; every other circuit contains a part of an
+    earlier one. A circuit starts at the row `upper` if it contains that row, else at the first of its rows that an
+    earlier circuit passes. Of the circuits that can come next, the one given first is taken.
     """
     through: dict[int, list[int]] = defaultdict(list)
     for number, circuit in enumerate(circuits):

@@ -1,4 +1,4 @@
-"""What a drive can move at all: loops that hold a driven joint are solved, all others are carried along or rest."""
+"""What driven joints can move: loops with a driven joint are solved, all other loops keep their shape."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from jaxkin.topology.structure import LoopGroup, Structure
 
 @dataclass(frozen=True)
 class Moving:
-    """The share of a structure that some driven joints can move."""
+    """The loops and parts of a structure that some driven joints can move."""
 
     loop_groups: tuple[LoopGroup, ...]
-    """Structure elements whose loops are to be solved, in the order of `elements`."""
+    """The loop groups that have to be solved, in the order of `Structure.elements`."""
     parts: tuple[str, ...]
-    """Parts that can leave their place: those of these loops, and all that hang on them or below a driven joint."""
+    """Parts that can leave their place: those of the loops to be solved, those below a driven joint, and all that hang
+    on either."""
 
 
 def moving(structure: Structure, driven: Collection[str]) -> Moving:
-    """What the named joints can move, all other joints that are in no solved loop being at rest.
+    """Find what the driven joints (by name) can move while all other joints outside of solved loops rest.
 
     A loop without a driven joint keeps its shape, even where its parts are carried along.
     """

@@ -1,4 +1,4 @@
-"""The structure of a mechanism: its loops, what hangs on what, and the order in which parts are placed (Section 4)."""
+"""The structure of a mechanism: incidence, independent loops, and the order in which parts are placed (Section 4)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from jaxtyping import Int
 
 from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
 from jaxkin.topology.describe import describe
-from jaxkin.topology.elements import Node, StructureElement, element_tree, named
+from jaxkin.topology.elements import ElementNode, StructureElement, element_tree, named
 from jaxkin.topology.graph import Circuit, Graph
 from jaxkin.topology.loops import Loop, loop_data
 
@@ -23,19 +23,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LoopGroup:
-    """Loops that share joints, solved together: a structure element with loops as the solver needs it."""
+    """The loops of one structure element: they share joints and are solved together."""
 
     joints: tuple[int, ...]
-    """Columns of its joints, rising."""
+    """Columns of the joints of its loops, rising."""
     loops: tuple[Circuit, ...]
-    """For each of its loops (joint, sign) in order of travel: +1 from part 1 to part 2, else -1."""
+    """Each loop as (joint, sign) in order of travel: +1 where a joint is travelled from part 1 to part 2, else -1."""
 
 
 @dataclass(frozen=True)
 class Structure:
     """Parts, joints, loops and structure elements of a mechanism, by name; made by `structure`.
 
-    The fields are what was said, and alone take part in comparison and hash; all else follows and is computed once.
+    The fields are the arguments of `structure`, and alone determine equality and hash. All else is computed from them
+    once, when it is first asked for.
     """
 
     part_names: tuple[str, ...]
@@ -47,17 +48,17 @@ class Structure:
     fixed: tuple[str, ...]
     """The parts that do not move."""
     chords: tuple[str, ...] | None
-    """The joints that the spanning tree leaves out, one a loop; None for short loops."""
+    """The joints that the spanning tree leaves out, one for each loop; None for short loops."""
 
     @cached_property
     def row_of(self) -> Mapping[str, str]:
-        """For each part the name of its row: that of all fixed parts together, or its own."""
+        """For each part the name of its row in `incidence`: its own name, or that of the row of all fixed parts."""
         merged = merged_name(self.part_names, self.fixed)
         return {part: merged if part in self.fixed else part for part in self.part_names}
 
     @cached_property
     def parts(self) -> tuple[str, ...]:
-        """Names of the rows of `incidence`: the parts, all fixed ones together in the place of the first: "p1&p9"."""
+        """Names of the rows of `incidence`: the parts; the fixed ones are one row, "p1&p9", where the first is."""
         return tuple(dict.fromkeys(self.row_of.values()))
 
     @property
@@ -97,10 +98,10 @@ class Structure:
 
     @cached_property
     def tree(self) -> tuple[tuple[str, str, int, int], ...]:
-        """(part, parent, joint, sign) for each part that is not fixed, after its parent: P_part = P_parent J^sign.
+        """(part, parent, joint, sign) for each part that is not fixed, each after its parent: P_part = P_parent J^sign.
 
-        The order of Section 5.2, level by level of `elements`: first the parts below the joints of the level, then
-        those of its loops. The joint is given by its column.
+        P is the displacement of a part and J that of the joint, given by its column. The order is that of Section 5.2,
+        level by level of `elements`: first the parts below the joints of the level, then those of its loops.
         """
         steps = []
         for _, level in groupby(zip(self._nodes, self._circuits, strict=True), key=lambda pair: pair[0].depth):
@@ -117,13 +118,13 @@ class Structure:
         return tuple(tree)
 
     def plot(self) -> Figure:
-        """A drawing of the parts and joints with the loops on them, and of the tree of Fig. 4 (matplotlib).
+        """Draw the parts and joints with the loops on them, and the tree of Fig. 4: a matplotlib figure.
 
         `plot().savefig("loops.png")` writes it. Raises ValueError for more parts than a drawing can show.
         """
-        from jaxkin.topology.plotting import plot
+        from jaxkin.view.structure import plot_structure
 
-        return plot(self)
+        return plot_structure(self)
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)
@@ -135,7 +136,7 @@ class Structure:
         return Graph(len(self.parts), ends)
 
     @cached_property
-    def _nodes(self) -> tuple[Node, ...]:
+    def _nodes(self) -> tuple[ElementNode, ...]:
         return element_tree(self._graph, self.parts.index(self.row_of[self.fixed[0]]))
 
     @cached_property
@@ -154,11 +155,11 @@ def structure(
     fixed: Sequence[str],
     chords: Sequence[str] | None = None,
 ) -> Structure:
-    """The structure of the mechanism of these parts, joints (name, part 1, part 2) and fixed parts.
+    """Make the structure of a mechanism from its parts, joints (name, part 1, part 2) and fixed parts.
 
-    `chords` names the joints that a spanning tree leaves out: each gives the loop that it closes with the tree (Eq. 3),
-    travelled from its part 1 to its part 2, turned where the others ask for it. By default the loops are short and go
-    in one direction by construction, the last joint of each element from part 1 to part 2.
+    `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3), which
+    travels it from part 1 to part 2; some loops are reversed so that all travel each joint in one direction. By default
+    the loops are short, found in one direction (`cycle_basis`), the last joint of each element from part 1 to part 2.
 
     A joint between two fixed parts is a loop by itself: it is closed at rest only. Raises ValueError for names that
     repeat or are unknown, a joint between a part and itself, no fixed part, parts that no chain of joints ties to the

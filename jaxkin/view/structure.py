@@ -9,7 +9,6 @@ from warnings import catch_warnings, filterwarnings
 import numpy as np
 
 from jaxkin._files import whole
-from jaxkin.topology.plotting import register
 from jaxkin.topology.structure import Structure
 from jaxkin.view.graph import colors, draw_graph, lines_of, places
 from jaxkin.view.illustration import INK
@@ -36,7 +35,6 @@ def draw_structure(structure: Structure, path: Path | str) -> None:
         figure.savefig(draft, format="png")
 
 
-@register
 def plot_structure(structure: Structure) -> Figure:
     """A figure with two drawings: every loop has one colour in both, and runs the way its arrows point.
 

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from jaxkin.examples import path
-from jaxkin.geometry import region_growing as growth
+from jaxkin.geometry import region_growing
 from jaxkin.io.load import load
 from jaxkin.io.mesh_check import MOST, PARTS
 from tessellation import RECORD, write_stl
@@ -165,7 +165,7 @@ def test_the_same_file_twice_is_refused(tmp_path):
 
 def test_free_forms_end_when_no_face_is_found(tmp_path, monkeypatch):
     """Triangles on no surface at all: named in the report after so many trials, however many triangles there are."""
-    monkeypatch.setattr(growth, "FAILURES", 20)
+    monkeypatch.setattr(region_growing, "MAX_FAILURES", 20)
     ball = trimesh.creation.icosphere(4, 10.0)
     rough = ball.vertices * (1 + 0.002 * np.random.default_rng(0).normal(size=(len(ball.vertices), 1)))
     (part,) = load(write_stl(tmp_path / "rough.stl", rough[ball.faces])).parts

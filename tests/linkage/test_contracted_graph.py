@@ -5,7 +5,7 @@ import pytest
 
 from jaxkin.linkage.contracted_graph import ContractedGraph, CycleSpace
 from jaxkin.linkage.solve_order import order_by_counting
-from jaxkin.topology.graph import Step
+from jaxkin.topology.graph import WalkStep
 
 CUBE = {
     number: (f"{a:03b}", f"{b:03b}")
@@ -50,7 +50,7 @@ def test_a_sum_of_circuits_is_told():
 
 def test_loops_by_counting():
     """A chain of three loops: the last is given first, and each brings three unknowns besides those before it."""
-    loops = [tuple(Step(joint, 1) for joint in loop) for loop in ((4, 5, 6, 7), (0, 1, 2, 3), (3, 8, 9, 4))]
+    loops = [tuple(WalkStep(joint, 1) for joint in loop) for loop in ((4, 5, 6, 7), (0, 1, 2, 3), (3, 8, 9, 4))]
     unknown = {joint: [joint - 1] if joint else [] for joint in range(10)}
     groups = order_by_counting(loops, unknown, [3, 3, 3])
     assert [group.joints for group in groups] == [(1, 2, 3), (4, 8, 9), (5, 6, 7)]

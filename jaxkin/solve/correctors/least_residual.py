@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin.linkage.first_order import LARGEST_DOUBT, SPREAD
+from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD
 from jaxkin.solve.closure.closure import closure, free_jacobian, scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import as_state, ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.status import Scalar, Status
@@ -44,7 +44,7 @@ def least_residual(
     begun = lax.stop_gradient(displacements)
     joints, ideal = lax.stop_gradient((joints, ideal))
     geometry, lengths = scaled_geometry(system, joints)
-    cutoff = jnp.minimum(SPREAD * _play(joints, ideal, jnp.max(lengths)), LARGEST_DOUBT)
+    cutoff = jnp.minimum(SPREAD * _play(joints, ideal, jnp.max(lengths)), LARGEST_UNCERTAIN)
     state = as_state(system, joints.frames_1, joints.frames_2, begun)
     state = state._replace(x=state.x / lengths)
 
