@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.topology.structure import Structure
 from jaxkin.view.illustration import INK
 from jaxkin.view.layout import layout
 from jaxkin.view.sheet import GREY, Color, Place, clip
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from jaxkin.topology.structure import Structure
 
 LETTERS = 14
 """Letters of a name that are drawn."""

@@ -9,7 +9,6 @@ from warnings import catch_warnings, filterwarnings
 import numpy as np
 
 from jaxkin._files import whole
-from jaxkin.topology.structure import Structure
 from jaxkin.view.graph import colors, draw_graph, lines_of, places
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import DPI, GREY, Place, clip
@@ -18,6 +17,8 @@ from jaxkin.view.tree import LEVELS, WIDE, boxes, draw_tree
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from jaxkin.topology.structure import Structure
 
 LEGEND = 12
 """Loops that the legend lists at most."""

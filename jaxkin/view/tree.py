@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jaxkin.topology.elements import StructureElement
-from jaxkin.topology.structure import Structure
 from jaxkin.view.graph import LETTERS, STILL, write
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import GREY, Color, Place
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from jaxkin.topology.structure import Structure
 
 HIGH, BESIDE, BETWEEN = 0.22, 0.36, 0.62
 """In inches: a name in its long circle, between elements of a level, and between levels."""
