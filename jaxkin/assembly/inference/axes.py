@@ -1,0 +1,112 @@
+"""Bores and pins of different parts on common axes: a pin in a hole, with clearance or interference, or equal bores."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import Bore
+
+MAX_TILT = 2e-3
+"""Radians between the axes of a pin and its hole: a tenth of a millimetre over the length of a finger."""
+MAX_CLEARANCE = 0.25
+"""Radial clearance over the radius of the hole. Of 191 loose pins in 18 assemblies that people drew, 177 are within."""
+MAX_INTERFERENCE = 0.1
+"""The same of pins that are thicker than their holes: 63 of 92, and threads drawn as plain cylinders."""
+EQUAL_BORES = 0.1
+"""Radii of two bores without a pin that are one axis differ by so much at most, over the larger one."""
+MAX_OFFSET = 0.05
+"""Distance of axes that count as one beside the clearance, over the radius."""
+MAX_GAP = 4.0
+"""Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
+
+
+@dataclass(frozen=True, eq=False)
+class CommonAxis:
+    """Two bores of two parts on one axis: a pin and its hole, or two equal bores with nothing in them."""
+
+    one: Bore
+    """The pin, where there is one."""
+    other: Bore
+    offset: float
+    """Distance between the two axes."""
+    tilt: float
+    """Angle between them, radians."""
+
+    @property
+    def virtual(self) -> bool:
+        """Whether there is no pin."""
+        return self.one.hole
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance of the pin in its hole; negative where the pin is thicker."""
+        return self.other.radius - self.one.radius
+
+    @property
+    def parts(self) -> tuple[str, str]:
+        return self.one.part, self.other.part
+
+
+def common_axes(bores: Sequence[Bore]) -> list[CommonAxis]:
+    """Find all pairs of bores of different parts that share an axis; pins with a sleeve between are not in the hole."""
+    if len(bores) < 2:
+        return []
+    near = _coaxial(bores)
+    pins = [each for each in near if each.one.hole != each.other.hole and _fits(each)]
+    pins = [each for each in pins if not _sleeved(each, pins)]
+    filled = {id(bore) for each in pins for bore in (each.one, each.other)}
+    empty = [each for each in near if each.one.hole and each.other.hole and _equal(each)]
+    return [*pins, *(each for each in empty if not {id(each.one), id(each.other)} & filled)]
+
+
+def _coaxial(bores: Sequence[Bore]) -> list[CommonAxis]:
+    """Pairs of bores of different parts whose axes are one within the largest clearance; the pin comes first."""
+    points, axes = (np.array([getattr(bore, name) for bore in bores]) for name in ("point", "axis"))
+    radii = np.array([bore.radius for bore in bores])
+    parts = np.unique([bore.part for bore in bores], return_inverse=True)[1]
+    found = []
+    for i in range(len(bores) - 1):
+        rest = slice(i + 1, None)
+        offset = points[rest] - points[i]
+        tilt = np.linalg.norm(np.cross(axes[rest], axes[i]), axis=1)
+        apart = np.linalg.norm(offset - np.outer(offset @ axes[i], axes[i]), axis=1)
+        reach = MAX_CLEARANCE * np.maximum(radii[rest], radii[i])
+        for k in np.flatnonzero((parts[rest] != parts[i]) & (tilt <= MAX_TILT) & (apart <= reach)):
+            pair = (bores[i], bores[i + 1 + k])
+            one, other = pair if not pair[0].hole or pair[1].hole else pair[::-1]
+            found.append(CommonAxis(one, other, float(apart[k]), float(tilt[k])))
+    return found
+
+
+def _fits(pair: CommonAxis) -> bool:
+    """Whether the pin can be in the hole: by its radius, by how far it is off centre, and along the axis."""
+    loose, radius = pair.clearance, pair.other.radius
+    centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
+    return -MAX_INTERFERENCE * radius <= loose <= MAX_CLEARANCE * radius and centred and engaged(pair) > 0
+
+
+def _equal(pair: CommonAxis) -> bool:
+    radius = max(pair.one.radius, pair.other.radius)
+    same = abs(pair.clearance) <= EQUAL_BORES * radius and pair.offset <= MAX_OFFSET * radius
+    return same and -engaged(pair) <= MAX_GAP * radius
+
+
+def engaged(pair: CommonAxis) -> float:
+    """Length along the axis that both bores share; negative where there is a gap between them."""
+    (low1, high1), (low2, high2) = pair.one.reach(pair.one.axis), pair.other.reach(pair.one.axis)
+    return min(high1, high2) - max(low1, low2)
+
+
+def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
+    """Whether a thicker pin of a third part fills the hole where this one is, or a tighter hole of one holds the pin."""
+    for each in pins:
+        if each.other is pair.other and each.one.part != pair.one.part and each.one.radius > 1.02 * pair.one.radius:
+            if engaged(CommonAxis(pair.one, each.one, 0.0, 0.0)) > 0:
+                return True
+        if each.one is pair.one and each.other.part != pair.other.part and each.other.radius < 0.98 * pair.other.radius:
+            if engaged(CommonAxis(each.other, pair.other, 0.0, 0.0)) > 0:
+                return True
+    return False

@@ -1,0 +1,82 @@
+"""Bores and pins: the round faces of a part, one for each axis, radius and side, with where they lie on the axis."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Cylinder
+
+SAME_ANGLE = 1e-4
+"""Radians between axes of one part that are one axis: what files in single precision leave of short faces."""
+SAME_LENGTH = 1e-3
+"""Over the radius: the same of their distance, and of radii."""
+MAX_OPEN = np.deg2rad(200.0)
+"""The widest gap around a bore that still holds what is in it: a half-shell with its tessellation. Fillets are open by
+270 degrees."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bore:
+    """Round faces of one part that have one axis, one radius and one side."""
+
+    part: str
+    faces: tuple[str, ...]
+    point: Vector
+    """On the axis, at the middle of the bore."""
+    axis: Vector
+    radius: float
+    hole: bool
+    """Whether the material is outside, as in a hole; otherwise the faces are those of a pin."""
+    half: float
+    """Half the length along the axis."""
+
+    def reach(self, along: Vector) -> tuple[float, float]:
+        """Where the bore begins and ends, along a direction that is parallel to its axis."""
+        middle = float(self.point @ along)
+        return middle - self.half, middle + self.half
+
+
+def bores(part: Part) -> list[Bore]:
+    """Find the bores and pins of a part; faces that go round by less than a half-shell together are left out."""
+    groups: list[list[Face]] = []
+    for face in part.faces:
+        if not isinstance(face.surface, Cylinder):
+            continue
+        group = next((each for each in groups if _same(each[0].surface, face.surface)), None)
+        if group is None:
+            groups.append([face])
+        else:
+            group.append(face)
+    found = [_bore(part.name, group) for group in groups]
+    return [bore for bore in found if bore is not None]
+
+
+def _same(one: Cylinder, other: Cylinder) -> bool:
+    offset = other.point - one.point
+    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
+    return bool(
+        one.side == other.side
+        and abs(one.radius - other.radius) <= SAME_LENGTH * one.radius
+        and np.linalg.norm(np.cross(one.axis, other.axis)) <= SAME_ANGLE
+        and apart <= SAME_LENGTH * one.radius
+    )
+
+
+def _bore(part: str, faces: Sequence[Face]) -> Bore | None:
+    surface = faces[0].surface
+    corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
+    along = corners @ surface.axis
+    x = np.cross(surface.axis, np.eye(3)[np.argmin(np.abs(surface.axis))])
+    angles = np.sort(np.arctan2(corners @ np.cross(surface.axis, x), corners @ x))
+    opening = np.diff(angles, append=angles[0] + 2 * np.pi).max()
+    if opening > MAX_OPEN:
+        return None
+    low, high = float(along.min()), float(along.max())
+    point = surface.point + (low + high) / 2 * surface.axis
+    names = tuple(face.name for face in faces)
+    return Bore(part, names, point, surface.axis, surface.radius, surface.side < 0, (high - low) / 2)

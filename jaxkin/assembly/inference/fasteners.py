@@ -1,0 +1,128 @@
+"""Screws, nuts, washers, rivets and dowels: parts of one axis, what they hold, and patterns of them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import networkx as nx
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_HEAD = 4.0
+"""Farthest a fastener reaches from its axis, over its smallest radius: flanges of screws and large washers are within."""
+MAX_NUT = 3.0
+"""The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
+MAX_EXPOSED = 1.0
+"""Length of a pin outside of its holes, over the length inside: rods that something slides on have more."""
+
+
+def fasteners(parts: Sequence[Part], bores: Sequence[Bore]) -> set[str]:
+    """Find the parts that have the form of a fastener: all bores on one axis, and nothing far from that axis."""
+    by_part: dict[str, list[Bore]] = {}
+    for bore in bores:
+        by_part.setdefault(bore.part, []).append(bore)
+    solids = {part.name: part for part in parts}
+    return {name for name, own in by_part.items() if _on_one_axis(own) and _slim(solids[name], own)}
+
+
+def _on_one_axis(own: Sequence[Bore]) -> bool:
+    first = own[0]
+    for bore in own[1:]:
+        offset = bore.point - first.point
+        apart = np.linalg.norm(offset - (offset @ first.axis) * first.axis)
+        if np.linalg.norm(np.cross(bore.axis, first.axis)) > SAME_ANGLE or apart > SAME_LENGTH * first.radius:
+            return False
+    return True
+
+
+def _slim(part: Part, own: Sequence[Bore]) -> bool:
+    corners = part.triangles.reshape(-1, 3) - own[0].point
+    away = np.linalg.norm(corners - np.outer(corners @ own[0].axis, own[0].axis), axis=1)
+    reach = MAX_NUT if all(bore.hole for bore in own) else MAX_HEAD
+    return bool(away.max() <= reach * min(bore.radius for bore in own))
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Fasteners on one axis that hold each other, such as a screw with its washers and nut, and what they go through."""
+
+    fasteners: tuple[str, ...]
+    held: tuple[str, ...]
+    """The parts that are no fasteners, of which a bore is on the axis or a face touches a fastener."""
+    axis: Bore
+    """One bore of a fastener."""
+    guides: bool
+    """Whether most of the pin is outside of its holes, so that something may slide on it."""
+
+
+def stacks(
+    found: Sequence[CommonAxis], fastening: Collection[str], touching: Collection[frozenset[str]], order: Mapping[str, int]
+) -> list[Stack]:
+    """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
+    found = [pair for pair in found if not pair.virtual]
+    graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
+    graph.add_nodes_from(part for pair in found for part in pair.parts if part in fastening)
+    result = []
+    for members in nx.connected_components(graph):
+        pairs = [pair for pair in found if members & {*pair.parts}]
+        held = {part for pair in pairs for part in pair.parts} | {p for each in touching if each & members for p in each}
+        bore = next(b for pair in pairs for b in (pair.one, pair.other) if b.part in members)
+        inside = sum(max(engaged(pair), 0.0) for pair in pairs if pair.one.part in members)
+        length = max((2 * pair.one.half for pair in pairs if pair.one.part in members), default=0.0)
+        names = tuple(sorted(members, key=order.__getitem__))
+        through = tuple(sorted(held - {*fastening}, key=order.__getitem__))
+        result.append(Stack(names, through, bore, length - inside > MAX_EXPOSED * inside))
+    return sorted(result, key=lambda stack: order[stack.fasteners[0]])
+
+
+def patterns(
+    found: Sequence[CommonAxis], every: Sequence[Stack], order: Mapping[str, int]
+) -> dict[frozenset[str], list[Bore]]:
+    """The parallel axes that two parts have in common, through fasteners or as bores without a pin; two or more each."""
+    shared: dict[frozenset[str], list[Bore]] = {}
+    through = [(frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)]
+    empty = [(frozenset(pair.parts), pair.one) for pair in found if pair.virtual]
+    for pair, bore in (*through, *empty):
+        known = shared.setdefault(pair, [])
+        if all(_beside(bore, other) for other in known):
+            known.append(bore)
+    return {pair: axes for pair, axes in shared.items() if len(axes) > 1}
+
+
+def _beside(one: Bore, other: Bore) -> bool:
+    """Whether two axes are parallel and not the same."""
+    offset = other.point - one.point
+    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
+    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) < 0.01 and apart > max(one.radius, other.radius))
+
+
+def bolted(shared: Mapping[frozenset[str], list[Bore]], order: Mapping[str, int]) -> list[Inference]:
+    """Parts that two or more parallel axes hold to each other."""
+    result = []
+    for pair, axes in shared.items():
+        parts = tuple(sorted(pair, key=order.__getitem__))
+        text = f"{len(axes)} parallel common axes of {' and '.join(map(repr, parts))}"
+        result.append(Inference(parts, Evidence(EvidenceKind.BOLT_PATTERN, (("axes", float(len(axes))),), text)))
+    return result
+
+
+def attached(every: Sequence[Stack], one_body: Collection[frozenset[str]]) -> list[Inference]:
+    """Fasteners that belong to what they hold: to a single part, or to parts that are one body, and to each other."""
+    result = []
+    for stack in every:
+        rigid = len(stack.held) == 1 or (
+            len(stack.held) > 1 and all(frozenset(pair) in one_body for pair in combinations(stack.held, 2))
+        )
+        parts = (*stack.held[:1], *stack.fasteners) if rigid else stack.fasteners
+        if len(parts) > 1:
+            holds = f"held by {stack.held[0]!r}" if rigid else "on one axis"
+            text = f"{', '.join(map(repr, stack.fasteners))} {holds}"
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", stack.axis.radius),), text)))
+    return result

@@ -1,0 +1,22 @@
+"""One inference: what a user could have written, and what it is known from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from jaxkin.joints.evidence import Evidence
+from jaxkin.joints.joint import Joint
+
+
+@dataclass(frozen=True, eq=False)
+class Inference:
+    """Parts that move as one, or a joint between two parts."""
+
+    parts: tuple[str, ...]
+    evidence: Evidence
+    joint: Joint | None = None
+    """None where the parts are one body."""
+
+    def __str__(self) -> str:
+        what = f"{self.joint.kind} joint {self.joint.name!r}" if self.joint else f"one body: {', '.join(self.parts)}"
+        return f"{what}: {self.evidence}"

@@ -1,0 +1,71 @@
+"""How far two bodies can slide on each other along an axis until faces across it meet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+
+ACROSS = 1e-3
+"""Radians between an axis and the normal of a face that stands across it."""
+REACH = 3.0
+"""Faces that stop a hinge come nearer to its axis than this, over the radius of its hole: shoulders, cheeks, washers."""
+MAX_PLAY = 3.0
+"""Play of a hinge along its axis, over the radius, in all: a link between two lugs, with washers that are not drawn.
+What slides on purpose has a stroke of more."""
+MAX_OVERLAP = 0.2
+"""Faces that overlap by no more, over the radius, are drawn a little too thick."""
+
+
+class Stop(NamedTuple):
+    """A plane face across an axis, near to it."""
+
+    height: float
+    """Where it stands along the axis."""
+    forwards: bool
+    """Whether its outward normal is along the axis, not against it."""
+
+
+def stops(parts: Iterable[Part], axis: Bore) -> list[Stop]:
+    """Find the plane faces of some parts that stand across an axis, near to it."""
+    result = []
+    for part in parts:
+        for face in part.faces:
+            surface = face.surface
+            if not isinstance(surface, Plane) or np.linalg.norm(np.cross(surface.normal, axis.axis)) > ACROSS:
+                continue
+            if _distance(face.triangles, axis.point, axis.axis) <= REACH * axis.radius:
+                result.append(Stop(float(surface.point @ axis.axis), bool(surface.normal @ axis.axis > 0)))
+    return result
+
+
+def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:
+    """Distance from an axis of triangles that stand across it; 0 where it goes through one of them."""
+    corners = triangles - point
+    corners = corners - (corners @ axis)[..., None] * axis
+    edges = np.roll(corners, -1, axis=1) - corners
+    turns = np.einsum("tki,i->tk", np.cross(corners, edges), axis)
+    if np.any(np.all(turns > 0, axis=1) | np.all(turns < 0, axis=1)):
+        return 0.0
+    squares = np.maximum(np.sum(edges**2, axis=-1), np.finfo(float).tiny)
+    along = np.clip(-np.sum(corners * edges, axis=-1) / squares, 0.0, 1.0)
+    return float(np.linalg.norm(corners + along[..., None] * edges, axis=-1).min())
+
+
+def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+    """Return how far one body can slide in the other in all, forwards and backwards; None where nothing stops it."""
+    ahead, behind = _gap(one, other, radius), _gap(other, one, radius)
+    return None if ahead is None or behind is None else ahead + behind
+
+
+def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+    """The least gap from faces of one that look forwards to faces of the other that look backwards."""
+    gaps = [b.height - a.height for a in one if a.forwards for b in other if not b.forwards]
+    return min((max(gap, 0.0) for gap in gaps if gap >= -MAX_OVERLAP * radius), default=None)
