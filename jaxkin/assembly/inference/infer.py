@@ -71,24 +71,27 @@ def infer(
     fixed: Sequence[str],
     rigid: Sequence[Sequence[str]] = (),
     joints: Sequence[Joint] = (),
-) -> list[Inference]:
+) -> tuple[list[Inference], list[Inference]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
     Pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with clearance or
-    interference, bores without a pin, parts that lie on one other only, and parts that touch nothing.
+    interference, bores without a pin, parts that lie on one other only, and parts that touch nothing. Apart from these
+    comes what would stop slides that exact contacts allow: for those slides that are of no use.
     """
     known = Inferring(parts, contacts, fixed, rigid, joints)
-    fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)]) - {*fixed}
+    fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
+    fastening -= {*fixed, *(part for contact in contacts if contact.state not in "ae" for part in contact.parts)}
     known.add(_embedded(known, fastening))
     known.add(_butting(known, fastening))
     every = [_with_hosts(stack, known) for stack in stacks(known.axes, fastening, known.touching, known.order)]
     while added := _patterns(known, every):
         known.add(added)
     known.add(_attached(known, every))
-    known.found += _hinges(known)
+    hinges = _hinges(known)
+    known.found += [joint for joint, exact in hinges if not exact]
     known.add(_lying(known))
     known.add(_alone(known))
-    return known.found
+    return known.found, [joint for joint, exact in hinges if exact]
 
 
 def _embedded(known: Inferring, fastening: Collection[str]) -> list[Inference]:
@@ -158,6 +161,8 @@ def _attached(known: Inferring, every: Sequence[Stack]) -> list[Inference]:
     for stack in every:
         loose = [part for part in stack.fasteners if body[part] not in {body[held] for held in stack.held}]
         holder = _holder(known, stack, body)
+        if stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2:
+            continue  # a rod that something slides on, not a pin that belongs to what holds it
         parts = (*([holder] if holder and loose else []), *stack.fasteners)
         if len({body[part] for part in parts}) > 1:
             several = len({body[part] for part in stack.held}) > 1
@@ -180,8 +185,8 @@ def _holder(known: Inferring, stack: Stack, body: Mapping[str, str]) -> str | No
     return widest[0][2]
 
 
-def _hinges(known: Inferring) -> list[Inference]:
-    """Joints of two bodies about their common axis, where their exact contacts leave open how they move."""
+def _hinges(known: Inferring) -> list[tuple[Inference, bool]]:
+    """Joints of two bodies about their common axis, and whether exact contacts say so but for the slide."""
     body, between = known.body, {}
     by_hand = {frozenset(body[part] for part in pair) for pair in known.by_hand}
     for pair in known.axes:
@@ -196,7 +201,7 @@ def _hinges(known: Inferring) -> list[Inference]:
         states = {*exact.get(owners, ())}
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
         if "e" not in states or (states == {"e"} and all(_on(pair.other, each.other) for each in found)):
-            result += _hinge(known, pair, owners, "e" in states)
+            result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states)]
     return result
 
 
