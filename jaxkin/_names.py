@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
@@ -15,6 +16,25 @@ def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
     if not isinstance(given, Mapping):
         raise ValueError(f"{what} are given by name, as in {example}, got {given!r}")
     return given
+
+
+def match(patterns: Sequence[str], known: Sequence[str], what: str) -> tuple[str, ...]:
+    """The known names that some patterns stand for, in their order: "*" is any text, "?" any one letter.
+
+    A name that is known stands for itself, whatever letters it has. Raises ValueError for a pattern without a match.
+    """
+    found: list[str] = []
+    for pattern in patterns:
+        if not isinstance(pattern, str) or pattern in known or not {*"*?"} & {*pattern}:
+            found.append(pattern)  # whether it is known is checked where it is used
+            continue
+        parts = re.split(r"([*?])", pattern)
+        form = re.compile("".join({"*": ".*", "?": "."}.get(each, re.escape(each)) for each in parts), re.DOTALL)
+        names = [name for name in known if form.fullmatch(name)]
+        if not names:
+            raise ValueError(f"{what} names {pattern!r}, which no part matches{nearest(pattern, known)}")
+        found += [name for name in names if name not in found]
+    return tuple(found)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

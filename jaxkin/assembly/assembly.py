@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
-from jaxkin.assembly.to_mechanism import mechanism_from_solids
+from jaxkin._names import match, nearest
+from jaxkin.assembly.to_mechanism import Said, mechanism_from_solids
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
@@ -55,8 +56,14 @@ class Assembly:
         combine: bool = True,
         contacts: Sequence[Contact] | None = None,
         align: float | int | None = None,
+        exclude: Sequence[str] = (),
+        infer: bool = True,
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+
+        Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
+        bolts and what they hold, parts that only one other holds (`jaxkin.assembly.inference`). Each inference is told
+        by `notes`, and by the `evidence` of its joint. Parts are named in full or with "*": `fixed=["Base*"]`.
 
         - `rigid`: groups of parts that do not move relative to each other, `[["bolt", "plate"]]`. A group is one body;
           its first part in the order of the assembly holds each of the others by a joint without freedoms.
@@ -66,6 +73,9 @@ class Assembly:
         - `combine`: the contacts of two bodies become the one joint that they amount to, where there is one; without
           it every contact is a joint, as in the paper. All fixed parts are one body (Section 4.1).
         - `contacts`: those found with other tolerances, or a selection; by default `self.contacts()`.
+        - `exclude`: parts to leave out.
+        - `infer`: without it contacts that are exact are all, as in the paper; parts that they tie to nothing are
+          refused.
         - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 
@@ -73,9 +83,27 @@ class Assembly:
         groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
         """
         contacts = self.contacts() if contacts is None else contacts
-        return mechanism_from_solids(
-            self, contacts, fixed=fixed, rigid=rigid, ignore=ignore, joints=joints, combine=combine, align=align
-        )
+        if exclude:
+            left = match(exclude, self.names, "exclude")
+            return self.without(left).mechanism(
+                fixed=fixed,
+                rigid=rigid,
+                ignore=ignore,
+                joints=joints,
+                combine=combine,
+                contacts=_contacts_without(contacts, left),
+                align=align,
+                infer=infer,
+            )
+        said = Said(_in_full(fixed, self.names, "fixed"), _groups(rigid, self.names), ignore, joints, combine, align)
+        return mechanism_from_solids(self, contacts, said, infer)
+
+    def without(self, names: Collection[str]) -> Assembly:
+        """The assembly without some parts. ValueError for names that are not there."""
+        for name in names:
+            if name not in self.names:
+                raise ValueError(f"exclude names the unknown part {name!r}{nearest(name, self.names)}")
+        return replace(self, parts=tuple(part for part in self.parts if part.name not in names))
 
     @property
     def found(self) -> tuple[Contacts, ...]:
@@ -110,6 +138,24 @@ class Assembly:
 
     def __repr__(self) -> str:
         return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"
+
+
+def _in_full(names: Sequence[str], known: Sequence[str], what: str) -> Sequence[str]:
+    """Names in full for patterns; a text in place of a list is refused where it is used."""
+    return names if isinstance(names, str) else match(names, known, what)
+
+
+def _groups(rigid: Sequence[Sequence[str]], known: Sequence[str]) -> Sequence[Sequence[str]]:
+    return rigid if isinstance(rigid, str) else [_in_full(group, known, "rigid") for group in rigid]
+
+
+def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Contacts:
+    """The contacts, near misses and notes that none of some parts takes part in."""
+    kept = tuple(each for each in contacts if not {*each.parts} & {*names})
+    if not isinstance(contacts, Contacts):
+        return Contacts(kept)
+    nearly = tuple(miss for miss in contacts.near_misses if not {*miss.parts} & {*names})
+    return Contacts(kept, nearly, tuple(note for note in contacts.notes if not any(name in note for name in names)))
 
 
 def _faces(part: Part) -> str:

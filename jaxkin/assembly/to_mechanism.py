@@ -10,11 +10,14 @@ import numpy as np
 
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.inference.infer import infer as infer_from
+from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.needless import with_spinning
-from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.contacts.contact import Contact, Contacts, NearMiss
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
+from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
@@ -23,6 +26,7 @@ from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
+from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.components import connected
@@ -33,6 +37,10 @@ if TYPE_CHECKING:
 
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
+
+
+_TRIED = 12
+"""Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
 
 class Begun(NamedTuple):
@@ -46,38 +54,87 @@ class Begun(NamedTuple):
     solids: tuple[Part, ...]
 
 
-def mechanism_from_solids(
-    assembly: Assembly,
-    contacts: Sequence[Contact],
-    *,
-    fixed: Sequence[str],
-    rigid: Sequence[Sequence[str]],
-    ignore: Sequence[Sequence[str]],
-    joints: Sequence[Joint],
-    combine: bool,
-    align: float | int | None,
-) -> Mechanism:
+class Said(NamedTuple):
+    """What a user says of an assembly, with all names in full: see `Assembly.mechanism`."""
+
+    fixed: Sequence[str]
+    rigid: Sequence[Sequence[str]] = ()
+    ignore: Sequence[Sequence[str]] = ()
+    joints: Sequence[Joint] = ()
+    combine: bool = True
+    align: float | int | None = None
+
+
+def mechanism_from_solids(assembly: Assembly, contacts: Sequence[Contact], said: Said, infer: bool = True) -> Mechanism:
     """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
-    names = assembly.names
-    check_names(names, [(given.name, *given.parts) for given in joints], fixed)
-    body = bodies(names, fixed, rigid)
-    owners = {body[part] for part in fixed}
-    fixed = (*fixed, *(part for part in names if body[part] in owners and part not in fixed))
+    check_names(assembly.names, [(given.name, *given.parts) for given in said.joints], said.fixed)
+    bodies(assembly.names, said.fixed, said.rigid)  # refuses groups that are none
+    if not infer:
+        return from_words(assembly, contacts, said)
+    return inferred(assembly, contacts, said)
+
+
+def from_words(
+    assembly: Assembly, contacts: Sequence[Contact], said: Said, inferences: Sequence[Inference] = ()
+) -> Mechanism:
+    """The mechanism that contacts, the user's words and some inferences make."""
+    groups = [each.parts for each in inferences if each.joint is None]
+    joints = (*said.joints, *(each.joint for each in inferences if each.joint is not None))
+    names, combine, align = assembly.names, said.combine, said.align
+    body = bodies(names, said.fixed, [*said.rigid, *groups])
+    owners = {body[part] for part in said.fixed}
+    fixed = (*said.fixed, *(part for part in names if body[part] in owners and part not in said.fixed))
     for given in joints:
         if body[given.parts[0]] == body[given.parts[1]]:
             raise ValueError(f"joint {given.name!r} joins parts that are rigidly connected: {', '.join(given.parts)}")
 
-    used = without(contacts, ignore)
-    ties = _ties(assembly, body, fixed)
+    used = without(contacts, said.ignore)
+    ties = _ties(assembly, body, fixed, inferences)
     _refuse_loose(assembly, contacts, fixed, [*(c.parts for c in used), *(given.parts for given in (*joints, *ties))])
     moving = [contact for contact in used if body[contact.parts[0]] != body[contact.parts[1]]]
     by_hand = {_pair(given.parts, body): given.name for given in joints}
+    own = {_pair(given.parts, body): given.name for given in said.joints}
     replaced = [contact for contact in moving if _pair(contact.parts, body) in by_hand]
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
-    told = (*_left_out(len(contacts) - len(used), replaced, by_hand, body), *_told(contacts))
+    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *map(str, inferences), *_told(contacts))
     return replace(mechanism, history=(*told, *mechanism.history))
+
+
+def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
+    """The mechanism with what solids imply beside their exact contacts.
+
+    What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
+    mechanism has fewer freedoms but still some. Where the inferences lock it, the weakest one without which it moves is
+    dropped, and that is said.
+    """
+    used = Contacts(tuple(without(contacts, said.ignore)), *_nearly(assembly, contacts))
+    found, stopped = infer_from(assembly.parts, used, said.fixed, said.rigid, said.joints)
+    mechanism = from_words(assembly, contacts, said, found)
+    if not found and not stopped:
+        return mechanism
+    useful = _useful(mechanism)
+    if stopped and useful:
+        other = from_words(assembly, contacts, said, [*found, *stopped])
+        return other if 0 < _useful(other) < useful else mechanism
+    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1) if not useful else ():
+        fewer = from_words(assembly, contacts, said, [*found[:number], *found[number + 1 :]])
+        if _useful(fewer):
+            dropped = f"not inferred, since nothing could move with it: {found[number]}"
+            return replace(fewer, history=(dropped, *fewer.history))
+    return mechanism
+
+
+def _useful(mechanism: Mechanism) -> int:
+    """Freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
+    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
+
+
+def _nearly(assembly: Assembly, contacts: Sequence[Contact]) -> tuple[tuple[NearMiss, ...], tuple[str, ...]]:
+    """The near misses and notes of the detection that some contacts are from."""
+    found = _told_by(assembly, contacts)
+    return found.near_misses, found.notes
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
@@ -125,9 +182,12 @@ def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:
     return frozenset(body[part] for part in parts)
 
 
-def _ties(assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str]) -> list[Joint]:
+def _ties(
+    assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str], inferences: Sequence[Inference]
+) -> list[Joint]:
     """A joint without freedoms from the first part of each rigid group to each of the others."""
     centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
+    known = {part: each.evidence for each in inferences if each.joint is None for part in each.parts}
     return [
         joint(
             f"{first}-{part}",
@@ -135,6 +195,7 @@ def _ties(assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str]) -> 
             JointKind.FIXED,
             (LOWER_PAIRS[0, 0][1],),
             [frame(centres[part], np.array([0.0, 0.0, 1.0]))],
+            evidence=known.get(part, BY_HAND),
         )
         for part, first in body.items()
         if part != first and part not in fixed

@@ -63,16 +63,21 @@ class Stack:
 
 
 def stacks(
-    found: Sequence[CommonAxis], fastening: Collection[str], touching: Collection[frozenset[str]], order: Mapping[str, int]
+    found: Sequence[CommonAxis],
+    fastening: Collection[str],
+    touching: Collection[frozenset[str]],
+    order: Mapping[str, int],
 ) -> list[Stack]:
     """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
-    found = [pair for pair in found if not pair.virtual]
+    found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]
     graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
     graph.add_nodes_from(part for pair in found for part in pair.parts if part in fastening)
     result = []
     for members in nx.connected_components(graph):
         pairs = [pair for pair in found if members & {*pair.parts}]
-        held = {part for pair in pairs for part in pair.parts} | {p for each in touching if each & members for p in each}
+        held = {part for pair in pairs for part in pair.parts} | {
+            p for each in touching if each & members for p in each
+        }
         bore = next(b for pair in pairs for b in (pair.one, pair.other) if b.part in members)
         inside = sum(max(engaged(pair), 0.0) for pair in pairs if pair.one.part in members)
         length = max((2 * pair.one.half for pair in pairs if pair.one.part in members), default=0.0)
@@ -87,7 +92,9 @@ def patterns(
 ) -> dict[frozenset[str], list[Bore]]:
     """The parallel axes that two parts have in common, through fasteners or as bores without a pin; two or more each."""
     shared: dict[frozenset[str], list[Bore]] = {}
-    through = [(frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)]
+    through = [
+        (frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)
+    ]
     empty = [(frozenset(pair.parts), pair.one) for pair in found if pair.virtual]
     for pair, bore in (*through, *empty):
         known = shared.setdefault(pair, [])

@@ -166,7 +166,9 @@ def _attached(known: Inferring, every: Sequence[Stack]) -> list[Inference]:
         parts = (*([holder] if holder and loose else []), *stack.fasteners)
         if len({body[part] for part in parts}) > 1:
             several = len({body[part] for part in stack.held}) > 1
-            where = f"held by {holder!r}{' farthest out' if several else ' only'}" if holder and loose else "on one axis"
+            where = (
+                f"held by {holder!r}{' farthest out' if several else ' only'}" if holder and loose else "on one axis"
+            )
             text = f"{', '.join(map(repr, stack.fasteners))} {where}"
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", stack.axis.radius),), text)))
     return result
@@ -262,7 +264,12 @@ def _alone(known: Inferring) -> list[Inference]:
     """Parts that nothing ties to the fixed ones: with the part that they are most likely rigid with, or at rest."""
     result: list[Inference] = []
     extent = size(tuple(known.parts))
-    ties = [*map(tuple, known.touching), *(each.parts for each in known.found), *known.rigid, *map(tuple, known.by_hand)]
+    ties = [
+        *map(tuple, known.touching),
+        *(each.parts for each in known.found),
+        *known.rigid,
+        *map(tuple, known.by_hand),
+    ]
     groups = connected(known.names, [pair for tie in ties for pair in combinations(tie, 2)])
     held = {name for group in groups if {*known.fixed} & {*group} for name in group}
     islands = [sorted(group, key=known.order.__getitem__) for group in groups if not held & {*group}]
@@ -280,7 +287,9 @@ def _alone(known: Inferring) -> list[Inference]:
         held |= {*island}
         near = distance <= NEAR * extent
         host = host if near else known.fixed[0]
-        text = f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}" if near else f"{part!r} is tied to nothing"
+        text = (
+            f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}" if near else f"{part!r} is tied to nothing"
+        )
         text += "" if near else ": left at rest"
         parts = (host, part)
         result.append(Inference(parts, Evidence(EvidenceKind.NEAREST, (("distance", distance),), text)))
