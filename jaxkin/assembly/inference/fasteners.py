@@ -118,18 +118,3 @@ def bolted(shared: Mapping[frozenset[str], list[Bore]], order: Mapping[str, int]
         text = f"{len(axes)} parallel common axes of {' and '.join(map(repr, parts))}"
         result.append(Inference(parts, Evidence(EvidenceKind.BOLT_PATTERN, (("axes", float(len(axes))),), text)))
     return result
-
-
-def attached(every: Sequence[Stack], one_body: Collection[frozenset[str]]) -> list[Inference]:
-    """Fasteners that belong to what they hold: to a single part, or to parts that are one body, and to each other."""
-    result = []
-    for stack in every:
-        rigid = len(stack.held) == 1 or (
-            len(stack.held) > 1 and all(frozenset(pair) in one_body for pair in combinations(stack.held, 2))
-        )
-        parts = (*stack.held[:1], *stack.fasteners) if rigid else stack.fasteners
-        if len(parts) > 1:
-            holds = f"held by {stack.held[0]!r}" if rigid else "on one axis"
-            text = f"{', '.join(map(repr, stack.fasteners))} {holds}"
-            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", stack.axis.radius),), text)))
-    return result
