@@ -10,10 +10,9 @@ import numpy as np
 
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import without
-from jaxkin.assembly.inference.infer import infer as infer_from
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.needless import with_spinning
-from jaxkin.contacts.contact import Contact, Contacts, NearMiss
+from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
@@ -26,7 +25,6 @@ from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
-from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.components import connected
@@ -37,10 +35,6 @@ if TYPE_CHECKING:
 
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
-
-
-_TRIED = 12
-"""Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
 
 class Begun(NamedTuple):
@@ -71,6 +65,8 @@ def mechanism_from_solids(assembly: Assembly, contacts: Sequence[Contact], said:
     bodies(assembly.names, said.fixed, said.rigid)  # refuses groups that are none
     if not infer:
         return from_words(assembly, contacts, said)
+    from jaxkin.assembly.inferred import inferred
+
     return inferred(assembly, contacts, said)
 
 
@@ -100,41 +96,6 @@ def from_words(
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
     told = (*_left_out(len(contacts) - len(used), replaced, own, body), *map(str, inferences), *_told(contacts))
     return replace(mechanism, history=(*told, *mechanism.history))
-
-
-def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
-    """The mechanism with what solids imply beside their exact contacts.
-
-    What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
-    mechanism has fewer freedoms but still some. Where the inferences lock it, the weakest one without which it moves is
-    dropped, and that is said.
-    """
-    used = Contacts(tuple(without(contacts, said.ignore)), *_nearly(assembly, contacts))
-    found, stopped = infer_from(assembly.parts, used, said.fixed, said.rigid, said.joints)
-    mechanism = from_words(assembly, contacts, said, found)
-    if not found and not stopped:
-        return mechanism
-    useful = _useful(mechanism)
-    if stopped and useful:
-        other = from_words(assembly, contacts, said, [*found, *stopped])
-        return other if 0 < _useful(other) < useful else mechanism
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1) if not useful else ():
-        fewer = from_words(assembly, contacts, said, [*found[:number], *found[number + 1 :]])
-        if _useful(fewer):
-            dropped = f"not inferred, since nothing could move with it: {found[number]}"
-            return replace(fewer, history=(dropped, *fewer.history))
-    return mechanism
-
-
-def _useful(mechanism: Mechanism) -> int:
-    """Freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
-    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
-
-
-def _nearly(assembly: Assembly, contacts: Sequence[Contact]) -> tuple[tuple[NearMiss, ...], tuple[str, ...]]:
-    """The near misses and notes of the detection that some contacts are from."""
-    found = _told_by(assembly, contacts)
-    return found.near_misses, found.notes
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
@@ -242,7 +203,7 @@ def _refuse_loose(
         problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
     else:
         problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
-    found = _told_by(assembly, contacts)
+    found = told_by(assembly, contacts)
     misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
     said = [note for note in found.notes if any(name in note for name in alone or loose)]
     nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
@@ -251,7 +212,7 @@ def _refuse_loose(
     raise ValueError("\n".join([f"{assembly.source}: {problem}; {advice}", *nearly]))
 
 
-def _told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
+def told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
     """The detection that some contacts are from: what it nearly found depends on the tolerances that it was given."""
     if isinstance(contacts, Contacts):
         return contacts
