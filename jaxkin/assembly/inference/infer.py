@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
-from jaxkin.assembly.inference.held import attached_fasteners, bolted_bodies, butting_pins, embedded_pins, screwed_bodies, with_hosts
+from jaxkin.assembly.inference.held import attached_fasteners, bolted_bodies, butting_pins, embedded_pins, with_hosts
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.screwed import screwed_bodies
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint

@@ -1,0 +1,78 @@
+"""Screws that end in nothing that is drawn: they point at the part that they are screwed into."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.assembly.inference.fasteners import Stack
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.geometry.pose import Vector
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_GAP = 2.0
+"""Distance from the end of a screw to the part that it points at, over its radius: a thread drawn a little short."""
+PARALLEL = 0.01
+"""Radians between screws of one pattern."""
+
+
+def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Bodies with two or more parallel screws that go through nothing else and point at one other body."""
+    body = known.body
+    pointing: dict[frozenset[str], list[tuple[Stack, float]]] = {}
+    for stack in every:
+        if len(stack.held) != 1 or len(stack.fasteners) != 1 or stack.guides:
+            continue
+        own = {body[part] for part in (*stack.held, *stack.fasteners)}
+        found = _pointed_at(known, stack, {part for part in known.names if body[part] in own})
+        if len(own) == 1 and found is not None:
+            pointing.setdefault(frozenset((*own, body[found[1]])), []).append((stack, found[0]))
+    result = []
+    for pair, found in pointing.items():
+        parallel = [each for each in found if _parallel(each[0], found[0][0])]
+        if len(parallel) > 1:
+            gap = max(distance for _, distance in parallel)
+            one, other = parts = tuple(sorted(pair, key=known.order.__getitem__))
+            text = f"{len(parallel)} parallel screws of {one!r} or {other!r} point at the other one, which has no holes"
+            sizes = (("screws", float(len(parallel))), ("gap", gap))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _parallel(one: Stack, other: Stack) -> bool:
+    return bool(np.linalg.norm(np.cross(one.axis.axis, other.axis.axis)) < PARALLEL)
+
+
+def _pointed_at(known: Known, stack: Stack, own: Collection[str]) -> tuple[float, str] | None:
+    """The first part that the axis of a screw meets beyond its own body, and how far from the end of the screw."""
+    reach = stack.axis.half + MAX_GAP * stack.axis.radius
+    ends = stack.axis.point - reach * stack.axis.axis, stack.axis.point + reach * stack.axis.axis
+    low, high = np.minimum(*ends), np.maximum(*ends)
+    hits = []
+    for part in known.parts:
+        if part.name in own or np.any(part.box[0] > high) or np.any(part.box[1] < low):
+            continue
+        distances = np.abs(crossings(stack.axis.point, stack.axis.axis, part.triangles))
+        if len(distances) and distances.min() <= reach:
+            hits.append((float(max(distances.min() - stack.axis.half, 0.0)), part.name))
+    return min(hits, default=None)
+
+
+def crossings(
+    point: Vector, axis: Vector, triangles: Float[np.ndarray, "triangles 3 3"]
+) -> Float[np.ndarray, " crossings"]:
+    """Where along a line it goes through triangles (Moeller and Trumbore 1997)."""
+    first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    normal = np.cross(axis, second)
+    scale = np.einsum("ij,ij->i", first, normal)
+    steep = np.abs(scale) > np.finfo(float).tiny
+    scale = np.where(steep, scale, 1.0)
+    offset = point - triangles[:, 0]
+    u = np.einsum("ij,ij->i", offset, normal) / scale
+    turned = np.cross(offset, first)
+    v = turned @ axis / scale
+    inside = steep & (u >= 0) & (v >= 0) & (u + v <= 1)
+    return (np.einsum("ij,ij->i", second, turned) / scale)[inside]
