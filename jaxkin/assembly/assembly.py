@@ -75,7 +75,7 @@ class Assembly:
         - `contacts`: those found with other tolerances, or a selection; by default `self.contacts()`.
         - `exclude`: parts to leave out.
         - `infer`: without it contacts that are exact are all, as in the paper; parts that they tie to nothing are
-          refused.
+          refused. Neither is anything inferred with `combine=False`.
         - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 

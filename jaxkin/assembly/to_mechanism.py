@@ -69,12 +69,10 @@ def mechanism_from_solids(assembly: Assembly, contacts: Sequence[Contact], said:
     """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
     check_names(assembly.names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(assembly.names, said.fixed, said.rigid)  # refuses groups that are none
-    if not infer:
-        return from_words(assembly, contacts, said)
-    return inferred(assembly, contacts, said)
+    return (_inferred if infer and said.combine else _from_words)(assembly, contacts, said)
 
 
-def from_words(
+def _from_words(
     assembly: Assembly, contacts: Sequence[Contact], said: Said, inferences: Sequence[Inference] = ()
 ) -> Mechanism:
     """The mechanism that contacts, the user's words and some inferences make."""
@@ -102,28 +100,43 @@ def from_words(
     return replace(mechanism, history=(*told, *mechanism.history))
 
 
-def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
+def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
     """The mechanism with what solids imply beside their exact contacts.
 
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
     mechanism has fewer freedoms but still some. Where the inferences lock it, the weakest one without which it moves is
     dropped, and that is said.
     """
-    used = Contacts(tuple(without(contacts, said.ignore)), *_nearly(assembly, contacts))
-    found, stopped = infer_from(assembly.parts, used, said.fixed, said.rigid, said.joints)
-    mechanism = from_words(assembly, contacts, said, found)
+    used = Contacts(without(contacts, said.ignore), *_nearly(assembly, contacts))
+    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+    found, stopped = infer_from(assembly.parts, used, said.fixed, said.rigid, said.joints, ignored)
+    mechanism = _from_words(assembly, contacts, said, found)
     if not found and not stopped:
         return mechanism
     useful = _useful(mechanism)
     if stopped and useful:
-        other = from_words(assembly, contacts, said, [*found, *stopped])
+        other = _from_words(assembly, contacts, said, [*found, *stopped])
         return other if 0 < _useful(other) < useful else mechanism
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1) if not useful else ():
-        fewer = from_words(assembly, contacts, said, [*found[:number], *found[number + 1 :]])
+    return mechanism if useful else _unlocked(assembly, contacts, said, found) or mechanism
+
+
+def _unlocked(
+    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
+) -> Mechanism | None:
+    """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
+
+    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
+    """
+    movable = None
+    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
+        fewer = _from_words(assembly, contacts, said, [*found[:number], *found[number + 1 :]])
+        dropped = f"not inferred, since nothing could move with it: {found[number]}"
+        fewer = replace(fewer, history=(dropped, *fewer.history))
         if _useful(fewer):
-            dropped = f"not inferred, since nothing could move with it: {found[number]}"
-            return replace(fewer, history=(dropped, *fewer.history))
-    return mechanism
+            return fewer
+        if movable is None and any(joint.freedoms for joint in fewer.all_joints):
+            movable = fewer
+    return movable
 
 
 def _useful(mechanism: Mechanism) -> int:

@@ -1,0 +1,109 @@
+"""Pins and fasteners, and the bodies that hold them; bodies that bolts hold to each other."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import Bore, bores
+from jaxkin.assembly.inference.embedded import embedded
+from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Pins that stand in the material of parts that have no hole for them."""
+    related = known.touching | {frozenset(pair.parts) for pair in known.axes}
+    result = []
+    for part in (known.solids[name] for name in known.names if name in fastening):
+        others = [each for each in known.parts if each is not part and frozenset((each.name, part.name)) not in related]
+        for share, host in embedded(part, others)[:1]:
+            text = f"{part.name!r} stands in the material of {host!r}, {share:.0%} of its corners"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (("share inside", share),), text)
+            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial end."""
+    axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
+    directions: dict[tuple[str, str], set[bool]] = {}
+    for contact in known.contacts:
+        for pin, other in (contact.parts, contact.parts[::-1]):
+            surface = contact.surfaces[contact.parts.index(pin)]
+            if contact.state != "a" or pin not in axis_of or frozenset(contact.parts) in known.pinned:
+                continue
+            if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis_of[pin].axis)) < ACROSS:
+                directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
+    result = []
+    for (pin, other), ways in directions.items():
+        coaxial = any(same_axis(axis_of[pin], bore) for bore in bores(known.solids[other]) if not bore.hole)
+        if len(ways) == 2 or coaxial:
+            where = "between two faces" if len(ways) == 2 else "on the coaxial end"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
+            result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def same_axis(one: Bore, other: Bore) -> bool:
+    """Whether two bores have one axis."""
+    offset = other.point - one.point
+    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
+    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) < ACROSS and apart < 0.01 * one.radius)
+
+
+def with_hosts(stack: Stack, known: Known) -> Stack:
+    """The stack with the parts that its fasteners are one body with already: they hold it, too."""
+    body = known.body
+    hosts = {p for p in known.names for f in stack.fasteners if p not in stack.fasteners and body[p] == body[f]}
+    held = sorted({*stack.held, *hosts}, key=known.order.__getitem__)
+    return Stack(stack.fasteners, tuple(held), stack.axis, stack.guides)
+
+
+def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Bodies that have two or more parallel axes in common."""
+    body = known.body
+
+    def of_bodies(stack: Stack) -> Stack:
+        held = tuple(dict.fromkeys(body[part] for part in stack.held))
+        return Stack(stack.fasteners, held, stack.axis, stack.guides)
+
+    shared = patterns(known.axes, list(map(of_bodies, every)))
+    return [each for each in bolted(shared, known.order) if len({body[part] for part in each.parts}) > 1]
+
+
+def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Fasteners with the body that holds them: the only one, or that which holds them farthest out, as a fork does."""
+    body, result = known.body, []
+    for stack in every:
+        loose = [part for part in stack.fasteners if body[part] not in {body[held] for held in stack.held}]
+        holder = _holder(known, stack, body)
+        if stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2:
+            continue  # a rod that something slides on, not a pin that belongs to what holds it
+        parts = (*([holder] if holder and loose else []), *stack.fasteners)
+        if len({body[part] for part in parts}) > 1:
+            several = len({body[part] for part in stack.held}) > 1
+            where = (
+                f"held by {holder!r}{' farthest out' if several else ' only'}" if holder and loose else "on one axis"
+            )
+            text = f"{', '.join(map(repr, stack.fasteners))} {where}"
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", stack.axis.radius),), text)))
+    return result
+
+
+def _holder(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
+    """The part that holds a stack: of the body whose bores reach farthest along the axis."""
+    along, reach = stack.axis.axis, {}
+    for pair in known.axes:
+        for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
+            if pin.part in stack.fasteners and hole.part in stack.held:
+                reach.setdefault(body[hole.part], []).append((*hole.reach(along), hole.part))
+    if not reach:
+        return stack.held[0] if stack.held else None
+    widest = max(reach.values(), key=lambda ends: max(end[1] for end in ends) - min(end[0] for end in ends))
+    return widest[0][2]

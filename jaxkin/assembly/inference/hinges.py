@@ -1,0 +1,55 @@
+"""Joints of two bodies about the axis that they have in common."""
+
+from __future__ import annotations
+
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.held import same_axis
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.trapped import MAX_PLAY, play, stops
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def hinges(known: Known) -> list[tuple[Inference, bool]]:
+    """Joints of two bodies about their common axis, and whether exact contacts say so but for the slide."""
+    body, between = known.body, {}
+    by_hand = {frozenset(body[part] for part in pair) for pair in known.by_hand}
+    for pair in known.axes:
+        owners = frozenset(body[part] for part in pair.parts)
+        if len(owners) == 2 and owners not in by_hand:
+            between.setdefault(owners, []).append(pair)
+    exact: dict[Pair, list[str]] = {}
+    for contact in known.contacts:
+        exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact.state)
+    result = []
+    for owners, found in between.items():
+        states = {*exact.get(owners, ())}
+        pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
+        if "e" not in states or (states == {"e"} and all(same_axis(pair.other, each.other) for each in found)):
+            result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states)]
+    return result
+
+
+def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool) -> list[Inference]:
+    """A revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly."""
+    body, hole = known.body, pair.other
+    members = [[known.solids[name] for name in known.names if body[name] == owner] for owner in owners]
+    free = play(stops(members[0], hole), stops(members[1], hole), hole.radius)
+    if free is not None and free > MAX_PLAY * hole.radius:
+        free = None
+    if exact and free is None:
+        return []
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    make = pairs.cylindrical if free is None else pairs.revolute
+    joint = make("-".join(parts), *parts, point=hole.point, axis=hole.axis)
+    sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
+    ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
+    sizes += [] if free is None else [("play", free)]
+    if pair.virtual:
+        kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
+    else:
+        how = "clearance" if pair.clearance >= 0 else "interference"
+        fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
+        kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
+    return [Inference(parts, Evidence(kind, tuple(sizes), f"{text}; {ends}"), joint)]

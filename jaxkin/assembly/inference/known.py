@@ -1,0 +1,54 @@
+"""The solids of an assembly and what is known of them so far."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+
+from jaxkin.assembly.inference.axes import common_axes
+from jaxkin.assembly.inference.bores import bores
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.contacts.contact import Contacts
+from jaxkin.geometry.part import Part
+from jaxkin.joints.joint import Joint
+from jaxkin.topology.bodies import bodies
+
+Pair = frozenset[str]
+"""Two parts, or the first parts of two bodies."""
+
+
+class Known:
+    """The solids and what is known of them so far: each step adds inferences, and the bodies follow."""
+
+    def __init__(
+        self,
+        parts: Sequence[Part],
+        contacts: Contacts,
+        fixed: Sequence[str],
+        rigid: Sequence[Sequence[str]],
+        joints: Sequence[Joint],
+        ignored: Collection[Pair] = (),
+    ):
+        self.parts, self.contacts, self.fixed = parts, contacts, tuple(fixed)
+        self.solids = {part.name: part for part in parts}
+        self.names = tuple(self.solids)
+        self.order = {name: place for place, name in enumerate(self.names)}
+        self.rigid = [tuple(group) for group in rigid]
+        self.by_hand = {frozenset(joint.parts) for joint in joints}
+        self.touching = {frozenset(contact.parts) for contact in contacts}
+        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.state == "e"}
+        self.found: list[Inference] = []
+        found = common_axes([bore for part in parts for bore in bores(part)])
+        self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
+
+    @property
+    def body(self) -> Mapping[str, str]:
+        """The first part of the body that each part belongs to."""
+        groups = [each.parts for each in self.found if each.joint is None]
+        return bodies(self.names, self.fixed, [*self.rigid, *groups])
+
+    def add(self, inferences: Sequence[Inference]) -> None:
+        """Take inferences of parts that are not one body already, one after another."""
+        for each in inferences:
+            body = self.body
+            if len({body[part] for part in each.parts}) > 1:
+                self.found.append(each)
