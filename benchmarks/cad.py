@@ -127,7 +127,9 @@ def judged(data: Mapping[str, Any], found: Mechanism, scale: float) -> list[str]
     result = []
     for number, label in enumerate(data["joints"]):
         name = f"{number} {label['name']}."
-        result.append(verdict(label, found, idle, {each[len(name) :] for each in shown if each.startswith(name)}, scale))
+        result.append(
+            verdict(label, found, idle, {each[len(name) :] for each in shown if each.startswith(name)}, scale)
+        )
     return result
 
 

@@ -46,8 +46,11 @@ def grouped(entries: Iterable[tuple[Hashable, str]], verbose: bool = False) -> l
     Kinds come in order of their number. With `verbose` all texts are listed.
     """
     entries = list(entries)
-    if verbose or len(entries) <= SCREEN:
-        return [text for _, text in entries]
+    return [text for _, text in entries] if verbose or len(entries) <= SCREEN else first_of_each(entries)
+
+
+def first_of_each(entries: Iterable[tuple[Hashable, str]]) -> list[str]:
+    """List the first text of each kind, with how many there are; the most frequent kind first."""
     kinds: dict[Hashable, list[str]] = {}
     for kind, text in entries:
         kinds.setdefault(kind, []).append(text)

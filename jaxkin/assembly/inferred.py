@@ -39,12 +39,27 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         other = from_words(assembly, contacts, said, [*found, *stopped])
         if 0 < useful_freedoms(other) < useful:
             return _counted(other, [*found, *stopped])
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1) if not useful else ():
+    return _counted(mechanism, found) if useful else _unlocked(assembly, contacts, said, found) or mechanism
+
+
+def _unlocked(
+    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
+) -> Mechanism | None:
+    """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
+
+    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
+    """
+    movable = None
+    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
         fewer = [*found[:number], *found[number + 1 :]]
-        if useful_freedoms(other := from_words(assembly, contacts, said, fewer)):
-            dropped = f"not inferred, since nothing could move with it: {found[number]}"
-            return _counted(replace(other, history=(dropped, *other.history)), fewer)
-    return _counted(mechanism, found)
+        other = _counted(from_words(assembly, contacts, said, fewer), fewer)
+        dropped = f"not inferred, since nothing could move with it: {found[number]}"
+        other = replace(other, history=(dropped, *other.history))
+        if useful_freedoms(other):
+            return other
+        if movable is None and any(joint.freedoms for joint in other.all_joints):
+            movable = other
+    return movable
 
 
 def useful_freedoms(mechanism: Mechanism) -> int:
@@ -57,11 +72,12 @@ def _with_seats(
 ) -> tuple[Mechanism, list[Inference], list[Inference]]:
     """The mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
     source = told_by(assembly, contacts)
-    used = Contacts(tuple(without(contacts, said.ignore)), source.near_misses, source.notes)
+    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
+    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
 
     def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
         rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly.parts, used, said.fixed, rigid, said.joints)
+        found, stopped = infer(assembly.parts, used, said.fixed, rigid, said.joints, ignored)
         found = [*seats, *found]
         return from_words(assembly, contacts, said, found), found, stopped
 

@@ -59,15 +59,10 @@ class Said(NamedTuple):
     align: float | int | None = None
 
 
-def mechanism_from_solids(assembly: Assembly, contacts: Sequence[Contact], said: Said, infer: bool = True) -> Mechanism:
-    """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
-    check_names(assembly.names, [(given.name, *given.parts) for given in said.joints], said.fixed)
-    bodies(assembly.names, said.fixed, said.rigid)  # refuses groups that are none
-    if not infer:
-        return from_words(assembly, contacts, said)
-    from jaxkin.assembly.inferred import inferred
-
-    return inferred(assembly, contacts, said)
+def check_said(names: Sequence[str], said: Said) -> None:
+    """Refuse words that name no parts, or that are no such groups: ValueError."""
+    check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
+    bodies(names, said.fixed, said.rigid)
 
 
 def from_words(

@@ -13,6 +13,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from jaxkin._grouped import first_of_each
+from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.geometry.movements import is_length
 
 if TYPE_CHECKING:
@@ -41,6 +43,15 @@ def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> 
         tuple(note for note in notes if note not in said) for notes in (mechanism.history, mechanism.alignment)
     )
     say(replace(mechanism, history=history, alignment=alignment).describe(verbose))
+
+
+def print_inferences(mechanism: Mechanism) -> None:
+    """What was inferred beside exact contacts, counted by kind, with the first of each kind."""
+    found = [note for note in mechanism.history if note.startswith(INFERRED)]
+    if found:
+        say(f"{len(found)} inferred beside exact contacts (all: jaxkin inspect --verbose):")
+        for line in first_of_each((note.split(": ")[1], note) for note in found):
+            say(f"  {line}")
 
 
 def print_structure(mechanism: Mechanism) -> None:

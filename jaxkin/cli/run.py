@@ -40,6 +40,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
                 step(f"writing {filename}")
                 paths += motion.save(out, only=filename)
     report.say(f"{named(files)}: {study.mechanism.mobility()}")
+    report.print_inferences(study.mechanism)
     if isinstance(said, str):
         report.say(said)
         more = f"More than {LONG} poses: arrays only."

@@ -161,9 +161,9 @@ def test_parts_that_hang_on_nothing_are_connected_as_advised(fourbar):
     for parts, rigid in (((flag,), []), ((flag, other), []), ((flag, other), [["flag", "other flag"]])):
         loose = replace(fourbar, parts=(*fourbar.parts, *parts))
         with pytest.raises(ValueError) as error:
-            loose.mechanism(fixed=["ground"], rigid=rigid, contacts=fourbar.contacts())
+            loose.mechanism(fixed=["ground"], rigid=rigid, contacts=fourbar.contacts(), infer=False)
         advised = literal_eval(re.search(r"with rigid=(\[\[.*?\]\])", str(error.value))[1])
-        found = loose.mechanism(fixed=["ground"], rigid=[*rigid, *advised], contacts=fourbar.contacts())
+        found = loose.mechanism(fixed=["ground"], rigid=[*rigid, *advised], contacts=fourbar.contacts(), infer=False)
         assert found.mobility().useful == 1
 
 
@@ -175,7 +175,7 @@ def test_near_misses_that_are_told_are_those_of_the_tolerances_given(fourbar):
     contacts = assembly.contacts(length=1e-2)
     loose = [contact for contact in contacts if "rocker" not in contact.parts]
     with pytest.raises(ValueError, match="'rocker' touches no other part"):
-        assembly.mechanism(fixed=["ground"], contacts=loose)
+        assembly.mechanism(fixed=["ground"], contacts=loose, infer=False)
     assert len(assembly.found) == 1  # nothing was detected anew
 
 

@@ -27,7 +27,7 @@ def assembly():
 
 @pytest.fixture(scope="module")
 def mechanism(assembly):
-    return assembly.mechanism(fixed=["base"])
+    return assembly.mechanism(fixed=["base"], infer=False)
 
 
 def test_fasteners_are_named_and_the_arm_is_not(mechanism):
@@ -56,7 +56,7 @@ def test_they_can_still_be_driven(mechanism):
 
 
 def test_rigid_fixes_them_for_good(assembly):
-    fixed = assembly.mechanism(fixed=["base"], rigid=[["base", *FASTENERS]])
+    fixed = assembly.mechanism(fixed=["base"], rigid=[["base", *FASTENERS]], infer=False)
     assert fixed.fixed == ("base", *FASTENERS)
     assert [joint.name for joint in fixed.all_joints] == ["base-arm"]
     assert (fixed.mobility().freedoms, fixed.mobility().spinning) == (1, ())
@@ -122,7 +122,7 @@ def flanges():
 @pytest.fixture(scope="module")
 def bolted(flanges):
     assembly, contacts = flanges
-    return assembly.mechanism(fixed=["lower"], contacts=contacts)
+    return assembly.mechanism(fixed=["lower"], contacts=contacts, infer=False)
 
 
 def test_bolts_of_which_each_is_unneeded_still_hold_together(bolted):
@@ -155,7 +155,7 @@ def test_which_parts_are_left_at_rest_depends_on_neither_order_nor_names(flanges
     others = [replace(contact, parts=tuple(new[part] for part in contact.parts)) for contact in contacts]
     random.shuffle(parts)
     random.shuffle(others)
-    again = replace(assembly, parts=tuple(parts)).mechanism(fixed=[new["lower"]], contacts=others)
+    again = replace(assembly, parts=tuple(parts)).mechanism(fixed=[new["lower"]], contacts=others, infer=False)
     assert joined(again) == {(kind, frozenset(new[part] for part in pair)) for kind, pair in joined(bolted)}
     assert again.mobility().freedoms == 12
 
@@ -174,7 +174,7 @@ def test_parts_at_rest_can_be_connected_as_the_notes_say(name, request, mechanis
     said = [note for note in mechanism.notes if "for good with rigid=" in note]
     rigid = [pair for note in said for pair in literal_eval(note[note.index("[[") :])]
     assert rigid and all(len(pair) == 2 for pair in rigid)
-    found = assembly.mechanism(fixed=mechanism.fixed, rigid=rigid, **options)
+    found = assembly.mechanism(fixed=mechanism.fixed, rigid=rigid, infer=False, **options)
     assert found.mobility().useful == mechanism.mobility().useful
     assert not {part for _, part in rigid} & set(found.mobility().spinning)
 

@@ -19,6 +19,8 @@ EQUAL_BORES = 0.1
 """Radii of two bores without a pin that are one axis differ by so much at most, over the larger one."""
 MAX_OFFSET = 0.05
 """Distance of axes that count as one beside the clearance, over the radius."""
+_OTHER_RADIUS = 1.02
+"""Radii of which one is larger by this factor are those of two surfaces, a pin and a sleeve on it."""
 MAX_GAP = 4.0
 """Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
 
@@ -74,7 +76,7 @@ def _coaxial(bores: Sequence[Bore]) -> list[CommonAxis]:
         tilt = np.linalg.norm(np.cross(axes[rest], axes[i]), axis=1)
         apart = np.linalg.norm(offset - np.outer(offset @ axes[i], axes[i]), axis=1)
         reach = MAX_CLEARANCE * np.maximum(radii[rest], radii[i])
-        for k in np.flatnonzero((parts[rest] != parts[i]) & (tilt <= MAX_TILT) & (apart <= reach)):
+        for k in np.flatnonzero((parts[rest] != parts[i]) & (tilt <= MAX_TILT) & (apart <= reach)).tolist():
             pair = (bores[i], bores[i + 1 + k])
             one, other = pair if not pair[0].hole or pair[1].hole else pair[::-1]
             found.append(CommonAxis(one, other, float(apart[k]), float(tilt[k])))
@@ -96,17 +98,21 @@ def _equal(pair: CommonAxis) -> bool:
 
 def engaged(pair: CommonAxis) -> float:
     """Length along the axis that both bores share; negative where there is a gap between them."""
-    (low1, high1), (low2, high2) = pair.one.reach(pair.one.axis), pair.other.reach(pair.one.axis)
+    return _overlap(pair.one, pair.other)
+
+
+def _overlap(one: Bore, other: Bore) -> float:
+    (low1, high1), (low2, high2) = one.reach(one.axis), other.reach(one.axis)
     return min(high1, high2) - max(low1, low2)
 
 
 def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
-    """Whether a thicker pin of a third part fills the hole where this one is, or a tighter hole of one holds the pin."""
+    """Whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin."""
     for each in pins:
-        if each.other is pair.other and each.one.part != pair.one.part and each.one.radius > 1.02 * pair.one.radius:
-            if engaged(CommonAxis(pair.one, each.one, 0.0, 0.0)) > 0:
-                return True
-        if each.one is pair.one and each.other.part != pair.other.part and each.other.radius < 0.98 * pair.other.radius:
-            if engaged(CommonAxis(each.other, pair.other, 0.0, 0.0)) > 0:
-                return True
+        thicker = each.other is pair.other and each.one.radius > _OTHER_RADIUS * pair.one.radius
+        if thicker and each.one.part != pair.one.part and _overlap(pair.one, each.one) > 0:
+            return True
+        tighter = each.one is pair.one and _OTHER_RADIUS * each.other.radius < pair.other.radius
+        if tighter and each.other.part != pair.other.part and _overlap(each.other, pair.other) > 0:
+            return True
     return False

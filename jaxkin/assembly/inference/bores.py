@@ -43,16 +43,16 @@ class Bore:
 
 def bores(part: Part) -> list[Bore]:
     """Find the bores and pins of a part; faces that go round by less than a half-shell together are left out."""
-    groups: list[list[Face]] = []
+    groups: list[tuple[Cylinder, list[Face]]] = []
     for face in part.faces:
-        if not isinstance(face.surface, Cylinder):
-            continue
-        group = next((each for each in groups if _same(each[0].surface, face.surface)), None)
-        if group is None:
-            groups.append([face])
-        else:
-            group.append(face)
-    found = [_bore(part.name, group) for group in groups]
+        surface = face.surface
+        if isinstance(surface, Cylinder):
+            group = next((faces for first, faces in groups if _same(first, surface)), None)
+            if group is None:
+                groups.append((surface, [face]))
+            else:
+                group.append(face)
+    found = [_bore(part.name, surface, faces) for surface, faces in groups]
     return [bore for bore in found if bore is not None]
 
 
@@ -67,8 +67,7 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
     )
 
 
-def _bore(part: str, faces: Sequence[Face]) -> Bore | None:
-    surface = faces[0].surface
+def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
     along = corners @ surface.axis
     x = np.cross(surface.axis, np.eye(3)[np.argmin(np.abs(surface.axis))])

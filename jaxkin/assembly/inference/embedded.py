@@ -12,7 +12,7 @@ from jaxkin.geometry.part import Part
 SAMPLES = 60
 """Points of a part that are tried, evenly among its corners: a pin in a lug has a fifth of them inside."""
 MIN_INSIDE = 0.02
-"""Share of them in the material of the other part from which on it is embedded: less is rounding of faces that touch."""
+"""Share of them in the material of another part from which on it is embedded; less is rounding where faces touch."""
 SHRUNK = 0.02
 """Points are moved inwards by so much of the part's size, so that those on touching faces are outside of the other."""
 
@@ -32,7 +32,7 @@ def share_inside(part: Part, other: Part) -> float:
 def _winding(
     points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
 ) -> Float[np.ndarray, " points"]:
-    """How often a closed surface goes round each point: 1 inside, 0 outside (the solid angle of all triangles / 4 pi)."""
+    """How often a closed surface goes round each point: 1 inside, 0 outside (solid angle of all triangles / 4 pi)."""
     total = np.empty(len(points))
     for index, point in enumerate(points):
         a, b, c = np.moveaxis(triangles - point, 1, 0)

@@ -16,7 +16,7 @@ from jaxkin.geometry.part import Part
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MAX_HEAD = 4.0
-"""Farthest a fastener reaches from its axis, over its smallest radius: flanges of screws and large washers are within."""
+"""Farthest a fastener reaches from its axis, over its smallest radius: flanges and large washers are within."""
 MAX_NUT = 3.0
 """The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
 MAX_EXPOSED = 1.0
@@ -51,7 +51,7 @@ def _slim(part: Part, own: Sequence[Bore]) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """Fasteners on one axis that hold each other, such as a screw with its washers and nut, and what they go through."""
+    """Fasteners on one axis, such as a screw with its washers and nut, and what they go through."""
 
     fasteners: tuple[str, ...]
     held: tuple[str, ...]
@@ -87,10 +87,8 @@ def stacks(
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
 
 
-def patterns(
-    found: Sequence[CommonAxis], every: Sequence[Stack], order: Mapping[str, int]
-) -> dict[frozenset[str], list[Bore]]:
-    """The parallel axes that two parts have in common, through fasteners or as bores without a pin; two or more each."""
+def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozenset[str], list[Bore]]:
+    """The parallel axes that two parts have in common, two or more, through fasteners or as bores without a pin."""
     shared: dict[frozenset[str], list[Bore]] = {}
     through = [
         (frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)

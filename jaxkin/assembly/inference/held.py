@@ -30,7 +30,7 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Pins whose ends stand on the faces of a part that has no hole for them: on two opposite ones, or on a coaxial end."""
+    """Pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial end."""
     axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
     directions: dict[tuple[str, str], set[bool]] = {}
     for contact in known.contacts:
@@ -73,7 +73,7 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
         held = tuple(dict.fromkeys(body[part] for part in stack.held))
         return Stack(stack.fasteners, held, stack.axis, stack.guides)
 
-    shared = patterns(known.axes, list(map(of_bodies, every)), known.order)
+    shared = patterns(known.axes, list(map(of_bodies, every)))
     return [each for each in bolted(shared, known.order) if len({body[part] for part in each.parts}) > 1]
 
 

@@ -38,15 +38,16 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool) -> list[In
     body, hole = known.body, pair.other
     members = [[known.solids[name] for name in known.names if body[name] == owner] for owner in owners]
     free = play(stops(members[0], hole), stops(members[1], hole), hole.radius)
-    trapped = free is not None and free <= MAX_PLAY * hole.radius
-    if exact and not trapped:
+    if free is not None and free > MAX_PLAY * hole.radius:
+        free = None
+    if exact and free is None:
         return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
-    make = pairs.revolute if trapped else pairs.cylindrical
+    make = pairs.cylindrical if free is None else pairs.revolute
     joint = make("-".join(parts), *parts, point=hole.point, axis=hole.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
-    ends = f"faces stop its slide, with a play of {free:.2g}" if trapped else "no face stops its slide"
-    sizes += [("play", free)] if trapped else []
+    ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
+    sizes += [] if free is None else [("play", free)]
     if pair.virtual:
         kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
     else:

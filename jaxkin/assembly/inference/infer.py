@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
-from jaxkin.assembly.inference.held import attached_fasteners, bolted_bodies, butting_pins, embedded_pins, with_hosts
+from jaxkin.assembly.inference.held import (
+    attached_fasteners,
+    bolted_bodies,
+    butting_pins,
+    embedded_pins,
+    with_hosts,
+)
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
-from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.screwed import screwed_bodies
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import Part
@@ -22,14 +28,16 @@ def infer(
     fixed: Sequence[str],
     rigid: Sequence[Sequence[str]] = (),
     joints: Sequence[Joint] = (),
+    ignored: Collection[Pair] = (),
 ) -> tuple[list[Inference], list[Inference]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
     Pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with clearance or
     interference, bores without a pin, parts that lie on one other only, and parts that touch nothing. Apart from these
-    comes what would stop slides that exact contacts allow: for those slides that are of no use.
+    comes what would stop slides that exact contacts allow: for those slides that are of no use. Between the parts of
+    pairs that are `ignored` nothing is inferred.
     """
-    known = Known(parts, contacts, fixed, rigid, joints)
+    known = Known(parts, contacts, fixed, rigid, joints, ignored)
     fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
     fastening -= {*fixed, *(part for contact in contacts if contact.state not in "ae" for part in contact.parts)}
     known.add(embedded_pins(known, fastening))

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from jaxkin._grouped import listed
 from jaxkin.joints.evidence import Evidence
 from jaxkin.joints.joint import Joint
+
+INFERRED = "inferred from"
+"""How notes on inferences begin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -18,5 +22,6 @@ class Inference:
     """None where the parts are one body."""
 
     def __str__(self) -> str:
-        what = f"{self.joint.kind} joint {self.joint.name!r}" if self.joint else f"one body: {', '.join(self.parts)}"
-        return f"{what}: {self.evidence}"
+        parts = listed([repr(part) for part in self.parts])
+        what = f"{self.joint.kind} joint {self.joint.name!r}" if self.joint else f"{parts} are one body"
+        return f"{INFERRED} {self.evidence.kind}: {what}: {self.evidence.text}"

@@ -12,6 +12,7 @@ from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
@@ -32,7 +33,9 @@ def lying_on_one(known: Known) -> list[Inference]:
     for contact in known.contacts:
         owners = frozenset(body[part] for part in contact.parts)
         surface = contact.surfaces[0]
-        planes.setdefault(owners, []).append(surface.normal if contact.state == "a" else np.zeros(3))
+        planes.setdefault(owners, []).append(surface.normal if isinstance(surface, Plane) else np.zeros(3))
+        if contact.state != "a":
+            planes[owners].append(np.zeros(3))
     hinged = {frozenset(body[part] for part in parts) for parts in jointed}
     result = []
     for one, others in ties.items():
@@ -76,12 +79,9 @@ def tied_to_nothing(known: Known) -> list[Inference]:
         held |= {*island}
         near = distance <= NEAR * extent
         host = host if near else known.fixed[0]
-        text = (
-            f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}" if near else f"{part!r} is tied to nothing"
-        )
-        text += "" if near else ": left at rest"
-        parts = (host, part)
-        result.append(Inference(parts, Evidence(EvidenceKind.NEAREST, (("distance", distance),), text)))
+        where = f", and {distance:.3g} from {host!r}" if near else ": left at rest"
+        text = f"{part!r} is tied to nothing{where}"
+        result.append(Inference((host, part), Evidence(EvidenceKind.NEAREST, (("distance", distance),), text)))
     return result
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from jaxkin.assembly.inference.axes import common_axes
 from jaxkin.assembly.inference.bores import bores
@@ -26,6 +26,7 @@ class Known:
         fixed: Sequence[str],
         rigid: Sequence[Sequence[str]],
         joints: Sequence[Joint],
+        ignored: Collection[Pair] = (),
     ):
         self.parts, self.contacts, self.fixed = parts, contacts, tuple(fixed)
         self.solids = {part.name: part for part in parts}
@@ -36,7 +37,8 @@ class Known:
         self.touching = {frozenset(contact.parts) for contact in contacts}
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.state == "e"}
         self.found: list[Inference] = []
-        self.axes = common_axes([bore for part in parts for bore in bores(part)])
+        found = common_axes([bore for part in parts for bore in bores(part)])
+        self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
 
     @property
     def body(self) -> Mapping[str, str]:
