@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match, nearest
-from jaxkin.assembly.to_mechanism import Said, mechanism_from_solids
+from jaxkin.assembly.inferred import inferred
+from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
@@ -96,7 +97,8 @@ class Assembly:
                 infer=infer,
             )
         said = Said(_in_full(fixed, self.names, "fixed"), _groups(rigid, self.names), ignore, joints, combine, align)
-        return mechanism_from_solids(self, contacts, said, infer)
+        check_said(self.names, said)
+        return (inferred if infer and combine else from_words)(self, contacts, said)
 
     def without(self, names: Collection[str]) -> Assembly:
         """The assembly without some parts. ValueError for names that are not there."""

@@ -10,10 +10,9 @@ import numpy as np
 
 from jaxkin.assembly.at_rest import left_at_rest
 from jaxkin.assembly.ignored_contacts import without
-from jaxkin.assembly.inference.infer import infer as infer_from
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.needless import with_spinning
-from jaxkin.contacts.contact import Contact, Contacts, NearMiss
+from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
@@ -26,7 +25,6 @@ from jaxkin.joints.regularise import Noise
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.alignment import SIX_DIGITS, aligned, asked_noise
-from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.bodies import bodies
 from jaxkin.topology.checks import check_names
 from jaxkin.topology.components import connected
@@ -37,10 +35,6 @@ if TYPE_CHECKING:
 
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
-
-
-_TRIED = 12
-"""Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
 
 class Begun(NamedTuple):
@@ -65,14 +59,13 @@ class Said(NamedTuple):
     align: float | int | None = None
 
 
-def mechanism_from_solids(assembly: Assembly, contacts: Sequence[Contact], said: Said, infer: bool = True) -> Mechanism:
-    """The mechanism of an assembly: see `Assembly.mechanism`. `contacts` are those found, before any is left out."""
-    check_names(assembly.names, [(given.name, *given.parts) for given in said.joints], said.fixed)
-    bodies(assembly.names, said.fixed, said.rigid)  # refuses groups that are none
-    return (_inferred if infer and said.combine else _from_words)(assembly, contacts, said)
+def check_said(names: Sequence[str], said: Said) -> None:
+    """Refuse words that name no parts, or that are no such groups: ValueError."""
+    check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
+    bodies(names, said.fixed, said.rigid)
 
 
-def _from_words(
+def from_words(
     assembly: Assembly, contacts: Sequence[Contact], said: Said, inferences: Sequence[Inference] = ()
 ) -> Mechanism:
     """The mechanism that contacts, the user's words and some inferences make."""
@@ -98,56 +91,6 @@ def _from_words(
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
     told = (*_left_out(len(contacts) - len(used), replaced, own, body), *map(str, inferences), *_told(contacts))
     return replace(mechanism, history=(*told, *mechanism.history))
-
-
-def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
-    """The mechanism with what solids imply beside their exact contacts.
-
-    What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
-    mechanism has fewer freedoms but still some. Where the inferences lock it, the weakest one without which it moves is
-    dropped, and that is said.
-    """
-    used = Contacts(without(contacts, said.ignore), *_nearly(assembly, contacts))
-    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
-    found, stopped = infer_from(assembly.parts, used, said.fixed, said.rigid, said.joints, ignored)
-    mechanism = _from_words(assembly, contacts, said, found)
-    if not found and not stopped:
-        return mechanism
-    useful = _useful(mechanism)
-    if stopped and useful:
-        other = _from_words(assembly, contacts, said, [*found, *stopped])
-        return other if 0 < _useful(other) < useful else mechanism
-    return mechanism if useful else _unlocked(assembly, contacts, said, found) or mechanism
-
-
-def _unlocked(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
-) -> Mechanism | None:
-    """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
-
-    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
-    """
-    movable = None
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
-        fewer = _from_words(assembly, contacts, said, [*found[:number], *found[number + 1 :]])
-        dropped = f"not inferred, since nothing could move with it: {found[number]}"
-        fewer = replace(fewer, history=(dropped, *fewer.history))
-        if _useful(fewer):
-            return fewer
-        if movable is None and any(joint.freedoms for joint in fewer.all_joints):
-            movable = fewer
-    return movable
-
-
-def _useful(mechanism: Mechanism) -> int:
-    """Freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
-    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
-
-
-def _nearly(assembly: Assembly, contacts: Sequence[Contact]) -> tuple[tuple[NearMiss, ...], tuple[str, ...]]:
-    """The near misses and notes of the detection that some contacts are from."""
-    found = _told_by(assembly, contacts)
-    return found.near_misses, found.notes
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
@@ -255,7 +198,7 @@ def _refuse_loose(
         problem = f"{_listed(alone)} touch{'es' if len(alone) == 1 else ''} no other part"
     else:
         problem = f"no chain of contacts ties {_listed(loose)} to the fixed {_listed(fixed)}"
-    found = _told_by(assembly, contacts)
+    found = told_by(assembly, contacts)
     misses = [miss for miss in found.near_misses if set(miss.parts) & set(alone or loose)]
     said = [note for note in found.notes if any(name in note for name in alone or loose)]
     nearly = [f"  {miss}" for miss in [*misses, *said][:_LISTED]] or ["  and nothing there is nearly in contact"]
@@ -264,7 +207,7 @@ def _refuse_loose(
     raise ValueError("\n".join([f"{assembly.source}: {problem}; {advice}", *nearly]))
 
 
-def _told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
+def told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
     """The detection that some contacts are from: what it nearly found depends on the tolerances that it was given."""
     if isinstance(contacts, Contacts):
         return contacts

@@ -107,3 +107,44 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
         return stack.held[0] if stack.held else None
     widest = max(reach.values(), key=lambda ends: max(end[1] for end in ends) - min(end[0] for end in ends))
     return widest[0][2]
+
+
+def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Bodies with two or more parallel screws that end in nothing drawn: one body with what lies behind them.
+
+    That is the one other body that such a body touches on a plane across the screws, or, where there is none, the one
+    other body that it has a contact with at all.
+    """
+    body = known.body
+    screws: dict[str, list[Stack]] = {}
+    for stack in every:
+        owners = {body[part] for part in (*stack.held, *stack.fasteners)}
+        if len(owners) == 1 and len(stack.held) > 0:
+            screws.setdefault(owners.pop(), []).append(stack)
+    result = []
+    for owner, stacks in screws.items():
+        parallel = [each for each in stacks if np.linalg.norm(np.cross(each.axis.axis, stacks[0].axis.axis)) < 0.01]
+        if len(parallel) < 2 or owner == body[known.fixed[0]]:
+            continue
+        across, touching = _behind(known, owner, parallel[0].axis, body)
+        behind = across or touching
+        if len(behind) == 1:
+            text = f"{len(parallel)} parallel screws in {owner!r} end in nothing drawn; behind it is {min(behind)!r}"
+            parts = tuple(sorted((owner, *behind), key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("screws", float(len(parallel))),), text)))
+    return result
+
+
+def _behind(known: Known, owner: str, axis: Bore, body: Mapping[str, str]) -> tuple[set[str], set[str]]:
+    """The other bodies that a body touches on planes across an axis, and all that it touches."""
+    across, touching = set(), set()
+    for contact in known.contacts:
+        owners = [body[part] for part in contact.parts]
+        if owner not in owners or owners[0] == owners[1]:
+            continue
+        (other,) = {*owners} - {owner}
+        touching.add(other)
+        surface = contact.surfaces[0]
+        if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis.axis)) < 0.1:
+            across.add(other)
+    return across, touching

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.held import same_axis
 from jaxkin.assembly.inference.inference import Inference
@@ -52,4 +54,5 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool) -> list[In
         how = "clearance" if pair.clearance >= 0 else "interference"
         fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
-    return [Inference(parts, Evidence(kind, tuple(sizes), f"{text}; {ends}"), joint)]
+    evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
+    return [Inference(parts, evidence, replace(joint, evidence=evidence))]

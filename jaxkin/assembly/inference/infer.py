@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
-from jaxkin.assembly.inference.held import attached_fasteners, bolted_bodies, butting_pins, embedded_pins, with_hosts
+from jaxkin.assembly.inference.held import (
+    attached_fasteners,
+    bolted_bodies,
+    butting_pins,
+    embedded_pins,
+    screwed_bodies,
+    with_hosts,
+)
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
@@ -39,6 +46,7 @@ def infer(
     while added := bolted_bodies(known, every):
         known.add(added)
     known.add(attached_fasteners(known, every))
+    known.add(screwed_bodies(known, every))
     joined = hinges(known)
     known.found += [joint for joint, exact in joined if not exact]
     known.add(lying_on_one(known))

@@ -1,0 +1,187 @@
+"""Joints found in assemblies that others drew, against those of their CAD systems: `python benchmarks/cad.py DIR`.
+
+DIR holds assemblies as NAME.step or NAME.step.xz and, where the CAD system's own joints are known, NAME.joints.json:
+`instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres). Without
+known joints the part to fix comes from `assembly.proposals`.
+
+A labelled pair of parts is right where the bodies of the two parts have the same joint about the same axis, or are one
+body if they are welded; right but for an idle slide or spin where the kinds differ by a coordinate that moves nothing
+else; other where they have another joint; missed where no joint is between them.
+"""
+
+from __future__ import annotations
+
+import json
+import lzma
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+import jaxkin as jk
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.topology.bodies import bodies
+
+MAX_ANGLE, MAX_OFFSET = 1e-3, 1e-4
+"""Radians and metres between axes that are the same: the exporter writes nine digits, solids differ by clearances."""
+METRE = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "inch": 0.0254}
+COORDINATES = {"Weld": set(), "Revolute": {"phi"}, "Prismatic": {"z"}, "Cylindrical": {"z", "phi"}}
+VERDICTS = ("right", "idle", "other", "missed")
+
+
+def true_mechanism(data: Mapping[str, Any]) -> Mechanism:
+    """Build the mechanism of the exported joints, in metres."""
+    joints = []
+    for number, each in enumerate(data["joints"]):
+        name, parts = f"{number} {each['name']}", (each["a"]["part"], each["b"]["part"])
+        at = dict(point=each["a"]["point"], axis=each["a"]["axis"])
+        if each["type"] == "Weld":
+            joints.append(jk.fixed(name, *parts))
+        else:
+            joints.append(getattr(jk, each["type"].lower())(name, *parts, **at))
+    jointed = {part for each in joints for part in each.parts}
+    fixed = [name for name in grounded(data) if name in jointed]
+    return jk.Mechanism.build(fixed=fixed, joints=[*joints, *rigid_groups(joints, fixed)], align=1e-3)
+
+
+def rigid_groups(joints: list[jk.Joint], fixed: list[str]) -> list[jk.Joint]:
+    """Weld the labelled parts of each outermost sub-assembly in which no labelled joint moves: exports lack these."""
+    first: dict[str, str] = {}
+    parts = dict.fromkeys(part for each in joints for part in each.parts)
+    body = dict(bodies(list(parts), fixed, [each.parts for each in joints if each.kind == "fixed"]))
+    moving = {tuple({part.split("/")[0] for part in each.parts}) for each in joints if each.kind != "fixed"}
+    welds = []
+    for part in (each for each in parts if "/" in each and (each.split("/")[0],) not in moving):
+        host = first.setdefault(part.split("/")[0], part)
+        if body[host] != body[part]:
+            welds.append(jk.fixed(f"rigid {host}-{part}", host, part))
+            joined = body[part]
+            body = {name: body[host] if owner == joined else owner for name, owner in body.items()}
+    return welds
+
+
+def grounded(data: Mapping[str, Any]) -> list[str]:
+    """Name the parts that the CAD system holds."""
+    return [each["name"] for each in data["instances"] if each["grounded"]]
+
+
+def bodies_of(mechanism: Mechanism) -> dict[str, str]:
+    """Map each part to its body."""
+    return {part: body for body, parts in mechanism.bodies.items() for part in parts}
+
+
+def verdict(label: Mapping[str, Any], found: Mechanism, idle: set[str], truly_idle: set[str], scale: float) -> str:
+    """Judge a labelled pair by the joint of its bodies."""
+    body = bodies_of(found)
+    a, b = body[label["a"]["part"]], body[label["b"]["part"]]
+    wanted = COORDINATES[label["type"]]
+    if a == b:
+        return "right" if not wanted else "idle" if wanted <= truly_idle else "other"
+    between = [each for each in found.all_joints if {body[part] for part in each.parts} == {a, b}]
+    if not between:
+        return "missed"
+    if len(between) > 1 or between[0].kind not in ("revolute", "cylindrical", "prismatic"):
+        return "other"
+    joint, got = between[0], set(between[0].coordinates)
+    if not wanted or not same_axis(label, joint, scale, "phi" in wanted | got):
+        return "other"
+    more = {name for name in got - wanted if f"{joint.name}.{name}" in idle}
+    if got == wanted:
+        return "right"
+    return "idle" if got - wanted <= more and wanted - got <= truly_idle else "other"
+
+
+def same_axis(label: Mapping[str, Any], joint: jk.Joint, scale: float, turns: bool) -> bool:
+    """Whether a joint is about the labelled axis; for a slide only its direction counts."""
+    frame = joint.frames_1[0]
+    axis = np.array(label["a"]["axis"])
+    offsets = [frame[:3, 3] * scale - label[side]["point"] for side in "ab"]
+    apart = min(np.linalg.norm(offset - (offset @ axis) * axis) for offset in offsets)
+    parallel = np.linalg.norm(np.cross(frame[:3, 2], axis)) < MAX_ANGLE
+    return bool(parallel and (apart < MAX_OFFSET or not turns))
+
+
+def useless(mechanism: Mechanism) -> set[str]:
+    """Name the coordinates of loops that show idle motions, or that nothing can move."""
+    names, moved = set(), set()
+    for loop in loop_freedoms(mechanism.linkage):
+        for column, (joint, k) in enumerate(loop.columns):
+            each = mechanism.all_joints[joint]
+            names.add(f"{each.name}.{each.coordinates[k]}")
+            if np.abs(loop.motions[:, column]).max(initial=0.0) > loop.thresholds.rate:
+                moved.add(f"{each.name}.{each.coordinates[k]}")
+    return names - moved | set(mechanism.mobility().idle)
+
+
+def judged(data: Mapping[str, Any], found: Mechanism, scale: float) -> list[str]:
+    """Judge all labelled pairs, in the order of the file."""
+    shown = useless(true_mechanism(data))
+    idle = useless(found)
+    result = []
+    for number, label in enumerate(data["joints"]):
+        name = f"{number} {label['name']}."
+        result.append(
+            verdict(label, found, idle, {each[len(name) :] for each in shown if each.startswith(name)}, scale)
+        )
+    return result
+
+
+def read(path: Path) -> Assembly:
+    """Read an assembly, packed or not."""
+    if path.suffix != ".xz":
+        return jk.load(path)
+    with TemporaryDirectory() as folder:
+        plain = Path(folder) / path.stem
+        plain.write_bytes(lzma.decompress(path.read_bytes()))
+        return jk.load(plain)
+
+
+def row(path: Path, verbose: bool) -> str:
+    """One line of the table."""
+    start = time.perf_counter()
+    name, assembly = path.name.split(".")[0], read(path)
+    labels = path.with_name(f"{name}.joints.json")
+    data = json.loads(labels.read_text()) if labels.exists() else None
+    fixed = grounded(data) if data else assembly.proposals()[0].fixed
+    mechanism = assembly.mechanism(fixed=fixed)
+    mobility = mechanism.mobility()
+    seconds = time.perf_counter() - start
+    counts = Counter()
+    if data:
+        verdicts = judged(data, mechanism, METRE[assembly.unit])
+        counts = Counter(verdicts)
+        if verbose:
+            pairs = [(v, each) for v, each in zip(verdicts, data["joints"], strict=True) if v not in ("right", "idle")]
+            for v, each in pairs:
+                print(f"  {v}: {each['type']} {each['a']['part']} - {each['b']['part']}")
+    cells = [
+        name,
+        len(assembly.parts),
+        len(mechanism.bodies),
+        *((counts[v] for v in VERDICTS) if data else "----"),
+        mobility.useful,
+        mobility.freedoms,
+        f"{seconds:.1f}",
+    ]
+    return "| " + " | ".join(map(str, cells)) + " |"
+
+
+def main(folder: str, names: Iterable[str]) -> None:
+    """Print the table of all assemblies in a folder, or of those named."""
+    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "seconds"]
+    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    chosen = set(names)
+    for path in sorted([*Path(folder).glob("*.step"), *Path(folder).glob("*.step.xz")]):
+        if not chosen or path.name.split(".")[0] in chosen:
+            print(row(path, verbose=bool(chosen)), flush=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2:])

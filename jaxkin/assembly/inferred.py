@@ -1,0 +1,114 @@
+"""The mechanism with what solids imply beside their exact contacts: conflicts are resolved by trying, and told."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.inference.infer import infer
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.to_mechanism import Said, from_words, told_by
+from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
+from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
+    from jaxkin.mechanism.mechanism import Mechanism
+
+_TRIED = 12
+"""Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
+
+
+def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
+    """Make the mechanism with what solids imply beside their exact contacts.
+
+    What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
+    mechanism has fewer freedoms but still some. Bodies that seats of faces leave a slide of no use are one body. Where
+    the inferences lock it, the weakest one without which it moves is dropped, and that is said.
+    """
+    mechanism, found, stopped = _with_seats(assembly, contacts, said)
+    if not found and not stopped:
+        return mechanism
+    useful = useful_freedoms(mechanism)
+    if stopped and useful:
+        other = from_words(assembly, contacts, said, [*found, *stopped])
+        if 0 < useful_freedoms(other) < useful:
+            return _counted(other, [*found, *stopped])
+    return _counted(mechanism, found) if useful else _unlocked(assembly, contacts, said, found) or mechanism
+
+
+def _unlocked(
+    assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
+) -> Mechanism | None:
+    """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
+
+    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
+    """
+    movable = None
+    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
+        fewer = [*found[:number], *found[number + 1 :]]
+        other = _counted(from_words(assembly, contacts, said, fewer), fewer)
+        dropped = f"not inferred, since nothing could move with it: {found[number]}"
+        other = replace(other, history=(dropped, *other.history))
+        if useful_freedoms(other):
+            return other
+        if movable is None and any(joint.freedoms for joint in other.all_joints):
+            movable = other
+    return movable
+
+
+def useful_freedoms(mechanism: Mechanism) -> int:
+    """Count the freedoms that are of use; 0 where the loops are open in the given pose, so that none can be counted."""
+    return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
+
+
+def _with_seats(
+    assembly: Assembly, contacts: Sequence[Contact], said: Said
+) -> tuple[Mechanism, list[Inference], list[Inference]]:
+    """The mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
+    source = told_by(assembly, contacts)
+    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
+    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+
+    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
+        rigid = [*said.rigid, *(each.parts for each in seats)]
+        found, stopped = infer(assembly.parts, used, said.fixed, rigid, said.joints, ignored)
+        found = [*seats, *found]
+        return from_words(assembly, contacts, said, found), found, stopped
+
+    first = made(())
+    if not (seats := _seats(first[0])):
+        return first
+    then = made(seats)
+    return then if useful_freedoms(then[0]) == useful_freedoms(first[0]) else first
+
+
+def _seats(mechanism: Mechanism) -> list[Inference]:
+    """Bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two cheeks.
+
+    Only where something moves: of a mechanism that is locked nothing is known to be of no use.
+    """
+    if not useful_freedoms(mechanism):
+        return []
+    idle = {*mechanism.mobility().idle}
+    result = []
+    for joint in mechanism.all_joints:
+        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
+        if flat and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle:
+            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a slide that moves nothing else"
+            result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+    return result
+
+
+def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:
+    """The mechanism with a note that counts its inferences by their evidence."""
+    kinds = Counter(str(each.evidence.kind) for each in inferences)
+    if not kinds:
+        return mechanism
+    told = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
+    return replace(mechanism, history=(f"inferred beside exact contacts: {told}", *mechanism.history))
