@@ -1,4 +1,4 @@
-"""Joints found in assemblies that other people drew, against those of their CAD systems: `python benchmarks/cad.py DIR`.
+"""Joints found in assemblies that others drew, against those of their CAD systems: `python benchmarks/cad.py DIR`.
 
 DIR holds assemblies as NAME.step or NAME.step.xz and, where the CAD system's own joints are known, NAME.joints.json:
 `instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres). Without
@@ -52,7 +52,7 @@ def true_mechanism(data: Mapping[str, Any]) -> Mechanism:
 
 
 def rigid_groups(joints: list[jk.Joint], fixed: list[str]) -> list[jk.Joint]:
-    """Weld the labelled parts of each outermost sub-assembly in which no labelled joint moves: exporters leave it out."""
+    """Weld the labelled parts of each outermost sub-assembly in which no labelled joint moves: exports lack these."""
     first: dict[str, str] = {}
     parts = dict.fromkeys(part for each in joints for part in each.parts)
     body = dict(bodies(list(parts), fixed, [each.parts for each in joints if each.kind == "fixed"]))

@@ -44,7 +44,9 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool) -> list[In
         return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
     make = pairs.cylindrical if free is None else pairs.revolute
-    joint = make("-".join(parts), *parts, point=hole.point, axis=hole.axis)
+    # several links on one pin then turn about one axis, by however much their holes are off
+    middle = pair.one.point + ((hole.point - pair.one.point) @ pair.one.axis) * pair.one.axis
+    joint = make("-".join(parts), *parts, point=middle, axis=pair.one.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
     ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
     sizes += [] if free is None else [("play", free)]
