@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from jaxkin.geometry.part import Part
 
@@ -15,6 +15,8 @@ MIN_INSIDE = 0.02
 """Share of them in the material of another part from which on it is embedded; less is rounding where faces touch."""
 SHRUNK = 0.02
 """Points are moved inwards by so much of the part's size, so that those on touching faces are outside of the other."""
+_RAYS = ((0.5773, 0.2113, 0.7887), (-0.7071, 0.6533, 0.2706), (0.1951, -0.9239, 0.3289))
+"""Directions that are askew to the faces and edges of what people draw, so that few rays meet an edge."""
 
 
 def share_inside(part: Part, other: Part) -> float:
@@ -26,21 +28,35 @@ def share_inside(part: Part, other: Part) -> float:
     near = corners[np.all((corners > low) & (corners < high), axis=1)]
     if not len(near):
         return 0.0
-    return float(np.sum(np.abs(_winding(near, other.triangles)) > 0.5) / len(corners))
+    return float(np.sum(inside(near, other.triangles)) / len(corners))
 
 
-def _winding(
+def inside(
     points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
-) -> Float[np.ndarray, " points"]:
-    """How often a closed surface goes round each point: 1 inside, 0 outside (solid angle of all triangles / 4 pi)."""
-    total = np.empty(len(points))
-    for index, point in enumerate(points):
-        a, b, c = np.moveaxis(triangles - point, 1, 0)
-        la, lb, lc = (np.linalg.norm(each, axis=1) for each in (a, b, c))
-        volume = np.einsum("ij,ij->i", a, np.cross(b, c))
-        ab, bc, ca = (np.einsum("ij,ij->i", *pair) for pair in ((a, b), (b, c), (c, a)))
-        total[index] = 2 * np.arctan2(volume, la * lb * lc + ab * lc + bc * la + ca * lb).sum()
-    return total / (4 * np.pi)
+) -> Bool[np.ndarray, " points"]:
+    """Whether points lie in a closed surface: most of three rays from each go through it an odd number of times."""
+    votes = np.zeros(len(points), int)
+    for ray in _RAYS:
+        turn = np.linalg.qr(np.column_stack([ray, np.eye(3)[:, :2]]))[0]
+        seen, corners = points @ turn, triangles @ turn  # the first coordinate is along the ray
+        flat, at = corners[:, :, 1:], seen[:, 1:]
+        met = np.all((flat.max(axis=1) >= at.min(axis=0)) & (flat.min(axis=1) <= at.max(axis=0)), axis=1)
+        votes += _crossed(seen, corners[met]) % 2
+    return votes >= 2
+
+
+def _crossed(
+    points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
+) -> Int[np.ndarray, " points"]:
+    """How many triangles lie ahead of each point along the first coordinate."""
+    start, edges = triangles[None, :, :, 1:], np.roll(triangles, -1, axis=1)[None, :, :, 1:] - triangles[None, :, :, 1:]
+    offset = points[:, None, None, 1:] - start
+    turns = edges[..., 0] * offset[..., 1] - edges[..., 1] * offset[..., 0]
+    over = np.all(turns > 0, axis=-1) | np.all(turns < 0, axis=-1)
+    total = turns.sum(axis=-1)
+    weights = np.roll(turns, -1, axis=-1) / np.where(total == 0, 1.0, total)[..., None]
+    height = np.sum(weights * triangles[None, :, :, 0], axis=-1)
+    return np.sum(over & (height > points[:, None, 0]), axis=1)
 
 
 def boxes_meet(one: Part, other: Part, margin: float = 0.0) -> bool:
