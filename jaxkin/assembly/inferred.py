@@ -47,10 +47,12 @@ def _unlocked(
 ) -> Mechanism | None:
     """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
 
-    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
+    Inferences about parts that lie on others are weaker than those of bolts and pins: these come first. Those about
+    parts that nothing else ties are kept, for without them the parts would be refused.
     """
     movable = None
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
+    tried = [number for number, each in enumerate(found) if each.evidence.kind is not EvidenceKind.NEAREST]
+    for number in tried[: -_TRIED - 1 : -1]:
         fewer = [*found[:number], *found[number + 1 :]]
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
         dropped = f"not inferred, since nothing could move with it: {found[number]}"
