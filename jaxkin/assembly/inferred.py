@@ -15,6 +15,7 @@ from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.components import connected
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -47,19 +48,30 @@ def _unlocked(
 ) -> Mechanism | None:
     """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
 
-    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first.
+    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
+    without which a part would hang on nothing stay.
     """
     movable = None
-    for number in range(len(found) - 1, max(len(found) - 1 - _TRIED, -1), -1):
-        fewer = [*found[:number], *found[number + 1 :]]
+    droppable = [each for each in reversed(found) if each.evidence.kind is not EvidenceKind.NEAREST]
+    for dropping in droppable[:_TRIED]:
+        fewer = [each for each in found if each is not dropping]
+        if _loose(assembly, contacts, said, fewer):
+            continue
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
-        dropped = f"not inferred, since nothing could move with it: {found[number]}"
+        dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
         if useful_freedoms(other):
             return other
         if movable is None and any(joint.freedoms for joint in other.all_joints):
             movable = other
     return movable
+
+
+def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
+    """Whether some part would hang on nothing."""
+    touching = [contact.parts for contact in without(contacts, said.ignore)]
+    ties = [*touching, *said.rigid, *(joint.parts for joint in said.joints), *(each.parts for each in found), said.fixed]
+    return len(connected(assembly.names, [(tie[0], part) for tie in ties for part in tie[1:]])) > 1
 
 
 def useful_freedoms(mechanism: Mechanism) -> int:
