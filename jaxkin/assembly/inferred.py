@@ -40,7 +40,8 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         other = from_words(assembly, contacts, said, [*found, *stopped])
         if 0 < useful_freedoms(other) < useful:
             return _counted(other, [*found, *stopped])
-    return _counted(mechanism, found) if useful else _unlocked(assembly, contacts, said, found) or mechanism
+    unlocked = None if useful else _unlocked(assembly, contacts, said, found)
+    return unlocked or _counted(mechanism, found)
 
 
 def _unlocked(
