@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match, nearest
 from jaxkin.assembly.inferred import inferred
+from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
@@ -99,6 +100,12 @@ class Assembly:
         said = Said(_in_full(fixed, self.names, "fixed"), _groups(rigid, self.names), ignore, joints, combine, align)
         check_said(self.names, said)
         return (inferred if infer and combine else from_words)(self, contacts, said)
+
+    def proposals(
+        self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None
+    ) -> tuple[Proposal, ...]:
+        """Try which parts to fix and what to drive, the best first: see `jaxkin.assembly.proposals.proposals`."""
+        return proposals(self, None if fixed is None else _in_full(fixed, self.names, "fixed"), drive)
 
     def without(self, names: Collection[str]) -> Assembly:
         """The assembly without some parts. ValueError for names that are not there."""

@@ -15,11 +15,15 @@ from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.components import connected
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
     from jaxkin.mechanism.mechanism import Mechanism
 
+_KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
+"""Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
+plates that are bolted together do not move."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -39,7 +43,8 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         other = from_words(assembly, contacts, said, [*found, *stopped])
         if 0 < useful_freedoms(other) < useful:
             return _counted(other, [*found, *stopped])
-    return _counted(mechanism, found) if useful else _unlocked(assembly, contacts, said, found) or mechanism
+    unlocked = None if useful else _unlocked(assembly, contacts, said, found)
+    return unlocked or _counted(mechanism, found)
 
 
 def _unlocked(
@@ -47,21 +52,30 @@ def _unlocked(
 ) -> Mechanism | None:
     """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
 
-    Inferences about parts that lie on others are weaker than those of bolts and pins: these come first. Those about
-    parts that nothing else ties are kept, for without them the parts would be refused.
+    Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
+    without which a part would hang on nothing stay.
     """
     movable = None
-    tried = [number for number, each in enumerate(found) if each.evidence.kind is not EvidenceKind.NEAREST]
-    for number in tried[: -_TRIED - 1 : -1]:
-        fewer = [*found[:number], *found[number + 1 :]]
+    droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
+    for dropping in droppable[:_TRIED]:
+        fewer = [each for each in found if each is not dropping]
+        if _loose(assembly, contacts, said, fewer):
+            continue
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
-        dropped = f"not inferred, since nothing could move with it: {found[number]}"
+        dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
         if useful_freedoms(other):
             return other
         if movable is None and any(joint.freedoms for joint in other.all_joints):
             movable = other
     return movable
+
+
+def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
+    """Whether some part would hang on nothing."""
+    touching = [contact.parts for contact in without(contacts, said.ignore)]
+    ties = [*touching, *said.rigid, *(joint.parts for joint in said.joints), *(each.parts for each in found), said.fixed]
+    return len(connected(assembly.names, [(tie[0], part) for tie in ties for part in tie[1:]])) > 1
 
 
 def useful_freedoms(mechanism: Mechanism) -> int:

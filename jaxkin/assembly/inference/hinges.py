@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.held import same_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import MAX_PLAY, play, stops
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play, stops
+from jaxkin.contacts.contact import Contact
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -21,25 +24,34 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in by_hand:
             between.setdefault(owners, []).append(pair)
-    exact: dict[Pair, list[str]] = {}
+    exact: dict[Pair, list[Contact]] = {}
     for contact in known.contacts:
-        exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact.state)
+        exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
     result = []
     for owners, found in between.items():
-        states = {*exact.get(owners, ())}
+        touching = exact.get(owners, [])
+        states = {contact.state for contact in touching}
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
         if "e" not in states or (states == {"e"} and all(same_axis(pair.other, each.other) for each in found)):
-            result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states)]
+            faces = [contact for contact in touching if contact.state == "a"]
+            across = [np.linalg.norm(np.cross(each.surfaces[0].normal, pair.one.axis)) < ACROSS for each in faces]
+            if not all(across):
+                continue  # faces along the axis keep it from turning: exact contacts say what is left
+            result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states, any(across))]
     return result
 
 
-def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool) -> list[Inference]:
-    """A revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly."""
+def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool) -> list[Inference]:
+    """A revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
+
+    Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
+    """
     body, hole = known.body, pair.other
     members = [[known.solids[name] for name in known.names if body[name] == owner] for owner in owners]
     free = play(stops(members[0], hole), stops(members[1], hole), hole.radius)
     if free is not None and free > MAX_PLAY * hole.radius:
         free = None
+    free = 0.0 if touching else free
     if exact and free is None:
         return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))

@@ -1,0 +1,125 @@
+"""What a user may fix and drive: choices are tried, and ranked by what the mechanism then does."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin.geometry.part import Part
+from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
+    from jaxkin.mechanism.mechanism import Mechanism
+
+TRIED = 3
+"""Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an assembly
+that a person drew is among its largest or best connected bodies."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Parts to fix and coordinates to drive, with what that achieves."""
+
+    fixed: tuple[str, ...]
+    drive: tuple[str, ...]
+    """Coordinates "joint.coordinate" that determine the motion together; none where nothing can be driven."""
+    freedoms: int
+    """Freedoms that are of use."""
+    bodies: int
+    """Bodies that the parts make, the fixed one among them."""
+    moving: int
+    """Joints that the drive moves."""
+    problem: str = ""
+    """Why nothing can be driven; empty where something can."""
+
+    def __str__(self) -> str:
+        lines = f"fixed = {list(self.fixed)!r}"
+        if self.problem:
+            return f"with {lines}: {self.problem}"
+        count = "one freedom" if self.freedoms == 1 else f"{self.freedoms} freedoms"
+        names = " and ".join(map(repr, self.drive))
+        moves = "one joint moves" if self.moving == 1 else f"{self.moving} joints move"
+        return f"with {lines} it has {count} in {self.bodies} bodies, and {names} can be driven; {moves}"
+
+
+def proposals(
+    assembly: Assembly, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None
+) -> tuple[Proposal, ...]:
+    """Try what to fix and what to drive; the proposals that achieve most come first.
+
+    `fixed` are the parts to fix, by default each of a few that may be meant: those of the bodies that are large and
+    joined to many others. `drive` are coordinates that are driven, by default those which leave nothing but idle
+    motions. One freedom comes before several, more joints that move before fewer, and what cannot move comes last.
+
+    Raises ValueError for names that do not exist, and for an assembly without parts.
+    """
+    if fixed is not None:
+        return (_tried(assembly.mechanism(fixed=fixed), fixed, drive),)
+    solids = {part.name: part for part in assembly.parts}
+    if not solids:
+        raise ValueError(f"{assembly.source}: there are no parts, and nothing to fix")
+    base = max(solids, key=lambda name: _extent(solids[name]))
+    mechanism = assembly.mechanism(fixed=[base])
+    others = [part for part in _likely(mechanism, solids) if part not in mechanism.fixed]
+    choices = [[part] for part in others[: TRIED - 1]] + _with_ends(mechanism, solids)
+    found = [_tried(mechanism, [base], drive)]
+    found += [_tried(assembly.mechanism(fixed=choice), choice, drive) for choice in choices]
+    return tuple(sorted(found, key=lambda each: (bool(each.problem), each.freedoms, len(each.fixed), -each.moving)))
+
+
+def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[str]]:
+    """The fixed part with the bodies that only one other one holds, and these alone: brackets on a wall not drawn."""
+    if not mechanism.fixed:
+        return []
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    around: dict[str, set[str]] = {}
+    for one, other in ([owner[part] for part in joint.parts] for joint in mechanism.all_joints if joint.freedoms):
+        around.setdefault(one, set()).add(other)
+        around.setdefault(other, set()).add(one)
+    ends = [body for body, others in around.items() if len(others) == 1 and body != owner[mechanism.fixed[0]]]
+    parts = [max(mechanism.bodies[body], key=lambda part: _extent(solids[part])) for body in ends]
+    base = max(mechanism.fixed, key=lambda part: _extent(solids[part]))
+    alone = [parts] if len(parts) > 1 else []
+    return [[base, *parts], *alone] if parts and len(around) > 2 else []
+
+
+def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
+    """The largest part of each body, those of large and well connected bodies first."""
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    joined = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
+    largest = {body: max(parts, key=lambda part: _extent(solids[part])) for body, parts in mechanism.bodies.items()}
+    order = sorted(largest, key=lambda body: joined[body] * _extent(solids[largest[body]]), reverse=True)
+    return [largest[body] for body in order]
+
+
+def _extent(part: Part) -> float:
+    """The diagonal of the box of a part."""
+    return float(np.linalg.norm(part.box[1] - part.box[0]))
+
+
+def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | None) -> Proposal:
+    """What a mechanism does, driven by some coordinates or by those that its mobility names."""
+    fixed, bodies = tuple(choice), len(mechanism.bodies)
+    if opening(mechanism.linkage, mechanism.unit) is not None:
+        return Proposal(fixed, (), 0, bodies, 0, "its loops are open as it is drawn; see mechanism.close()")
+    mobility = mechanism.mobility()
+    if not mobility.useful:
+        return Proposal(fixed, (), 0, bodies, 0, "nothing can move")
+    driven = tuple(drive) if drive is not None else mobility.drivable
+    plan = mechanism.plan(driven)
+    if drive is not None and plan.notes:
+        return Proposal(fixed, (), mobility.useful, bodies, 0, "; ".join(plan.notes))
+    return Proposal(fixed, driven, mobility.useful, bodies, _moved(mechanism))
+
+
+def _moved(mechanism: Mechanism) -> int:
+    """Number of joints with freedoms that are not idle."""
+    idle = {*mechanism.mobility().idle}
+    return sum(
+        any(f"{joint.name}.{name}" not in idle for name in joint.coordinates) for joint in mechanism.all_joints
+    )

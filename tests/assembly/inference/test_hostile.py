@@ -1,0 +1,112 @@
+"""Assemblies that tie nothing, tie everything, or repeat themselves: right, or named, within bounds of time."""
+
+import time
+
+import numpy as np
+import pytest
+import trimesh
+
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.surfaces import Cylinder, Plane
+
+
+def cylinder(name, point, axis, radius, length, hole=False):
+    """A face all round an axis, with the normal inwards for a hole."""
+    mesh = trimesh.creation.cylinder(radius, length, sections=24)
+    side = np.abs(mesh.face_normals[:, 2]) < 0.5
+    frame = trimesh.geometry.align_vectors([0, 0, 1], axis)
+    corners = mesh.triangles[side] @ frame[:3, :3].T + point
+    surface = Cylinder(np.array(point, float), np.array(axis, float), radius, -1 if hole else 1)
+    return Face(name, surface, corners[:, ::-1] if hole else corners)
+
+
+def box_faces(low, high):
+    """The six planes of a box."""
+    low, high = np.array(low, float), np.array(high, float)
+    mesh = trimesh.creation.box(bounds=[low, high])
+    faces = []
+    for number, normal in enumerate([*np.eye(3), *-np.eye(3)]):
+        side = mesh.face_normals @ normal > 0.5
+        point = high if number < 3 else low
+        faces.append(Face(f"face {number + 1}", Plane(point, normal), mesh.triangles[side]))
+    return faces
+
+
+def part(name, faces):
+    return Part(name, tuple(faces), np.concatenate([face.triangles for face in faces]))
+
+
+def bolt(name, x, y, radius=1.0, length=8.0):
+    return part(name, [cylinder("face 1", (x, y, 0), (0, 0, 1), radius, length)])
+
+
+def plate(name, low, high, holes, radius=1.0):
+    """A plate with holes along z; its planes are not cut out around them."""
+    middle, depth = (low[2] + high[2]) / 2, high[2] - low[2]
+    bores = [
+        cylinder(f"face {number + 7}", (x, y, middle), (0, 0, 1), radius, depth, hole=True)
+        for number, (x, y) in enumerate(holes)
+    ]
+    return part(name, [*box_faces(low, high), *bores])
+
+
+def assembly(*parts):
+    return Assembly(tuple(parts), "mm", "hostile.step")
+
+
+def boxes(names, step=30.0):
+    return [part(name, box_faces((step * k, 0, 0), (step * k + 10, 10, 10))) for k, name in enumerate(names)]
+
+
+def test_parts_in_no_contact_are_left_or_held_and_all_are_named():
+    names = ["base", "b", "c", "d"]
+    mechanism = assembly(*boxes(names)).mechanism(fixed=["base"])
+    assert set(mechanism.parts) == set(names)
+    assert len(mechanism.bodies) == 1
+    for name in names[1:]:
+        assert any(repr(name) in note and "nothing" in note for note in mechanism.notes)
+
+
+def test_parts_in_no_contact_are_refused_without_inference():
+    with pytest.raises(ValueError, match="touch"):
+        assembly(*boxes(["base", "b"])).mechanism(fixed=["base"], infer=False)
+
+
+def test_parts_that_are_excluded_are_not_there():
+    mechanism = assembly(*boxes(["base", "b", "c"])).mechanism(fixed=["base"], exclude=["c"])
+    assert set(mechanism.parts) == {"base", "b"}
+
+
+def test_four_hundred_bolts_hold_two_plates_as_one_body():
+    holes = [(10.0 * i, 10.0 * j) for i in range(20) for j in range(20)]
+    plates = [plate(name, (-5, -5, z), (195, 195, z + 3), holes, 1.1) for name, z in (("lower", -3.0), ("upper", 0.0))]
+    bolts = [bolt(f"bolt {k}", x, y) for k, (x, y) in enumerate(holes)]
+    whole = assembly(*plates, *bolts)
+    whole.contacts()
+    start = time.perf_counter()
+    mechanism = whole.mechanism(fixed=["lower"])
+    assert time.perf_counter() - start < 30.0  # five seconds on a free core
+    assert len(mechanism.bodies) == 1
+    assert any(note.startswith("inferred beside exact contacts") for note in mechanism.notes)
+
+
+def test_bores_on_one_axis_are_hinges_about_it():
+    """Five levers on one axis and no pin: each turns about it, and none is welded for sharing it with all the others."""
+    levers = [plate(f"lever {k}", (-5, -5, 4.0 * k), (30, 5, 4.0 * k + 4), [(0.0, 0.0)], 2.0) for k in range(5)]
+    mechanism = assembly(*levers).mechanism(fixed=["lever 0"])
+    assert len(mechanism.bodies) == 5
+    moving = [joint for joint in mechanism.all_joints if joint.freedoms]
+    assert {str(joint.kind) for joint in moving} == {"revolute"}
+    for joint in moving:
+        np.testing.assert_allclose(np.cross(joint.frames_1[0, :3, 2], [0, 0, 1]), 0.0, atol=1e-9)
+        np.testing.assert_allclose(joint.frames_1[0, :2, 3], 0.0, atol=1e-9)
+
+
+def test_a_part_twice_in_one_place_ends_in_a_mechanism():
+    holes = [(0.0, 0.0)]
+    twice = [plate(name, (-5, -5, 0), (30, 5, 4), holes, 2.0) for name in ("lever", "lever#2")]
+    base = plate("base", (-10, -10, -4), (40, 10, 0), holes, 2.0)
+    mechanism = assembly(base, *twice).mechanism(fixed=["base"])
+    assert set(mechanism.parts) == {"base", "lever", "lever#2"}
+    assert mechanism.mobility().freedoms >= 0
