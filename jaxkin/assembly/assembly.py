@@ -101,9 +101,7 @@ class Assembly:
         check_said(self.names, said)
         return (inferred if infer and combine else from_words)(self, contacts, said)
 
-    def proposals(
-        self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None
-    ) -> tuple[Proposal, ...]:
+    def proposals(self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None) -> tuple[Proposal, ...]:
         """Try which parts to fix and what to drive, the best first: see `jaxkin.assembly.proposals.proposals`."""
         return proposals(self, None if fixed is None else _in_full(fixed, self.names, "fixed"), drive)
 

@@ -71,7 +71,13 @@ def _unlocked(
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
     """Whether some part would hang on nothing."""
     touching = [contact.parts for contact in without(contacts, said.ignore)]
-    ties = [*touching, *said.rigid, *(joint.parts for joint in said.joints), *(each.parts for each in found), said.fixed]
+    ties = [
+        *touching,
+        *said.rigid,
+        *(joint.parts for joint in said.joints),
+        *(each.parts for each in found),
+        said.fixed,
+    ]
     return len(connected(assembly.names, [(tie[0], part) for tie in ties for part in tie[1:]])) > 1
 
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 TRIED = 3
-"""Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an assembly
-that a person drew is among its largest or best connected bodies."""
+"""Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an
+assembly that a person drew is among its largest or best connected bodies."""
 
 
 @dataclass(frozen=True)
@@ -120,6 +120,4 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
 def _moved(mechanism: Mechanism) -> int:
     """Number of joints with freedoms that are not idle."""
     idle = {*mechanism.mobility().idle}
-    return sum(
-        any(f"{joint.name}.{name}" not in idle for name in joint.coordinates) for joint in mechanism.all_joints
-    )
+    return sum(any(f"{joint.name}.{name}" not in idle for name in joint.coordinates) for joint in mechanism.all_joints)

@@ -15,6 +15,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play, stops
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -36,8 +37,9 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
         states = {contact.state for contact in touching}
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
         if "e" not in states or (states == {"e"} and all(same_axis(pair.other, each.other) for each in found)):
-            faces = [contact for contact in touching if contact.state == "a"]
-            across = [np.linalg.norm(np.cross(each.surfaces[0].normal, pair.one.axis)) < ACROSS for each in faces]
+            faces = [contact.surfaces[0] for contact in touching if contact.state == "a"]
+            planes = [face for face in faces if isinstance(face, Plane)]
+            across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
             if not all(across):
                 continue  # faces along the axis keep it from turning: exact contacts say what is left
             result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states, any(across))]
