@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
     from jaxkin.mechanism.mechanism import Mechanism
 
+_KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
+"""Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
+plates that are bolted together do not move."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -53,7 +56,7 @@ def _unlocked(
     without which a part would hang on nothing stay.
     """
     movable = None
-    droppable = [each for each in reversed(found) if each.evidence.kind is not EvidenceKind.NEAREST]
+    droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
     for dropping in droppable[:_TRIED]:
         fewer = [each for each in found if each is not dropping]
         if _loose(assembly, contacts, said, fewer):

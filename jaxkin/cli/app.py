@@ -10,6 +10,8 @@ from jaxkin.cli import run
 from jaxkin.cli.arguments import (
     Drawing,
     Drive,
+    ExactOnly,
+    Exclude,
     Files,
     Fixed,
     Ignore,
@@ -54,6 +56,8 @@ def inspect(
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
+    exclude: Exclude = [],
+    exact_only: ExactOnly = False,
     no_combine: PerContact = False,
     unit: Unit = None,
     png: Picture = None,
@@ -69,7 +73,7 @@ def inspect(
 
         with progress(2) as step:
             step(f"reading {run.named(files)}")
-            study = Options(fixed, rigid, ignore, no_combine=no_combine, unit=unit).on(files)
+            study = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only).on(files)
             step("finding contacts")
             contacts = study.contacts
         if study.assembly:
@@ -91,6 +95,8 @@ def loops(
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
+    exclude: Exclude = [],
+    exact_only: ExactOnly = False,
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
@@ -104,7 +110,7 @@ def loops(
         from jaxkin.cli import report
 
         with progress(2) as step:
-            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit), step)
+            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
         if png:
             from jaxkin.view.structure import draw_structure
 
@@ -120,6 +126,8 @@ def accuracy(
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
+    exclude: Exclude = [],
+    exact_only: ExactOnly = False,
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
@@ -131,7 +139,7 @@ def accuracy(
         from jaxkin.effects.accuracy import combinations, work_precision
 
         with progress(2 + len(combinations())) as step:
-            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit), step)
+            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
             work = work_precision(study.mechanism, study.drive, step=step)
         if png:
             work.plot(png)
@@ -148,6 +156,8 @@ def sweep(
     fixed: Fixed = [],
     rigid: Rigid = [],
     ignore: Ignore = [],
+    exclude: Exclude = [],
+    exact_only: ExactOnly = False,
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
@@ -159,4 +169,4 @@ def sweep(
     parts.
     """
     with one_line_errors():
-        run.sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit))
+        run.sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only))

@@ -22,7 +22,12 @@ Unit = Annotated[
     typer.Option("--unit", metavar="UNIT", help="Of lengths, for STL, OBJ and PLY, which have none: mm, m, in, ..."),
 ]
 Fixed = Annotated[
-    list[str], typer.Option("--fixed", metavar="PART", help="A part that does not move; may be given several times.")
+    list[str],
+    typer.Option(
+        "--fixed",
+        metavar="PART",
+        help='A part that does not move, or "Base*" for all such; may be given several times.',
+    ),
 ]
 Rigid = Annotated[
     list[str],
@@ -39,6 +44,18 @@ Ignore = Annotated[
         metavar="PART,PART",
         help="Contacts to leave out: all between two parts, or one, as in 'slider face 3 - stop face 7'; may be given "
         "several times.",
+    ),
+]
+Exclude = Annotated[
+    list[str],
+    typer.Option("--exclude", metavar="PART", help="A part to leave out; may be given several times."),
+]
+ExactOnly = Annotated[
+    bool,
+    typer.Option(
+        "--exact-only",
+        help="Take contacts that fit exactly only, as in the paper; infer no pins with play, bolts, or parts that "
+        "others hold.",
     ),
 ]
 Drive = Annotated[

@@ -28,6 +28,8 @@ class Options:
     drive: Sequence[str] = ()
     no_combine: bool = False
     unit: str | None = None
+    exclude: Sequence[str] = ()
+    exact_only: bool = False
 
     def on(self, files: Sequence[Path]) -> Study:
         """The study of a file, or of files of one part each, with the options."""
@@ -42,6 +44,8 @@ class Options:
             ignore=[*study.ignore, *ignore],
             ranges=drives or study.ranges,
             combine=study.combine and not self.no_combine,
+            exclude=[*study.exclude, *self.exclude],
+            infer=study.infer and not self.exact_only,
         )
 
     def _study(self, files: Sequence[Path]) -> Study:

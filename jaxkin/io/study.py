@@ -33,6 +33,10 @@ class Study:
     ignore: Sequence[Sequence[str]] = ()
     joints: Sequence[Joint] = ()
     combine: bool = True
+    exclude: Sequence[str] = ()
+    """Parts to leave out."""
+    infer: bool = True
+    """Whether what solids imply beside exact contacts is taken: see `Assembly.mechanism`."""
     detect: bool = True
     """Whether contacts are looked for; otherwise the joints by hand are all there are."""
     align: float | None = None
@@ -64,6 +68,8 @@ class Study:
             combine=self.combine,
             contacts=self.contacts,
             align=self.align,
+            exclude=self.exclude,
+            infer=self.infer and self.detect,
         )
 
     @cached_property
@@ -98,14 +104,9 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     path = Path(path)
     said = read_study_file(path)
     joints = said.made_joints(path.name)
-    common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "joints": joints}
-    common |= {
-        "combine": said.combine,
-        "detect": said.contacts,
-        "ranges": said.ranges(),
-        "unit": said.unit,
-        "align": said.align,
-    }
+    common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "exclude": said.exclude}
+    common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
+    common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent

@@ -149,7 +149,9 @@ class StudyFile(_Table):
     fixed: Annotated[list[str], Field(min_length=1)]
     rigid: list[Annotated[list[str], Field(min_length=2)]] = []
     ignore: list[Pair] = []
+    exclude: list[str] = []
     contacts: bool = True
+    infer: bool = True
     combine: bool = True
     align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
@@ -161,7 +163,7 @@ class StudyFile(_Table):
         if self.geometry is None:
             if not self.joints:
                 raise ValueError("there is nothing to study: expected geometry, or joints, or both")
-            for key in ("rename", "rigid", "ignore", "tolerance"):
+            for key in ("rename", "rigid", "ignore", "exclude", "tolerance"):
                 if key in self.model_fields_set:
                     raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
         return self

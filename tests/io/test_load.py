@@ -76,16 +76,16 @@ def test_fixed_parts_that_are_none(fourbar, fixed, message):
 def test_parts_that_nothing_holds_are_named():
     nested = load(DATA / "nested.step")  # twice a bolt in a washer, and another bolt 10 mm above
     with pytest.raises(ValueError, match=r"^nested\.step: 'other bolt', 'bolt#3' touch no other part"):
-        nested.mechanism(fixed=["washer"])
+        nested.mechanism(fixed=["washer"], infer=False)
     with pytest.raises(ValueError, match=r"no chain of contacts ties 'washer#2', 'bolt#2' to the fixed 'washer', "):
-        nested.mechanism(fixed=["washer", "other bolt", "bolt#3"])
+        nested.mechanism(fixed=["washer", "other bolt", "bolt#3"], infer=False)
 
 
 def test_what_nearly_holds_a_part_is_said(fourbar):
     """The coupler 0.15 mm aside and 0.01 mm above: its holes are off their pins by more than the clearance of a fit."""
     parts = tuple(shifted(part, 0.15, 0.01) if part.name == "coupler" else part for part in fourbar.parts)
     with pytest.raises(ValueError, match="'coupler' touches no other part") as caught:
-        replace(fourbar, parts=parts).mechanism(fixed=["ground"])
+        replace(fourbar, parts=parts).mechanism(fixed=["ground"], infer=False)
     nearly = str(caught.value).splitlines()[1:]
     assert all("nearly (" in line and "coupler" in line for line in nearly)
     assert any("plane on plane" in line for line in nearly)

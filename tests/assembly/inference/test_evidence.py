@@ -1,0 +1,134 @@
+"""What solids imply beside exact contacts: each kind of evidence alone, with its sizes, and what it must not do."""
+
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from jaxkin.joints.evidence import EvidenceKind
+from reference.round_parts import assembly, block, part, pin, ring
+
+BASE = block((-60, -60, -30), (60, 60, -20))
+"""A base that touches nothing of what is tested."""
+
+
+def joint_of(mechanism: jk.Mechanism, one: str, other: str) -> jk.Joint:
+    (name,) = mechanism.joints_between(one, other)
+    return mechanism.joints[name]
+
+
+def hinge_with(radius: float, *more) -> jk.Assembly:
+    """A lever with a bore of 5 mm on a post of the base, of some radius."""
+    base = part("base", BASE, pin(radius, -20, 10))
+    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    return assembly(base, lever, *more)
+
+
+@pytest.mark.parametrize(("radius", "clearance"), [(4.5, 0.5), (4.0, 1.0), (5.3, -0.3)])
+def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
+    mechanism = hinge_with(radius).mechanism(fixed=["base"])
+    joint = joint_of(mechanism, "base", "lever")
+    assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
+    assert dict(joint.evidence.sizes)["clearance"] == pytest.approx(clearance)
+    np.testing.assert_allclose(np.abs(joint.frames_1[0, :3, 2]), [0, 0, 1], atol=1e-12)
+    assert any(f"{abs(clearance):.2g}" in note and "base-lever" in note for note in mechanism.notes)
+    assert np.all(mechanism.sweep({f"{joint.name}.phi": np.linspace(0, 1, 5), f"{joint.name}.z": np.zeros(5)}).closed)
+
+
+@pytest.mark.parametrize("radius", [2.0, 6.5])
+def test_a_post_that_is_far_too_thin_or_thick_is_no_pin(radius):
+    mechanism = hinge_with(radius).mechanism(fixed=["base"])
+    assert not any(joint.freedoms for joint in mechanism.all_joints)
+    assert any("'lever' is tied to nothing" in note for note in mechanism.notes)
+
+
+def test_a_pin_that_fits_is_an_exact_contact_and_stays_one():
+    mechanism = hinge_with(5.0).mechanism(fixed=["base"])
+    assert joint_of(mechanism, "base", "lever").evidence.kind == EvidenceKind.CONTACT
+
+
+def test_faces_that_stop_the_slide_make_it_a_hinge():
+    """A collar 1 mm below the lever and one 2 mm above it: 3 mm of play."""
+    collar = part("base", BASE, pin(4.5, -20, 10), ring(4.5, 9.0, -10, -5), ring(4.5, 9.0, 6, 9))
+    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    joint = joint_of(assembly(collar, lever).mechanism(fixed=["base"]), "base", "lever")
+    assert joint.kind == "revolute" and dict(joint.evidence.sizes)["play"] == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(("gap", "kind"), [(0.0, "revolute"), (40.0, None), (12.0, "cylindrical")])
+def test_equal_bores_without_a_pin_are_a_hinge_where_faces_touch(gap, kind):
+    """One stop is enough here: with a virtual pin, nothing is said about what holds the other side."""
+    base = part("base", BASE, ring(5.0, 12.0, -8, 0))
+    lever = part("lever", ring(5.0, 12.0, gap, gap + 8), block((11, -3, gap), (40, 3, gap + 8)))
+    mechanism = assembly(base, lever).mechanism(fixed=["base"])
+    if kind is None:
+        assert not any(joint.freedoms for joint in mechanism.all_joints)
+        return
+    joint = joint_of(mechanism, "base", "lever")
+    assert joint.evidence.kind == EvidenceKind.VIRTUAL_PIN
+    assert joint.kind == kind
+
+
+def test_two_parallel_axes_hold_two_parts_together():
+    """Two plates with two equal bores each, and nothing in them."""
+    lower = part("lower", BASE, ring(5.0, 12.0, -8, 0), ring(5.0, 12.0, -8, 0, (40, 0)))
+    upper = part("upper", ring(5.0, 12.0, 0, 8), ring(5.0, 12.0, 0, 8, (40, 0)), block((11, -3, 0), (29, 3, 8)))
+    mechanism = assembly(lower, upper).mechanism(fixed=["lower"])
+    assert mechanism.bodies == {"lower": ("lower", "upper")}
+    assert any("2 parallel common axes" in note for note in mechanism.notes)
+
+
+def test_a_pin_in_a_lug_without_a_hole_belongs_to_the_lug():
+    """The base has no bore for the pin that stands in it, and the lever turns about that pin."""
+    stud = part("stud", pin(5.0, -25, 10))
+    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    mechanism = assembly(part("base", BASE), stud, lever).mechanism(fixed=["base"])
+    assert mechanism.bodies["base"] == ("base", "stud")
+    assert joint_of(mechanism, "stud", "lever").freedoms == 2
+
+
+def test_parts_far_from_all_others_stay_where_they_are_and_near_ones_go_along():
+    far, near = part("far", block((400, 0, 0), (410, 10, 10))), part("near", block((41, -3, -4), (50, 3, 4)))
+    mechanism = hinge_with(4.5, far, near).mechanism(fixed=["base"])
+    assert "far" in mechanism.fixed and mechanism.bodies["lever"] == ("lever", "near")
+    assert any("'far' is tied to nothing: left at rest" in note for note in mechanism.notes)
+    assert any("'near' is tied to nothing, and 1 from 'lever'" in note for note in mechanism.notes)
+
+
+def test_exact_contacts_only_on_demand():
+    with pytest.raises(ValueError, match="'lever' touches no other part"):
+        hinge_with(4.5).mechanism(fixed=["base"], infer=False)
+
+
+def test_what_the_user_says_comes_first():
+    """A joint by hand between two parts, parts held together, and contacts ignored: nothing is inferred there."""
+    drawn = hinge_with(4.5)
+    by_hand = jk.revolute("motor", "base", "lever", point=(0, 0, 0), axis=(0, 0, 1))
+    assert drawn.mechanism(fixed=["base"], joints=[by_hand]).joints_between("base", "lever") == ("motor",)
+    assert drawn.mechanism(fixed=["base"], rigid=[["base", "lever"]]).bodies == {"base": ("base", "lever")}
+    exact = hinge_with(5.0).mechanism(fixed=["base"], ignore=[["base", "lever"]])
+    assert not any(joint.freedoms for joint in exact.all_joints)
+
+
+def test_parts_are_left_out_and_named_by_patterns():
+    extra = [part(f"bolt <{k}>", block((100 + 20 * k, 0, 0), (110 + 20 * k, 10, 10))) for k in range(3)]
+    drawn = hinge_with(4.5, *extra)
+    mechanism = drawn.mechanism(fixed=["b?se"], exclude=["bolt*"])
+    assert mechanism.parts == ("base", "lever") and mechanism.fixed == ("base",)
+    assert drawn.mechanism(fixed=["base"], rigid=[["lever", "bolt*"]]).bodies["lever"] == ("lever", *drawn.names[2:])
+    with pytest.raises(ValueError, match=r"exclude names 'nut\*', which no part matches; there is 'base'"):
+        drawn.mechanism(fixed=["base"], exclude=["nut*"])
+    with pytest.raises(ValueError, match=r"exclude names the unknown part 'bolt <9>'; did you mean 'bolt <"):
+        drawn.mechanism(fixed=["base"], exclude=["bolt <9>"])
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
+def test_neither_order_nor_names_nor_place_matter(order):
+    stud, base = part("stud", pin(5.0, -25, 10)), part("base", BASE)
+    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
+    parts = [(base, stud, lever)[k] for k in order]
+    mechanism = assembly(*parts).mechanism(fixed=["base"])
+    assert {frozenset(body) for body in mechanism.bodies.values()} == {
+        frozenset(("base", "stud")),
+        frozenset(("lever",)),
+    }
+    assert mechanism.mobility().freedoms == 2

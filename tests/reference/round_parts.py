@@ -1,0 +1,63 @@
+"""Parts with bores and pins, faces known exactly, without a file: for tests of what solids imply."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import trimesh
+
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.surfaces import Cylinder, Plane
+
+Z = np.array([0.0, 0.0, 1.0])
+SECTIONS = 48
+
+
+def ring(inner: float, outer: float, low: float, high: float, at=(0.0, 0.0)) -> list[tuple]:
+    """Surfaces and triangles of a ring about an axis along z."""
+    mesh = trimesh.creation.annulus(inner, outer, segment=[[*at, low], [*at, high]], sections=SECTIONS)
+    return _faces(mesh, np.array([*at, 0.0]), [(inner, -1), (outer, 1)], low, high)
+
+
+def pin(radius: float, low: float, high: float, at=(0.0, 0.0)) -> list[tuple]:
+    """Surfaces and triangles of a cylinder about an axis along z."""
+    mesh = trimesh.creation.cylinder(radius, segment=[[*at, low], [*at, high]], sections=SECTIONS)
+    return _faces(mesh, np.array([*at, 0.0]), [(radius, 1)], low, high)
+
+
+def block(low: Iterable[float], high: Iterable[float]) -> list[tuple]:
+    """Surfaces and triangles of a box."""
+    mesh = trimesh.creation.box(bounds=[[*low], [*high]])
+    faces = []
+    for normal in (*np.eye(3), *-np.eye(3)):
+        triangles = mesh.triangles[mesh.face_normals @ normal > 0.9]
+        faces.append((Plane(triangles[0, 0], normal), triangles))
+    return faces
+
+
+def _faces(mesh: trimesh.Trimesh, axis: np.ndarray, walls: list[tuple[float, int]], low: float, high: float) -> list:
+    up = mesh.face_normals @ Z
+    faces = [
+        (Plane(axis + height * Z, sign * Z), mesh.triangles[sign * up > 0.9])
+        for height, sign in ((low, -1.0), (high, 1.0))
+    ]
+    middle = mesh.triangles.mean(axis=1) - axis
+    outwards = np.sum(mesh.face_normals[:, :2] * middle[:, :2], axis=1) > 0
+    for radius, side in walls:
+        of_wall = (np.abs(up) < 0.1) & (outwards == (side > 0))
+        faces.append((Cylinder(axis, Z, radius, side), mesh.triangles[of_wall]))
+    return faces
+
+
+def part(name: str, *pieces: list[tuple]) -> Part:
+    """A part of several pieces."""
+    faces = [face for piece in pieces for face in piece]
+    triangles = np.concatenate([triangles for _, triangles in faces])
+    return Part(name, tuple(Face(f"face {k}", *face) for k, face in enumerate(faces, 1)), triangles)
+
+
+def assembly(*parts: Part) -> Assembly:
+    """An assembly in millimetres."""
+    return Assembly(parts, "mm", "drawn.step")
