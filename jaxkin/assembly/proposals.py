@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 TRIED = 3
-"""Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an assembly
-that a person drew is among its largest or best connected bodies."""
+"""Parts that are tried alone as the fixed one: a mechanism of 175 parts takes four seconds, and what is fixed in an
+assembly that a person drew is among its largest or best connected bodies."""
 
 
 @dataclass(frozen=True)

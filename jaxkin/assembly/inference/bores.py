@@ -57,14 +57,13 @@ def bores(part: Part) -> list[Bore]:
 
 
 def _same(one: Cylinder, other: Cylinder) -> bool:
+    if one.side != other.side or abs(one.radius - other.radius) > SAME_LENGTH * one.radius:
+        return False
     offset = other.point - one.point
-    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
-    return bool(
-        one.side == other.side
-        and abs(one.radius - other.radius) <= SAME_LENGTH * one.radius
-        and np.linalg.norm(np.cross(one.axis, other.axis)) <= SAME_ANGLE
-        and apart <= SAME_LENGTH * one.radius
-    )
+    along = float(offset @ one.axis)
+    if float(offset @ offset) - along**2 > (SAME_LENGTH * one.radius) ** 2:  # before the costlier cross product
+        return False
+    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) <= SAME_ANGLE)
 
 
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:

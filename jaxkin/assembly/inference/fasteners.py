@@ -49,6 +49,10 @@ def _slim(part: Part, own: Sequence[Bore]) -> bool:
     return bool(away.max() <= reach * min(bore.radius for bore in own))
 
 
+_PARALLEL = float(np.cos(0.01))
+"""Cosine of the angle up to which the axes of a pattern are parallel: bolts are drawn askew by no hundredth."""
+
+
 @dataclass(frozen=True, eq=False)
 class Stack:
     """Fasteners on one axis, such as a screw with its washers and nut, and what they go through."""
@@ -104,8 +108,8 @@ def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozen
 def _beside(one: Bore, other: Bore) -> bool:
     """Whether two axes are parallel and not the same."""
     offset = other.point - one.point
-    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
-    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) < 0.01 and apart > max(one.radius, other.radius))
+    apart2 = float(offset @ offset) - float(offset @ one.axis) ** 2
+    return abs(float(one.axis @ other.axis)) > _PARALLEL and apart2 > max(one.radius, other.radius) ** 2
 
 
 def bolted(shared: Mapping[frozenset[str], list[Bore]], order: Mapping[str, int]) -> list[Inference]:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+import networkx as nx
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.held import same_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play, stops
 from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -20,7 +24,7 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
     """Joints of two bodies about their common axis, and whether exact contacts say so but for the slide."""
     body, between = known.body, {}
     by_hand = {frozenset(body[part] for part in pair) for pair in known.by_hand}
-    for pair in known.axes:
+    for pair in _neighbours(known.axes, body):
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in by_hand:
             between.setdefault(owners, []).append(pair)
@@ -33,12 +37,35 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
         states = {contact.state for contact in touching}
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
         if "e" not in states or (states == {"e"} and all(same_axis(pair.other, each.other) for each in found)):
-            faces = [contact for contact in touching if contact.state == "a"]
-            across = [np.linalg.norm(np.cross(each.surfaces[0].normal, pair.one.axis)) < ACROSS for each in faces]
+            faces = [contact.surfaces[0] for contact in touching if contact.state == "a"]
+            planes = [face for face in faces if isinstance(face, Plane)]
+            across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
             if not all(across):
                 continue  # faces along the axis keep it from turning: exact contacts say what is left
             result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states, any(across))]
     return result
+
+
+def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:
+    """The common axes of pins, and of bores without a pin those between neighbours along one axis.
+
+    Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
+    """
+    virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
+    lines: list[tuple[Bore, nx.Graph]] = []
+    kept = {id(pair) for pair in axes if not pair.virtual}
+    for pair in virtual:
+        graph = next((graph for line, graph in lines if same_axis(line, pair.one)), None)
+        if graph is None:
+            graph = nx.Graph()
+            lines.append((pair.one, graph))
+        one, other = (body[part] for part in pair.parts)
+        if one != other and not (one in graph and other in graph and nx.has_path(graph, one, other)):
+            graph.add_edge(one, other)
+            kept.add(id(pair))
+        elif graph.has_edge(one, other):
+            kept.add(id(pair))
+    return [pair for pair in axes if id(pair) in kept]
 
 
 def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool) -> list[Inference]:

@@ -48,7 +48,10 @@ class Known:
 
     def add(self, inferences: Sequence[Inference]) -> None:
         """Take inferences of parts that are not one body already, one after another."""
+        body = self.body
         for each in inferences:
-            body = self.body
-            if len({body[part] for part in each.parts}) > 1:
+            owners = {body[part] for part in each.parts}
+            if len(owners) > 1:
                 self.found.append(each)
+                first = min(owners, key=self.order.__getitem__)
+                body = {part: first if owner in owners else owner for part, owner in body.items()}

@@ -15,7 +15,7 @@ def cylinder(name, point, axis, radius, length, hole=False):
     """A face all round an axis, with the normal inwards for a hole."""
     mesh = trimesh.creation.cylinder(radius, length, sections=24)
     side = np.abs(mesh.face_normals[:, 2]) < 0.5
-    frame = trimesh.geometry.align_vectors([0, 0, 1], axis)
+    frame = np.asarray(trimesh.geometry.align_vectors([0, 0, 1], axis))
     corners = mesh.triangles[side] @ frame[:3, :3].T + point
     surface = Cylinder(np.array(point, float), np.array(axis, float), radius, -1 if hole else 1)
     return Face(name, surface, corners[:, ::-1] if hole else corners)
@@ -78,6 +78,7 @@ def test_parts_that_are_excluded_are_not_there():
     assert set(mechanism.parts) == {"base", "b"}
 
 
+@pytest.mark.long
 def test_four_hundred_bolts_hold_two_plates_as_one_body():
     holes = [(10.0 * i, 10.0 * j) for i in range(20) for j in range(20)]
     plates = [plate(name, (-5, -5, z), (195, 195, z + 3), holes, 1.1) for name, z in (("lower", -3.0), ("upper", 0.0))]
@@ -92,7 +93,7 @@ def test_four_hundred_bolts_hold_two_plates_as_one_body():
 
 
 def test_bores_on_one_axis_are_hinges_about_it():
-    """Five levers on one axis and no pin: each turns about it, and none is welded for sharing it with all the others."""
+    """Five levers on one axis and no pin: each turns about it, and none is welded for sharing it with all others."""
     levers = [plate(f"lever {k}", (-5, -5, 4.0 * k), (30, 5, 4.0 * k + 4), [(0.0, 0.0)], 2.0) for k in range(5)]
     mechanism = assembly(*levers).mechanism(fixed=["lever 0"])
     assert len(mechanism.bodies) == 5
