@@ -9,6 +9,7 @@ motion.save("out/")
 from jaxkin import design as design
 from jaxkin.assembly.assembly import Assembly as Assembly
 from jaxkin.assembly.blocking_contacts import BlockingContacts as BlockingContacts
+from jaxkin.assembly.proposals import Proposal as Proposal
 from jaxkin.contacts.contact import Contact as Contact
 from jaxkin.contacts.contact import Contacts as Contacts
 from jaxkin.contacts.states import CONTACT_STATES as CONTACT_STATES

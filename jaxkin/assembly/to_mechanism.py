@@ -143,7 +143,7 @@ def _ties(
 ) -> list[Joint]:
     """A joint without freedoms from the first part of each rigid group to each of the others."""
     centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
-    known = {part: each.evidence for each in inferences if each.joint is None for part in each.parts}
+    known = {part: each.evidence for each in reversed(inferences) if each.joint is None for part in each.parts}
     return [
         joint(
             f"{first}-{part}",

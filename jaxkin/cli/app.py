@@ -67,6 +67,7 @@ def inspect(
     """Print what is found in an assembly: faces, contacts, joints, loops, mobility, and what was refused and why.
 
     Of large assemblies counts come first, and of many parts, contacts and notes of one kind the first stands for all.
+    Without --fixed it proposes what to fix and to drive, found by trying, and goes on with the best of it.
     """
     with one_line_errors():
         from jaxkin.cli import report
@@ -83,7 +84,9 @@ def inspect(
             from jaxkin.view.inspection import draw_inspection
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
-        report.print_mechanism(run.checked(study).mechanism, contacts, verbose)
+        if study.assembly and not study.fixed:
+            study = run.proposed(study)
+        report.print_mechanism(study.mechanism, contacts, verbose)
         if study_file:
             run.write_study(study, files, study_file)
             report.say(f"\nWritten: {study_file}. Choose what drives in it, then run jaxkin sweep {study_file}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -87,6 +88,20 @@ def write_study(study: Study, files: Sequence[Path], target: Path) -> None:
     from_there = [os.path.relpath(file, target.parent).replace(os.sep, "/") for file in files]
     parts = dict(zip((file.stem for file in files), from_there, strict=True))
     write_study(study.mechanism, target, geometry=parts if len(files) > 1 else from_there[0])
+
+
+def proposed(study: Study) -> Study:
+    """The study with the parts fixed that do best of those that are tried, after all proposals are printed."""
+    from jaxkin.cli import report
+
+    with progress(1) as step:
+        step("trying what to fix and to drive")
+        found = study.assembly.proposals() if study.assembly else ()
+    report.say("No part is fixed. What was tried, the best first:")
+    for each in found:
+        report.say(f"  {each}")
+    report.say()
+    return replace(study, fixed=found[0].fixed)
 
 
 def checked(study: Study) -> Study:
