@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import combinations
 
 import numpy as np
 
-from jaxkin.assembly.inference.embedded import boxes_meet
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
@@ -16,6 +16,10 @@ from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
+CANDIDATES = 6
+"""Parts that a part may be nearest to, by their boxes: those that are measured."""
+CORNERS = 12
+"""Corners of a part, the nearest to the box of the other one, from which distances are measured."""
 NEAR = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
@@ -53,41 +57,61 @@ def lying_on_one(known: Known) -> list[Inference]:
 
 
 def tied_to_nothing(known: Known) -> list[Inference]:
-    """Parts that nothing ties to the fixed ones: with the part that they are most likely rigid with, or at rest."""
-    result: list[Inference] = []
-    extent = size(tuple(known.parts))
-    ties = [
-        *map(tuple, known.touching),
-        *(each.parts for each in known.found),
-        *known.rigid,
-        *map(tuple, known.by_hand),
-    ]
+    """Parts that nothing ties to the fixed ones: with the part that they are nearest to, or at rest.
+
+    Groups of parts are joined by the shortest distances first, as a minimum spanning tree is made.
+    """
+    ties = (*known.touching, *(each.parts for each in known.found), *known.rigid, *known.by_hand)
     groups = connected(known.names, [pair for tie in ties for pair in combinations(tie, 2)])
-    held = {name for group in groups if {*known.fixed} & {*group} for name in group}
-    islands = [sorted(group, key=known.order.__getitem__) for group in groups if not held & {*group}]
-    while islands:
-        distance, island, part, host = min(
-            (
-                (_distance(known.solids[part], known.solids[host]), island, part, host)
-                for island in islands
-                for part in island
-                for host in held
-            ),
-            key=lambda each: (each[0], known.order[each[2]], known.order[each[3]]),
-        )
-        islands.remove(island)
-        held |= {*island}
-        near = distance <= NEAR * extent
-        host = host if near else known.fixed[0]
-        where = f", and {distance:.3g} from {host!r}" if near else ": left at rest"
-        text = f"{part!r} is tied to nothing{where}"
-        result.append(Inference((host, part), Evidence(EvidenceKind.NEAREST, (("distance", distance),), text)))
+    group_of = {name: number for number, group in enumerate(groups) for name in group}
+    for name in known.fixed:
+        group_of |= dict.fromkeys(groups[group_of[name]], group_of[known.fixed[0]])
+    home, result = group_of[known.fixed[0]], []
+    for distance, part, host in _distances(known, group_of):
+        own, other = group_of[part], group_of[host]
+        if own != other:
+            text = f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}"
+            result.append(_nearest((host, part), distance, text))
+            gone, stays = (own, other) if own != home else (other, own)
+            group_of = {name: stays if number == gone else number for name, number in group_of.items()}
+    for number in sorted({*group_of.values()} - {home}):
+        part = next(name for name in known.names if group_of[name] == number)
+        text = f"{part!r} is tied to nothing: left at rest"
+        result.append(_nearest((known.fixed[0], part), np.inf, text))
     return result
 
 
+def _nearest(parts: tuple[str, str], distance: float, text: str) -> Inference:
+    return Inference(parts, Evidence(EvidenceKind.NEAREST, (("distance", distance),), text))
+
+
+def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[float, str, str]]:
+    """Distances of parts that nothing ties to the parts next to them, the shortest first; long ones are left out."""
+    home = group_of[known.fixed[0]]
+    low, high = (np.array([part.box[end] for part in known.parts]) for end in (0, 1))
+    numbers = np.array([group_of[name] for name in known.names])
+    limit, found = NEAR * size(tuple(known.parts)), []
+    for index in np.flatnonzero(numbers != home).tolist():
+        gaps = np.linalg.norm(np.maximum(np.maximum(low - high[index], low[index] - high), 0.0), axis=1)
+        gaps[numbers == numbers[index]] = np.inf
+        part = known.parts[index]
+        for other in np.argsort(gaps, kind="stable")[:CANDIDATES].tolist():
+            if gaps[other] <= limit and (distance := _distance(part, known.parts[other])) <= limit:
+                found.append((distance, part.name, known.parts[other].name))
+    return sorted(found, key=lambda each: (each[0], known.order[each[2]], known.order[each[1]]))
+
+
 def _distance(one: Part, other: Part) -> float:
-    """Distance between the boxes of two parts."""
-    if boxes_meet(one, other):
-        return 0.0
-    gap = np.maximum(np.maximum(other.box[0] - one.box[1], one.box[0] - other.box[1]), 0.0)
-    return float(np.linalg.norm(gap))
+    """Distance between two parts: of some corners of either from the triangles of the other."""
+    return min(_from_corners(one, other), _from_corners(other, one))
+
+
+def _from_corners(one: Part, other: Part) -> float:
+    from trimesh.triangles import closest_point
+
+    corners = one.triangles.reshape(-1, 3)
+    away = np.linalg.norm(np.maximum(np.maximum(other.box[0] - corners, corners - other.box[1]), 0.0), axis=1)
+    corners = corners[np.argsort(away, kind="stable")[:CORNERS]]
+    triangles = np.repeat(other.triangles[None], len(corners), axis=0).reshape(-1, 3, 3)
+    points = np.repeat(corners, len(other.triangles), axis=0)
+    return float(np.linalg.norm(closest_point(triangles, points) - points, axis=1).min())
