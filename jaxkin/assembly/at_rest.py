@@ -9,6 +9,7 @@ from jaxkin._names import listed
 from jaxkin.assembly.needless import Found, found_spinning
 from jaxkin.assembly.spinning import Spin
 from jaxkin.contacts.contact import Contact
+from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import structure
@@ -38,7 +39,11 @@ def left_at_rest(mechanism: Mechanism) -> Mechanism:
         elif (spin := _carried_by(resting, each)) is not None:
             name = named.setdefault(frozenset(each.parts), "-".join(each.parts))
             if name not in contacts:
-                joints.append(joint(name, each.parts, spin.kind, (spin.movement,), [spin.frame]))
+                joints.append(
+                    joint(
+                        name, each.parts, spin.kind, (spin.movement,), [spin.frame], evidence=each.evidence or BY_HAND
+                    )
+                )
             contacts[name] = (*contacts.get(name, ()), *mechanism.contacts[each.name])
         else:
             dropped += mechanism.contacts[each.name]

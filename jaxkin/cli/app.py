@@ -85,7 +85,7 @@ def inspect(
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
         if study.assembly and not study.fixed:
-            study = run.proposed(study)
+            study = run.proposed(study, study.assembly)
         report.print_mechanism(study.mechanism, contacts, verbose)
         if study_file:
             run.write_study(study, files, study_file)

@@ -13,6 +13,7 @@ from jaxkin.cli.options import Options
 from jaxkin.cli.progress import progress
 
 if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
     from jaxkin.io.study import Study
 
 LONG = 200_000
@@ -90,13 +91,13 @@ def write_study(study: Study, files: Sequence[Path], target: Path) -> None:
     write_study(study.mechanism, target, geometry=parts if len(files) > 1 else from_there[0])
 
 
-def proposed(study: Study) -> Study:
+def proposed(study: Study, assembly: Assembly) -> Study:
     """The study with the parts fixed that do best of those that are tried, after all proposals are printed."""
     from jaxkin.cli import report
 
     with progress(1) as step:
         step("trying what to fix and to drive")
-        found = study.assembly.proposals() if study.assembly else ()
+        found = assembly.proposals()
     report.say("No part is fixed. What was tried, the best first:")
     for each in found:
         report.say(f"  {each}")
