@@ -100,7 +100,9 @@ def parse_parts(option: str, values: Iterable[str]) -> list[list[str]]:
     groups = []
     for value in values:
         names = [name.strip() for name in _BETWEEN.split(value)]
-        if len(names) < 2 or not all(names):
-            raise ValueError(f"{option} {value}: expected two parts with a comma between them, as in bolt,plate")
+        if not all(names) or (len(names) < 2 and "*" not in value):
+            raise ValueError(
+                f"{option} {value}: expected two parts with a comma between them, as in bolt,plate, or Arm* for several"
+            )
         groups.append(names)
     return groups

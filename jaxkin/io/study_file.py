@@ -147,7 +147,7 @@ class StudyFile(_Table):
     unit: Annotated[str, BeforeValidator(partial(_one_of, METRES))] = ""
     rename: dict[str, str] = {}
     fixed: Annotated[list[str], Field(min_length=1)]
-    rigid: list[Annotated[list[str], Field(min_length=2)]] = []
+    rigid: list[Annotated[list[str], Field(min_length=1)]] = []
     ignore: list[Pair] = []
     exclude: list[str] = []
     contacts: bool = True

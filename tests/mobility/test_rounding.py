@@ -19,7 +19,6 @@ from reference import mechanisms, overconstrained
 from reference.rounding import EVERY, placed, rounded, schmidt_coupling, spherical_wrist, tilted
 from reference.rounding import tilted_fourbar as fourbar
 
-Array = np.ndarray
 TURN = np.linspace(0.0, 2 * np.pi, 50)
 
 
@@ -55,8 +54,7 @@ def test_a_tilt_within_the_noise_changes_nothing(tilt):
 def test_a_coarse_tolerance_finds_no_other_branch():
     """With a tolerance above the tilt poses were called JUMPED that are on the branch."""
     for tilt in (1e-8, 1e-4):
-        motion = fourbar(tilt, align=0).sweep({"A": TURN}, tolerance=1e-3)
-        assert np.all(motion.closed)
+        assert np.all(fourbar(tilt, align=0).sweep({"A": TURN}, tolerance=1e-3).closed)
 
 
 @pytest.mark.parametrize("digits, tilted_by", [(9, 0.0), (6, 0.0), (0, 1e-9), (0, 1e-6)])
@@ -135,7 +133,7 @@ def test_rounded_mechanisms_move_as_exact_ones(name, trials):
         assert np.all(off[closed] <= 10 * error + 1e-12), (trial, off.max() / error)
 
 
-def distance(one: Motion, other: Motion, size: float) -> Array:
+def distance(one: Motion, other: Motion, size: float) -> np.ndarray:
     """How far joints and the centres of balls are apart (poses,), but for what is idle; lengths over the size."""
     idle, worst = set(other.mechanism.mobility().idle), np.zeros(len(other))
     for joint in other.mechanism.all_joints:
