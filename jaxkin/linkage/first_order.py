@@ -61,7 +61,7 @@ def loop_jacobian(
     for row, loop in zip(rows, loops, strict=True):
         for joint, sign in loop:
             row[:, of_joint.get(joint, [])] = sign * screws[:, of_joint.get(joint, [])]
-    return rows.reshape(-1, len(columns))
+    return rows.reshape(len(loops) * EQUATIONS, len(columns))
 
 
 def null_space(

@@ -88,6 +88,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     """
     check_closed(linkage, unit, "mobility", "mobility()")
     every = loop_freedoms(linkage)
+    mobile = [found for found in every if len(found.motions)]
     spins = {part.name: part.freedoms for part in linkage.spinning}
     in_loops = {joint for loop_group in linkage.structure.loop_groups for joint in loop_group.joints}
     outside = [
@@ -101,7 +102,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     coordinates = sum(joint.freedoms for joint in linkage.joints)
     return Mobility(
         freedoms=at_ends + sum(len(found.motions) for found in every),
-        idle_motions=tuple(motion for found in every for motion in IdleMotions(linkage, found, spins).motions),
+        idle_motions=tuple(motion for found in mobile for motion in IdleMotions(linkage, found, spins).motions),
         redundant=sum(EQUATIONS * len(found.loop_group.loops) - found.rank for found in every),
         spinning=tuple(spins),
         spins=sum(spins.values()),
@@ -110,7 +111,7 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
         subgroups=kinds,
         drivable=(
             *outside,
-            *(name for found in every for name in names(linkage, found, drivable(linkage, found, [], spins))),
+            *(name for found in mobile for name in names(linkage, found, drivable(linkage, found, [], spins))),
         ),
     )
 

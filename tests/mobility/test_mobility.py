@@ -246,3 +246,13 @@ def test_a_welded_joint_counts_no_freedom():
 def flat_pin():
     x, y = planar.fourbar(np.array([1.0])).rocker_pin[0]
     return float(x), float(y), 0.0
+
+
+def test_a_loop_of_welds_alone_has_no_freedom_and_closes():
+    """Parts held to each other all round, as by bolts in a ring, with a hinge beside them."""
+    welds = [fixed(f"{one}{other}", one, other) for one, other in ("ab", "bc", "ca")]
+    hinge = revolute("hinge", "c", "d", point=(0, 0, 0), axis=(0, 0, 1))
+    mechanism = Mechanism.build(fixed=["a"], joints=[*welds, hinge])
+    assert (mechanism.mobility().freedoms, mechanism.mobility().redundant) == (1, 6)
+    assert np.all(mechanism.sweep({"hinge": [0.0, 1.0]}).closed)
+    assert Mechanism.build(fixed=["a"], joints=welds).mobility().freedoms == 0
