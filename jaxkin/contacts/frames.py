@@ -39,8 +39,10 @@ def contact_frames(
                 return touch.direction
             case "v1 - p":
                 return unit(s1.apex - touch.point)
-            case _:  # "any"
+            case "any":
                 return np.array([0.0, 0.0, 1.0])
+            case _:
+                raise ValueError(f"{symbol!r} is no direction that a frame of a contact state may have")
 
     def origin(symbol: str) -> Vector:
         match symbol:
@@ -56,8 +58,10 @@ def contact_frames(
                 return s2.centre
             case "l":
                 return foot(centre, touch.point, touch.direction)
-            case _:  # "p"
+            case "p":
                 return touch.point
+            case _:
+                raise ValueError(f"{symbol!r} is no origin that a frame of a contact state may have")
 
     return np.stack([frame(origin(o), direction(z), x if z == "n1" else None) for z, o in state.frames])
 

@@ -9,16 +9,17 @@ from jaxkin.geometry.surfaces import Cone, Plane
 
 _FREE_MOVEMENT = 1e-9
 """Eigenvalues of the normal equations below this, relative to the largest, belong to movements of the surface in
-itself (a cylinder about its axis): about the square of single precision."""
+itself (a cylinder about its axis): roundings of vertices of six digits and more, squared, are below 1e-12."""
 
 
 def fit_uncertainty(face: Face, vertex_resolution: float) -> tuple[float, float]:
     """Estimate how far the surface of a face may be turned, in radians, and be off at the middle of the face, a length.
 
-    `vertex_resolution` is the length by which the vertices are rounded at most. The estimate is the covariance of the
-    least-squares fit: a rotation w and a translation t of the surface change the distance of a vertex at r from the
-    middle by n . (w x r + t), with n the normal there; so does a change of its radius. The surfaces of short pins and
-    narrow planes are uncertain in direction; movements of a surface in itself do not count.
+    `vertex_resolution` is the largest rounding error of the vertices. The estimate is that length times the roots of
+    the largest eigenvalues of the covariance of the least-squares fit: a rotation w and a translation t of the surface
+    change the distance of a vertex at r from the mean of all by n . (w x r + t), with n the normal there; so does a
+    change of its radius, or half-angle. The surfaces of short pins and narrow planes are uncertain in direction;
+    movements of a surface in itself do not count.
     """
     points = np.unique(face.triangles.reshape(-1, 3), axis=0)
     normals = face.surface.normals(points)

@@ -34,7 +34,7 @@ LOWER_PAIRS = {
 
 @dataclass(frozen=True, eq=False)
 class LowerPair:
-    """One of the six lower pairs of the four surfaces, between two parts."""
+    """A revolute, prismatic, cylindrical, planar or spherical pair between two parts, or none of their freedoms."""
 
     kind: JointKind
     movement: str

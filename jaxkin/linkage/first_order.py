@@ -29,9 +29,10 @@ class Thresholds(NamedTuple):
 
 
 DOUBLE = Thresholds(1e-11, 1e-7, 2e-5)
-"""For mechanisms in float64."""
+"""For mechanisms in float64. The rank threshold is the root of the solver's damping, some 45 roundings: that of J J^T,
+from which least-norm steps are computed, is the square, and below 1.5e-8, the root of one rounding, J J^T is noise."""
 SINGLE = Thresholds(1e-5, 1e-3, 1e-3)
-"""For mechanisms in float32."""
+"""For mechanisms in float32, by the same rule: the root of one rounding is 3.5e-4."""
 
 SPREAD = 30.0
 """How large a singular value of a closure Jacobian (relative to the largest) may result from an error of the frames, as
