@@ -5,10 +5,20 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, Protocol
 
 _LISTED = 8
 """Known names that a message lists at most: more are not read."""
+
+
+class InAssembly(Protocol):
+    """What has a name, and lies in sub-assemblies: a part."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def path(self) -> tuple[str, ...]: ...
 
 
 def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
@@ -28,13 +38,47 @@ def match(patterns: Sequence[str], known: Sequence[str], what: str) -> tuple[str
         if not isinstance(pattern, str) or pattern in known or not {*"*?"} & {*pattern}:
             found.append(pattern)  # whether it is known is checked where it is used
             continue
-        parts = re.split(r"([*?])", pattern)
-        form = re.compile("".join({"*": ".*", "?": "."}.get(each, re.escape(each)) for each in parts), re.DOTALL)
+        form = _form(pattern)
         names = [name for name in known if form.fullmatch(name)]
         if not names:
             raise ValueError(f"{what} names {pattern!r}, which no part matches{nearest(pattern, known)}")
         found += [name for name in names if name not in found]
     return tuple(found)
+
+
+def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what: str = "parts") -> tuple[str, ...]:
+    """Names of the parts that some patterns stand for, in the order of the patterns, each once.
+
+    A pattern is a name, a glob ("Base*"), or either with the sub-assemblies before it ("Arm/Base*", "Arm/*"): these may
+    begin at any depth, and "*" goes through all that is below. Raises ValueError for a pattern without a match; `what`
+    begins the message.
+    """
+    paths = {part.name: "/".join((*part.path, part.name)) for part in parts}
+    found: dict[str, None] = {}
+    for pattern in [patterns] if isinstance(patterns, str) else patterns:
+        if not isinstance(pattern, str):
+            raise ValueError(f"{what} names parts by text, as in 'Base' or 'Arm/Base*', got {pattern!r}")
+        names = [pattern] if pattern in paths else _below(pattern, paths)
+        if not names:
+            known = [*paths, *paths.values()] if "/" in pattern else paths
+            raise ValueError(f"{what} names {pattern!r}, which no part matches{nearest(pattern, known)}")
+        found |= dict.fromkeys(names)
+    return tuple(found)
+
+
+def _below(pattern: str, paths: Mapping[str, str]) -> list[str]:
+    """Names whose path ends in what the pattern stands for; without "/" in it, the name alone does."""
+    form = _form(pattern)
+    if "/" not in pattern:
+        return [name for name in paths if form.fullmatch(name)]
+    ends = re.compile("(?:.*/)?" + form.pattern, re.DOTALL)
+    return [name for name, path in paths.items() if ends.fullmatch(path)]
+
+
+def _form(pattern: str) -> re.Pattern[str]:
+    """The pattern as a regular expression: "*" is any text, "?" any one letter, all else itself."""
+    pieces = re.split(r"([*?])", pattern)
+    return re.compile("".join({"*": ".*", "?": "."}.get(each, re.escape(each)) for each in pieces), re.DOTALL)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -48,6 +48,10 @@ class Part:
     """Messages about faces of this part that could not be read as one of the four surfaces."""
     vertex_resolution: float = 0.0
     """Length by which the vertices that surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
+    path: tuple[str, ...] = ()
+    """Names of the sub-assemblies that the part is in, outermost first, without the assembly of the whole file."""
+    original_name: str = ""
+    """The name as the file says it, before it was cleaned and numbered; empty where the file gives none."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:

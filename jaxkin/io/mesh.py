@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
 from jaxkin.io.mesh_check import PARTS
 from jaxkin.io.mesh_nodes import Node, read_nodes
-from jaxkin.io.names import unique
+from jaxkin.io.names import cleaned, unique
 from jaxkin.io.time_limit import TimeLimit
 
 MESHES = (".stl", ".obj", ".ply", ".3mf", ".glb")
@@ -44,11 +45,15 @@ def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None 
         solids = nodes
     else:
         solids = _bodies(nodes[0], path)
-    names = unique(solid.name for solid in solids)
+    # the caller's own name for a whole file is kept as it is
+    names = unique(
+        solid.name if whole is not None else cleaned(solid.name) or f"part {number}"
+        for number, solid in enumerate(solids, start=1)
+    )
     parts = []
     for name, solid in zip(names, solids, strict=True):
         limit.remaining()
-        parts.append(_part(name, solid, path.name))
+        parts.append(replace(_part(name, solid, path.name), original_name=solid.name))
     return tuple(parts), unit
 
 

@@ -1,9 +1,36 @@
-"""Names of parts: one for each."""
+"""Names of parts: readable, one for each."""
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterable
 from itertools import count
+
+LONGEST = 60
+"""Letters of a name; exporters chain the names of files into longer ones, which no table or message has room for."""
+
+_END = 16
+"""Last letters that a shortened name keeps: numbers that tell names apart are mostly at their end."""
+
+_DAMAGED = {"Cc", "Cn", "Co", "Cs"}
+"""Unicode categories of letters that nobody typed: control, unassigned, private, halves of surrogate pairs."""
+
+
+def cleaned(name: str) -> str:
+    """Make a name fit for messages and studies: one line, no letters that cannot be typed, `LONGEST` letters at most.
+
+    White space of any kind becomes one blank; damaged letters become "_", invisible ones are left out. A name that is
+    clean stays as it is.
+    """
+    typed = "".join(" " if letter.isspace() else "_" if _damaged(letter) else letter for letter in name)
+    visible = "".join(letter for letter in typed if unicodedata.category(letter) != "Cf")
+    line = " ".join(visible.split())
+    return line if len(line) <= LONGEST else f"{line[: LONGEST - _END - 3]}...{line[-_END:]}"
+
+
+def is_damaged(name: str) -> bool:
+    """Whether a name has letters that nobody typed: control characters, or the rests of another encoding."""
+    return any(_damaged(letter) for letter in name if not letter.isspace())
 
 
 def unique(names: Iterable[str]) -> list[str]:
@@ -15,3 +42,7 @@ def unique(names: Iterable[str]) -> list[str]:
         result[next(candidate for candidate in numbered if candidate not in result)] = None
         used[name] = used.get(name, 1) + 1
     return list(result)
+
+
+def _damaged(letter: str) -> bool:
+    return letter == "\N{REPLACEMENT CHARACTER}" or unicodedata.category(letter) in _DAMAGED

@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin._files import check_file
 from jaxkin.geometry.part import Part
-from jaxkin.io.names import unique
+from jaxkin.io.names import cleaned, is_damaged, unique
 from jaxkin.io.step_check import missing
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
@@ -35,10 +35,11 @@ _PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator
 def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Part, ...], str]:
     """The parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that unit.
 
-    Each instance of a solid in the assembly is a part. Parts with the same name become "bolt", "bolt#2"; parts without
-    a name "part 1", "part 2" by their place in the file. Faces of a part on one surface are one face; those on none of
-    the four surfaces, and what was repaired, are in the notes of the part. `seconds` is the time allowed, by default
-    that of `TimeLimit`.
+    Each instance of a solid in the assembly is a part. Names are cleaned, with what the file says in `original_name`;
+    parts with the same name become "bolt", "bolt#2", parts without a name "part 1", "part 2" by their place in the
+    file. The sub-assemblies that a part is in are its `path`. Faces of a part on one surface are one face; those on
+    none of the four surfaces, and what was repaired, are in the notes of the part. `seconds` is the time allowed, by
+    default that of `TimeLimit`.
 
     Raises FileNotFoundError where there is no such file, and ValueError where it is no whole STEP file with solids, or
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
@@ -61,7 +62,7 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
         pose = instance.pose.copy()
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
-        parts.append(part)
+        parts.append(replace(part, path=instance.path, original_name=next(iter(_given(instance)), "")))
         doubts += [f"{name!r}: {damage}" for damage in damages]
     if doubts:
         told = "; ".join(doubts[:_TOLD]) + (f"; and {len(doubts) - _TOLD} more" if len(doubts) > _TOLD else "")
@@ -109,4 +110,12 @@ def _checked(path: Path) -> bytes:
 
 
 def _name(instance: Instance, number: int) -> str:
-    return next((name for name in instance.names if not _PLACEHOLDER.fullmatch(name)), f"part {number}")
+    """The name of the instance, else of its product, cleaned; a damaged one only where there is no other."""
+    given = _given(instance)
+    sound = [name for name in given if not is_damaged(name)]
+    return next(filter(None, map(cleaned, sound + given)), f"part {number}")
+
+
+def _given(instance: Instance) -> list[str]:
+    """The names of an instance and its product that somebody gave."""
+    return [name for name in instance.names if not _PLACEHOLDER.fullmatch(name)]

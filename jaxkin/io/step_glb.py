@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.pose import Pose
+from jaxkin.io.names import cleaned, unique
 
 Color = tuple[float, float, float]
 
@@ -25,6 +26,8 @@ class Instance:
 
     names: tuple[str, str]
     """Of the instance and of the product; either may be empty or made up by a translator."""
+    path: tuple[str, ...]
+    """Names of the assemblies that the instance is in, below that of the whole file, outermost first."""
     pose: Pose
     """From the frame of the mesh to the world: rigid to float64, right to float32."""
     triangles: Float[np.ndarray, "triangles 3 3"]
@@ -44,17 +47,27 @@ def instances(glb: bytes) -> Iterator[Instance]:
     """All placed meshes that have triangles, in the order of the file."""
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
-    todo = [(node, np.eye(4)) for node in reversed(tree["scenes"][tree.get("scene", 0)].get("nodes", []))]
+    roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
+    todo = [(node, np.eye(4), (), inner) for node, inner in reversed(_inside(tree, roots, ()))]
+    if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
+        todo = [(roots[0], np.eye(4), (), ())]
     while todo:
-        index, above = todo.pop()
+        index, above, path, inner = todo.pop()
         node = tree["nodes"][index]
         pose = above @ _rigid(node)
-        todo += [(child, pose) for child in reversed(node.get("children", []))]
+        below = _inside(tree, node.get("children", []), inner)
+        todo += [(child, pose, inner, deeper) for child, deeper in reversed(below)]
         mesh: dict[str, Any] = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
         primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
         if primitives:
             names = node.get("name", "").strip(), mesh.get("name", "").strip()
-            yield Instance(names, pose, *_triangles(tree, binary, primitives), *_color(tree, primitives))
+            yield Instance(names, path, pose, *_triangles(tree, binary, primitives), *_color(tree, primitives))
+
+
+def _inside(tree: dict[str, Any], nodes: list[int], path: tuple[str, ...]) -> list[tuple[int, tuple[str, ...]]]:
+    """Each of some nodes side by side, and the path of what is in it: names that come again are numbered."""
+    names = unique(cleaned(tree["nodes"][node].get("name", "")) or "assembly" for node in nodes)
+    return [(node, (*path, name)) for node, name in zip(nodes, names, strict=True)]
 
 
 def _rigid(node: dict[str, Any]) -> Pose:

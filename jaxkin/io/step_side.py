@@ -12,6 +12,9 @@ from jaxtyping import Float
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.surfaces import Surface
 
+_ROUNDING = 1e-9
+"""Of a squared distance: far above the rounding of float64 (1e-16), far below the size of any triangle."""
+
 Triangles = Float[np.ndarray, "_ 3 3"]
 
 
@@ -25,13 +28,25 @@ def points_outwards(surface: Surface, triangles: Triangles, solid: Triangles) ->
     """Whether the normals of the surface point out of the solid: most of nine rays that leave a face."""
     largest = np.argsort(-np.linalg.norm(areas(triangles), axis=-1))[:3]
     votes = []
+    centres = solid.mean(axis=1)
+    radii = np.max(np.sum((solid - centres[:, None]) ** 2, axis=-1), axis=-1)
     tilts = np.random.default_rng(0).normal(size=(3, 3))
     for corners in triangles[largest]:
         start = corners.mean(axis=0)
         normal = surface.normals(start)
-        others = solid[~np.all(solid == corners, axis=(1, 2))]
-        votes += [_crossings(start, normal + 0.3 * tilt, others) % 2 == 0 for tilt in tilts]
+        for direction in normal + 0.3 * tilts:
+            near = solid[_near(start, direction, centres, radii)]
+            others = near[~np.all(near == corners, axis=(1, 2))]
+            votes.append(_crossings(start, direction, others) % 2 == 0)
     return sum(votes) > len(votes) / 2
+
+
+def _near(start: Points, direction: Points, centres: Points, squared_radii: np.ndarray) -> np.ndarray:
+    """Which balls around triangles a line comes near to: few of a solid, so that only these are intersected."""
+    offset = centres - start
+    squared = np.einsum("ij,ij->i", offset, offset)
+    distance = squared - (offset @ direction) ** 2 / (direction @ direction)
+    return distance <= squared_radii + _ROUNDING * squared
 
 
 def _crossings(start: Points, direction: Points, triangles: Triangles) -> int:
