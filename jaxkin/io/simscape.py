@@ -135,7 +135,7 @@ class _Reader:
         return ExportedPart(path, "/".join(names), file, self.placed[path], kilograms, grounded, body)
 
     def _joints(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint]:
-        """Yield the joints and mates of an assembly placed at a path; name what has not two frames, as mates by geometry."""
+        """Yield the joints and mates of an assembly at a path; note those without two frames (mates by geometry)."""
         for one in [*assembly.iterfind("Joints/*"), *assembly.iterfind("Constraints/*")]:
             name = one.get("name", "")
             frames = [one.find("BaseFrame"), one.find("FollowerFrame")]
