@@ -1,0 +1,176 @@
+"""What a CAD system exports for Simscape Multibody: instances, placements, joints, mates and masses, in metres."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.io.xml_tree import read_xml
+
+METRES = {
+    "meter": 1.0, "m": 1.0, "centimeter": 0.01, "cm": 0.01, "millimeter": 0.001, "mm": 0.001,
+    "inch": 0.0254, "in": 0.0254, "foot": 0.3048, "ft": 0.3048,
+}  # fmt: skip
+"""Metres in one unit of length, by the names that exporters write."""
+
+KILOGRAMS = {"kilogram": 1.0, "kg": 1.0, "gram": 0.001, "g": 0.001, "lbm": 0.45359237, "tonne": 1000.0}
+"""Kilograms in one unit of mass."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExportedPart:
+    """An instance of a part, placed."""
+
+    path: tuple[str, ...]
+    """Identifiers of the assemblies that hold it, from the root, and its own."""
+    name: str
+    """Names along the path, joined by "/"."""
+    file: str
+    """Name of its STEP file, beside the XML; empty where the export names none."""
+    transform: np.ndarray
+    """(4, 4) from its file to the world, metres."""
+    mass: float | None
+    """Kilograms."""
+    grounded: bool
+    body: tuple[str, ...] | None
+    """The rigid group that holds it, named by its path and number; None where the part moves alone."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExportedSide:
+    """One side of a joint or mate."""
+
+    path: tuple[str, ...]
+    frame: np.ndarray
+    """(4, 4) in world coordinates, metres; the axis of a joint is its third column."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExportedJoint:
+    """A joint or mate between two instances."""
+
+    name: str
+    kind: str
+    """The tag that the exporter writes: "Revolute", "Weld", ..."""
+    sides: tuple[ExportedSide, ExportedSide]
+
+
+@dataclass(frozen=True, eq=False)
+class Export:
+    """What one XML file says."""
+
+    name: str
+    parts: tuple[ExportedPart, ...]
+    joints: tuple[ExportedJoint, ...]
+    notes: tuple[str, ...]
+    """What is in the file and was not understood, one line each."""
+
+
+def read_export(path: str | Path) -> Export:
+    """Read the XML of Simscape Multibody Link or of a CAD system that writes the same.
+
+    Raises FileNotFoundError where there is no file, and ValueError where the XML is damaged, is of another kind, has
+    an unknown unit, or places an instance by numbers that are not finite.
+    """
+    path = Path(path)
+    root = read_xml(path)
+    if root.tag != "SimscapeMultibodyImportXML" or (assembly := root.find("RootAssembly")) is None:
+        raise ValueError(f"{path.name}: expected SimscapeMultibodyImportXML with a RootAssembly, got <{root.tag}>")
+    return _Reader(path.name, root).export(assembly)
+
+
+class _Reader:
+    """The definitions of one file, and what was not understood in it."""
+
+    def __init__(self, file: str, root: Element) -> None:
+        self.file, self.notes = file, []
+        units = root.find("DataUnits")
+        self.metres = self._unit(units, "length", "meter", METRES)
+        self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
+        self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
+        self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
+        self.placed: dict[tuple[str, ...], np.ndarray] = {}
+
+    def export(self, root: Element) -> Export:
+        """Place all instances, then the joints of the root and of each sub-assembly where it is placed."""
+        tree = root.find("InstanceTree")
+        parts, assemblies = [], [((), root)]
+        if tree is not None:
+            for path, names, instance, grounded, body in self._instances(tree, (), (), np.eye(4), False, None):
+                uid = instance.get("entityUid")
+                if uid in self.part_of:
+                    parts.append(self._part(self.part_of[uid], path, names, grounded, body))
+                elif uid in self.assembly_of:
+                    assemblies.append((path, self.assembly_of[uid]))
+                else:
+                    self.notes.append(f"{'/'.join(names)}: no part or assembly {uid!r} in the file; left out")
+        joints = tuple(joint for path, assembly in assemblies for joint in self._joints(assembly, path))
+        return Export(root.get("name", ""), tuple(parts), joints, tuple(self.notes))
+
+    def _instances(
+        self, at: Element, path: tuple, names: tuple, above: np.ndarray, grounded: bool, body: tuple | None
+    ) -> Iterator[tuple]:
+        """Yield (path, names, element, grounded, body) of the instances inside an element, outer ones first.
+
+        The outermost rigid group decides the body: its members do not move against each other.
+        """
+        for number, one in enumerate(at):
+            held = grounded or one.get("grounded", "").strip().lower() == "true"
+            if one.tag == "Instance":
+                inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
+                self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
+                yield inner, called, one, held, body
+                yield from self._instances(one, inner, called, self.placed[inner], held, body)
+            elif one.tag == "RigidGroup":
+                yield from self._instances(one, path, names, above, held, body or (*path, f"group {number}"))
+
+    def _part(self, part: Element, path: tuple, names: tuple, grounded: bool, body: tuple | None) -> ExportedPart:
+        geometry, mass = part.find("GeometryFile"), part.findtext("MassProperties/Mass")
+        file = "" if geometry is None else geometry.get("name", "")
+        kilograms = None if mass is None else float(self._numbers(mass, 1, names[-1])[0]) * self.kilograms
+        return ExportedPart(path, "/".join(names), file, self.placed[path], kilograms, grounded, body)
+
+    def _joints(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint]:
+        """Yield the joints and mates of an assembly at a path; note those without two frames (mates by geometry)."""
+        for one in [*assembly.iterfind("Joints/*"), *assembly.iterfind("Constraints/*")]:
+            name = one.get("name", "")
+            frames = [one.find("BaseFrame"), one.find("FollowerFrame")]
+            sides = [self._side(frame, path, name) for frame in frames if frame is not None]
+            found = [side for side in sides if side is not None]
+            if len(found) == 2:
+                yield ExportedJoint(name, one.tag, (found[0], found[1]))
+            else:
+                self.notes.append(f"{one.tag} {name!r}: not two frames on instances of the file; left out")
+
+    def _side(self, frame: Element, above: tuple, name: str) -> ExportedSide | None:
+        path = (*above, *(uid.text or "" for uid in frame.iterfind("InstancePath/Uid")))
+        if path not in self.placed:
+            return None
+        return ExportedSide(path, self.placed[path] @ self._transform(frame.find("Transform"), name))
+
+    def _transform(self, at: Element | None, name: str) -> np.ndarray:
+        """Read a (4, 4) transform, metres; rotations are written row by row. The identity where there is none."""
+        transform = np.eye(4)
+        if at is not None:
+            transform[:3, :3] = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
+            transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
+        return transform
+
+    def _numbers(self, text: str | None, count: int, name: str) -> np.ndarray:
+        try:
+            numbers = np.array((text or "").split(), float)
+        except ValueError:
+            numbers = np.empty(0)
+        if len(numbers) != count or not np.isfinite(numbers).all():
+            raise ValueError(f"{self.file}: {name!r}: expected {count} finite numbers, got {text!r}")
+        return numbers
+
+    def _unit(self, units: Element | None, what: str, usual: str, known: dict[str, float]) -> float:
+        name = usual if units is None else units.get(what, usual)
+        if name not in known:
+            raise ValueError(f"{self.file}: unit of {what} {name!r} is not known; expected one of {', '.join(known)}")
+        return known[name]

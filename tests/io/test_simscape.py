@@ -1,0 +1,98 @@
+"""The XML of Simscape Multibody: placements and joints in metres, and nothing dropped in silence."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from jaxkin.io.simscape import read_export
+
+FRAME = "<Transform><Rotation>1 0 0 0 1 0 0 0 1</Rotation><Translation>{}</Translation></Transform>"
+TURNED = "<Transform><Rotation>0 -1 0 1 0 0 0 0 1</Rotation><Translation>{}</Translation></Transform>"
+
+
+def instance(uid: str, of: str, at: str, inside: str = "", **more: str) -> str:
+    said = "".join(f' {name}="{value}"' for name, value in more.items())
+    return f'<Instance entityUid="{of}" name="{uid}" uid="{uid}"{said}>{at}{inside}</Instance>'
+
+
+def side(tag: str, *path: str, at: str = "0 0 0") -> str:
+    uids = "".join(f"<Uid>{uid}</Uid>" for uid in path)
+    return f"<{tag}><InstancePath>{uids}</InstancePath>{FRAME.format(at)}</{tag}>"
+
+
+def written(folder: Path, tree: str, joints: str = "", assemblies: str = "", unit: str = "meter") -> Path:
+    path = folder / "arm.xml"
+    part = '<Part name="p" uid="P"><MassProperties><Mass>2</Mass></MassProperties><GeometryFile name="p.step"/></Part>'
+    path.write_text(
+        f'<SimscapeMultibodyImportXML xmlns="urn:x"><DataUnits length="{unit}" mass="gram"/><RootAssembly name="arm">'
+        f"<InstanceTree>{tree}</InstanceTree><Constraints/><Joints>{joints}</Joints></RootAssembly>"
+        f"<Assemblies>{assemblies}</Assemblies><Parts>{part}</Parts></SimscapeMultibodyImportXML>"
+    )
+    return path
+
+
+def test_placements_are_composed_through_assemblies_and_units(tmp_path: Path) -> None:
+    inner = instance("b", "P", FRAME.format("1 0 0"))
+    tree = instance("a", "A", TURNED.format("0 0 10"), inner, grounded="true")
+    export = read_export(written(tmp_path, tree, assemblies='<Assembly uid="A"/>', unit="inch"))
+    (part,) = export.parts
+    assert (part.name, part.path, part.file, part.grounded) == ("a/b", ("a", "b"), "p.step", True)
+    assert part.mass == pytest.approx(0.002)
+    np.testing.assert_allclose(part.transform[:3, 3], np.array([0, 1, 10]) * 0.0254, atol=1e-15)
+
+
+def test_joints_of_an_assembly_are_found_at_each_of_its_places(tmp_path: Path) -> None:
+    inner = instance("b", "P", FRAME.format("0 0 0")) + instance("c", "P", FRAME.format("0 0 0"))
+    tree = "".join(instance(uid, "A", FRAME.format(at), inner) for uid, at in (("one", "0 0 0"), ("two", "5 0 0")))
+    joint = f'<Revolute name="hinge">{side("BaseFrame", "b", at="1 0 0")}{side("FollowerFrame", "c")}</Revolute>'
+    export = read_export(written(tmp_path, tree, assemblies=f'<Assembly uid="A"><Joints>{joint}</Joints></Assembly>'))
+    assert [(joint.kind, joint.name) for joint in export.joints] == [("Revolute", "hinge")] * 2
+    assert [joint.sides[0].frame[0, 3] for joint in export.joints] == [1, 6]
+    assert export.joints[1].sides[1].path == ("two", "c")
+
+
+def test_members_of_nested_rigid_groups_are_one_body(tmp_path: Path) -> None:
+    b, c, d = (instance(uid, "P", FRAME.format("0 0 0")) for uid in "bcd")
+    export = read_export(written(tmp_path, f"<RigidGroup>{b}<RigidGroup>{c}</RigidGroup></RigidGroup>{d}"))
+    first, second, alone = (part.body for part in export.parts)
+    assert first is not None
+    assert first == second
+    assert alone is None
+
+
+def test_what_is_not_understood_is_named(tmp_path: Path) -> None:
+    tree = instance("b", "P", FRAME.format("0 0 0")) + instance("lost", "Q", FRAME.format("0 0 0"))
+    joint = f'<UnknownConstraint name="odd">{side("BaseFrame", "b")}</UnknownConstraint>'
+    export = read_export(written(tmp_path, tree, joint))
+    assert not export.joints
+    assert any("lost" in note for note in export.notes)
+    assert any("UnknownConstraint 'odd'" in note for note in export.notes)
+
+
+BOMB = '<!DOCTYPE x [<!ENTITY a "aaaa"><!ENTITY b "&a;&a;">]><x>&b;</x>'
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (BOMB, "DOCTYPE"),
+        ("<x><y></x>", "damaged"),
+        ("", "damaged"),
+        ("<x/>", "got <x>"),
+        ("<x>" * 300 + "</x>" * 300, "nested"),
+    ],
+)
+def test_other_files_are_refused_in_one_line(tmp_path: Path, text: str, said: str) -> None:
+    path = tmp_path / "bad.xml"
+    path.write_text(text)
+    with pytest.raises(ValueError, match=said) as raised:
+        read_export(path)
+    assert "\n" not in str(raised.value)
+    assert "bad.xml" in str(raised.value)
+
+
+@pytest.mark.parametrize(("at", "unit"), [("nan 0 0", "meter"), ("1 2", "meter"), ("0 0 0", "cubit")])
+def test_numbers_and_units_that_cannot_be_are_refused(tmp_path: Path, at: str, unit: str) -> None:
+    with pytest.raises(ValueError, match=r"arm\.xml"):
+        read_export(written(tmp_path, instance("b", "P", FRAME.format(at)), unit=unit))
