@@ -7,8 +7,6 @@ from collections.abc import Hashable, Iterable, Sequence
 
 SCREEN = 40
 """Lines of one section of a report that are printed one by one: more do not fit on a screen."""
-LISTED = 6
-"""Names that stand for a longer list of them."""
 _NUMBER = re.compile(r"(?<![A-Za-z])-?\d[\d.]*(?:e[+-]?\d+)?")
 _QUOTED = re.compile(r"'[^']*'")
 _REPEAT = re.compile(r"\s*(?:<\d+>|#\d+|\(\d+\)|:\d+|[-_ .]\d+)$")
@@ -32,12 +30,6 @@ def shortened(lines: Sequence[str]) -> list[str]:
     """Return the first lines, as many as a screen has, and how many more there are."""
     more = len(lines) - SCREEN
     return list(lines) if more <= 0 else [*lines[:SCREEN], f"and {more} more"]
-
-
-def listed(names: Sequence[str]) -> str:
-    """Join names by commas; of many the first ones, and how many more there are."""
-    more = len(names) - LISTED
-    return ", ".join(names) if more <= 1 else f"{', '.join(names[:LISTED])} and {more} more"
 
 
 def grouped(entries: Iterable[tuple[Hashable, str]], verbose: bool = False) -> list[str]:

@@ -28,24 +28,6 @@ def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
     return given
 
 
-def match(patterns: Sequence[str], known: Sequence[str], what: str) -> tuple[str, ...]:
-    """The known names that some patterns stand for, in their order: "*" is any text, "?" any one letter.
-
-    A name that is known stands for itself, whatever letters it has. Raises ValueError for a pattern without a match.
-    """
-    found: list[str] = []
-    for pattern in patterns:
-        if not isinstance(pattern, str) or pattern in known or not {*"*?"} & {*pattern}:
-            found.append(pattern)  # whether it is known is checked where it is used
-            continue
-        form = _form(pattern)
-        names = [name for name in known if form.fullmatch(name)]
-        if not names:
-            raise ValueError(f"{what} names {pattern!r}, which no part matches{nearest(pattern, known)}")
-        found += [name for name in names if name not in found]
-    return tuple(found)
-
-
 def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what: str = "parts") -> tuple[str, ...]:
     """Names of the parts that some patterns stand for, in the order of the patterns, each once.
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
-from jaxkin._names import match, nearest
+from jaxkin._names import match_parts, nearest
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
@@ -65,7 +65,8 @@ class Assembly:
 
         Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
         bolts and what they hold, parts that only one other holds (`jaxkin.assembly.inference`). Each inference is told
-        by `notes`, and by the `evidence` of its joint. Parts are named in full or with "*": `fixed=["Base*"]`.
+        by `notes`, and by the `evidence` of its joint. Parts are named in full or by patterns, `fixed=["Base*"]`, also
+        with the sub-assemblies that they are in, `fixed=["Arm/Base*"]`.
 
         - `rigid`: groups of parts that do not move relative to each other, `[["bolt", "plate"]]`. A group is one body;
           its first part in the order of the assembly holds each of the others by a joint without freedoms.
@@ -86,7 +87,7 @@ class Assembly:
         """
         contacts = self.contacts() if contacts is None else contacts
         if exclude:
-            left = match(exclude, self.names, "exclude")
+            left = _in_full(exclude, self.parts, "exclude")
             return self.without(left).mechanism(
                 fixed=fixed,
                 rigid=rigid,
@@ -97,13 +98,13 @@ class Assembly:
                 align=align,
                 infer=infer,
             )
-        said = Said(_in_full(fixed, self.names, "fixed"), _groups(rigid, self.names), ignore, joints, combine, align)
+        said = Said(_in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align)
         check_said(self.names, said)
         return (inferred if infer and combine else from_words)(self, contacts, said)
 
     def proposals(self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None) -> tuple[Proposal, ...]:
         """Try which parts to fix and what to drive, the best first: see `jaxkin.assembly.proposals.proposals`."""
-        return proposals(self, None if fixed is None else _in_full(fixed, self.names, "fixed"), drive)
+        return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive)
 
     def without(self, names: Collection[str]) -> Assembly:
         """The assembly without some parts. ValueError for names that are not there."""
@@ -147,13 +148,20 @@ class Assembly:
         return f"<Assembly {self.source!r}: {', '.join(self.names)}; {self.unit}>"
 
 
-def _in_full(names: Sequence[str], known: Sequence[str], what: str) -> Sequence[str]:
-    """Names in full for patterns; a text in place of a list is refused where it is used."""
-    return names if isinstance(names, str) else match(names, known, what)
+def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence[str]:
+    """Names in full for patterns with "*", "?" or "/"; other names are checked where they are used."""
+    if isinstance(names, str):
+        return names
+    known = {part.name for part in parts}
+    found: dict[str, None] = {}
+    for name in names:
+        pattern = isinstance(name, str) and name not in known and {*"*?/"} & {*name}
+        found |= dict.fromkeys(match_parts(name, parts, what) if pattern else [name])
+    return tuple(found)
 
 
-def _groups(rigid: Sequence[Sequence[str]], known: Sequence[str]) -> Sequence[Sequence[str]]:
-    return rigid if isinstance(rigid, str) else [_in_full(group, known, "rigid") for group in rigid]
+def _groups(rigid: Sequence[Sequence[str]], parts: Sequence[Part]) -> Sequence[Sequence[str]]:
+    return rigid if isinstance(rigid, str) else [_in_full(group, parts, "rigid") for group in rigid]
 
 
 def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Contacts:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from jaxkin._grouped import SCREEN, grouped, kind_of, listed, shortened
+from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
+from jaxkin._names import listed
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive

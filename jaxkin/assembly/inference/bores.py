@@ -15,6 +15,10 @@ SAME_ANGLE = 1e-4
 """Radians between axes of one part that are one axis: what files in single precision leave of short faces."""
 SAME_LENGTH = 1e-3
 """Over the radius: the same of their distance, and of radii."""
+NEAR_ANGLE = 1e-3
+"""Radians between axes of different parts that are meant to be one axis."""
+NEAR_LENGTH = 0.01
+"""Over the radius: the same of their distance."""
 MAX_OPEN = np.deg2rad(200.0)
 """The widest gap around a bore that still holds what is in it: a half-shell with its tessellation. Fillets are open by
 270 degrees."""
@@ -34,6 +38,12 @@ class Bore:
     """Whether the material is outside, as in a hole; otherwise the faces are those of a pin."""
     half: float
     """Half the length along the axis."""
+
+    def on_axis_of(self, other: Bore, angle: float = NEAR_ANGLE, length: float = NEAR_LENGTH) -> bool:
+        """Whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's radius)."""
+        offset = self.point - other.point
+        apart = np.linalg.norm(offset - (offset @ other.axis) * other.axis)
+        return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle and apart <= length * other.radius)
 
     def reach(self, along: Vector) -> tuple[float, float]:
         """Where the bore begins and ends, along a direction that is parallel to its axis."""

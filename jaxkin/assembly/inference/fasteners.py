@@ -33,13 +33,7 @@ def fasteners(parts: Sequence[Part], bores: Sequence[Bore]) -> set[str]:
 
 
 def _on_one_axis(own: Sequence[Bore]) -> bool:
-    first = own[0]
-    for bore in own[1:]:
-        offset = bore.point - first.point
-        apart = np.linalg.norm(offset - (offset @ first.axis) * first.axis)
-        if np.linalg.norm(np.cross(bore.axis, first.axis)) > SAME_ANGLE or apart > SAME_LENGTH * first.radius:
-            return False
-    return True
+    return all(bore.on_axis_of(own[0], SAME_ANGLE, SAME_LENGTH) for bore in own[1:])
 
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
@@ -109,7 +103,12 @@ def _beside(one: Bore, other: Bore) -> bool:
     """Whether two axes are parallel and not the same."""
     offset = other.point - one.point
     apart2 = float(offset @ offset) - float(offset @ one.axis) ** 2
-    return abs(float(one.axis @ other.axis)) > _PARALLEL and apart2 > max(one.radius, other.radius) ** 2
+    return parallel(one, other) and apart2 > max(one.radius, other.radius) ** 2
+
+
+def parallel(one: Bore, other: Bore) -> bool:
+    """Whether the axes of two fasteners are parallel, as those of one pattern are."""
+    return abs(float(one.axis @ other.axis)) > _PARALLEL
 
 
 def bolted(shared: Mapping[frozenset[str], list[Bore]], order: Mapping[str, int]) -> list[Inference]:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.bores import Bore, bores
+from jaxkin.assembly.inference.bores import bores
 from jaxkin.assembly.inference.embedded import embedded
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.inference import Inference
@@ -42,19 +42,12 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
                 directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
     result = []
     for (pin, other), ways in directions.items():
-        coaxial = any(same_axis(axis_of[pin], bore) for bore in bores(known.solids[other]) if not bore.hole)
+        coaxial = any(bore.on_axis_of(axis_of[pin]) for bore in bores(known.solids[other]) if not bore.hole)
         if len(ways) == 2 or coaxial:
             where = "between two faces" if len(ways) == 2 else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
             result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
     return result
-
-
-def same_axis(one: Bore, other: Bore) -> bool:
-    """Whether two bores have one axis."""
-    offset = other.point - one.point
-    apart = np.linalg.norm(offset - (offset @ one.axis) * one.axis)
-    return bool(np.linalg.norm(np.cross(one.axis, other.axis)) < ACROSS and apart < 0.01 * one.radius)
 
 
 def with_hosts(stack: Stack, known: Known) -> Stack:

@@ -10,7 +10,6 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.held import same_axis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play, stops
@@ -36,7 +35,7 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
         touching = exact.get(owners, [])
         states = {contact.state for contact in touching}
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
-        if "e" not in states or (states == {"e"} and all(same_axis(pair.other, each.other) for each in found)):
+        if "e" not in states or (states == {"e"} and all(each.other.on_axis_of(pair.other) for each in found)):
             faces = [contact.surfaces[0] for contact in touching if contact.state == "a"]
             planes = [face for face in faces if isinstance(face, Plane)]
             across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
@@ -55,7 +54,7 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
     lines: list[tuple[Bore, nx.Graph]] = []
     kept = {id(pair) for pair in axes if not pair.virtual}
     for pair in virtual:
-        graph = next((graph for line, graph in lines if same_axis(line, pair.one)), None)
+        graph = next((graph for line, graph in lines if pair.one.on_axis_of(line)), None)
         if graph is None:
             graph = nx.Graph()
             lines.append((pair.one, graph))

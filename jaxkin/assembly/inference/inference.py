@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from jaxkin._grouped import listed
+from jaxkin._names import listed
 from jaxkin.joints.evidence import Evidence
 from jaxkin.joints.joint import Joint
 

@@ -7,16 +7,14 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.fasteners import Stack
+from jaxkin.assembly.inference.fasteners import Stack, parallel
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.geometry.pose import Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MAX_GAP = 2.0
+MAX_SHORTFALL = 2.0
 """Distance from the end of a screw to the part that it points at, over its radius: a thread drawn a little short."""
-PARALLEL = 0.01
-"""Radians between screws of one pattern."""
 
 
 def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
@@ -32,23 +30,19 @@ def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
             pointing.setdefault(frozenset((*own, body[found[1]])), []).append((stack, found[0]))
     result = []
     for pair, found in pointing.items():
-        parallel = [each for each in found if _parallel(each[0], found[0][0])]
-        if len(parallel) > 1:
-            gap = max(distance for _, distance in parallel)
+        aligned = [each for each in found if parallel(each[0].axis, found[0][0].axis)]
+        if len(aligned) > 1:
+            gap = max(distance for _, distance in aligned)
             one, other = parts = tuple(sorted(pair, key=known.order.__getitem__))
-            text = f"{len(parallel)} parallel screws of {one!r} or {other!r} point at the other one, which has no holes"
-            sizes = (("screws", float(len(parallel))), ("gap", gap))
+            text = f"{len(aligned)} parallel screws of {one!r} or {other!r} point at the other one, which has no holes"
+            sizes = (("screws", float(len(aligned))), ("gap", gap))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 
-def _parallel(one: Stack, other: Stack) -> bool:
-    return bool(np.linalg.norm(np.cross(one.axis.axis, other.axis.axis)) < PARALLEL)
-
-
 def _pointed_at(known: Known, stack: Stack, own: Collection[str]) -> tuple[float, str] | None:
     """The first part that the axis of a screw meets beyond its own body, and how far from the end of the screw."""
-    reach = stack.axis.half + MAX_GAP * stack.axis.radius
+    reach = stack.axis.half + MAX_SHORTFALL * stack.axis.radius
     ends = stack.axis.point - reach * stack.axis.axis, stack.axis.point + reach * stack.axis.axis
     low, high = np.minimum(*ends), np.maximum(*ends)
     hits = []

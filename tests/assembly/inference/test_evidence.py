@@ -1,5 +1,7 @@
 """What solids imply beside exact contacts: each kind of evidence alone, with its sizes, and what it must not do."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -132,3 +134,12 @@ def test_neither_order_nor_names_nor_place_matter(order):
         frozenset(("lever",)),
     }
     assert mechanism.mobility().freedoms == 2
+
+
+def test_parts_are_named_by_the_subassemblies_that_they_are_in():
+    drawn = hinge_with(4.5, part("bolt", block((100, 0, 0), (110, 10, 10))))
+    drawn = replace(drawn, parts=tuple(replace(each, path=("Arm <1>",)) for each in drawn.parts))
+    mechanism = drawn.mechanism(fixed=["Arm*/b?se"], exclude=["Arm*/bo*"])
+    assert mechanism.parts == ("base", "lever") and mechanism.fixed == ("base",)
+    with pytest.raises(ValueError, match=r"rigid names 'Leg/\*', which no part matches"):
+        drawn.mechanism(fixed=["base"], rigid=[["base", "Leg/*"]])
