@@ -39,6 +39,12 @@ LISTED = 3
 LOCKS = ("weld", "lock", "fixed")
 """Mates that leave no freedom."""
 
+LIMIT = "limit"
+"""How the names of mates begin that allow a range of distances or angles, which the export does not say."""
+
+UNKNOWN = "UnknownConstraint"
+"""Mates that the exporter has no name for: gears, locks, slots. Their own names may tell."""
+
 PARALLEL = 1e-5
 """Radians within which the features of a mate are parallel: exports round directions to nine digits, and systems solve
 mates to about 1e-6."""
@@ -210,7 +216,14 @@ def _mate(each: ExportedMate, where: _Places, metres: float, length: float, note
     if parts is None:
         notes.append(f"{text}: it is not between two parts; left out")
         return None
-    if each.kind.lower() in LOCKS:
+    if each.name.lower().startswith(LIMIT):
+        notes.append(
+            f"{text} between {parts[0]!r} and {parts[1]!r} is a limit by its name: it holds nothing in between"
+        )
+        return None
+    if each.kind.lower() in LOCKS or (each.kind == UNKNOWN and each.name.lower().startswith(LOCKS)):
+        if each.kind == UNKNOWN:
+            notes.append(f"{text} between {parts[0]!r} and {parts[1]!r} is taken for a lock, by its name")
         return Constraint(
             cleaned(each.name), parts, text, Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None]), JointKind.FIXED
         )

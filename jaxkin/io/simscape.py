@@ -72,7 +72,7 @@ class MatedFeature:
     kind: str
     """As the exporter writes it: "plane", "line", "cylinder", "point", ..."""
     point: np.ndarray
-    """(3,) in world coordinates, metres."""
+    """(3,) in world coordinates, metres; the origin of the instance where the export has none."""
     axis: np.ndarray | None
     """(3,) unit vector in world coordinates: of a plane its normal; None where the export has none."""
 
@@ -122,11 +122,12 @@ class _Reader:
         self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
         self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
+        self.root = ""
         self.placed: dict[tuple[str, ...], np.ndarray] = {(): np.eye(4)}
 
     def export(self, root: Element) -> Export:
         """Place all instances, then the joints of the root and of each sub-assembly where it is placed."""
-        tree = root.find("InstanceTree")
+        tree, self.root = root.find("InstanceTree"), root.get("uid", "")
         parts, assemblies = [], [((), root)]
         if tree is not None:
             for path, names, instance, grounded, body in self._instances(tree, (), (), np.eye(4), False, None):
@@ -179,15 +180,16 @@ class _Reader:
                 self.notes.append(f"{one.tag} {name!r}: no two frames or features of instances of the file; left out")
 
     def _side(self, frame: Element | None, above: tuple, name: str) -> ExportedSide | None:
-        if frame is None or (path := _path(frame, above)) not in self.placed:
+        if frame is None or (path := self._path(frame, above)) not in self.placed:
             return None
         return ExportedSide(path, self.placed[path] @ self._transform(frame.find("Transform"), name))
 
     def _feature(self, geometry: Element, above: tuple, name: str) -> MatedFeature | None:
-        if (path := _path(geometry, above)) not in self.placed:
+        if (path := self._path(geometry, above)) not in self.placed:
             return None
-        place, axis = self.placed[path], None
-        point = self._numbers(geometry.findtext("Position"), 3, name) * self.metres
+        place, axis, point = self.placed[path], None, np.zeros(3)
+        if (written := geometry.findtext("Position")) is not None:
+            point = self._numbers(written, 3, name) * self.metres
         if (written := geometry.findtext("Axis")) is not None:
             axis = self._numbers(written, 3, name)
             if not (length := float(np.linalg.norm(axis))):
@@ -202,6 +204,11 @@ class _Reader:
             transform[:3, :3] = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
+
+    def _path(self, side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
+        """Identifiers from the root to the instance that a side of a joint or mate is on; of the root itself none."""
+        path = tuple(uid.text or "" for uid in side.iterfind("InstancePath/Uid"))
+        return above if path == (self.root,) and (*above, *path) not in self.placed else (*above, *path)
 
     def _numbers(self, text: str | None, count: int, name: str) -> np.ndarray:
         try:
@@ -221,8 +228,3 @@ class _Reader:
 
 def _true(instance: Element, attribute: str) -> bool:
     return instance.get(attribute, "").strip().lower() == "true"
-
-
-def _path(side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
-    """Identifiers from the root to the instance that a side of a joint or mate is on."""
-    return (*above, *(uid.text or "" for uid in side.iterfind("InstancePath/Uid")))

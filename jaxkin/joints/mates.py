@@ -40,6 +40,8 @@ class Feature:
     point: Vector
     axis: Vector
     """Unit vector along a line, or normal to a plane; of a point any."""
+    circle: bool = False
+    """Whether it is the axis of a circle, which lies in a plane, too."""
 
     @staticmethod
     def of(geometry: str, point: Vector, axis: Vector | None) -> Feature | None:
@@ -47,7 +49,8 @@ class Feature:
         kind = _FEATURES.get(geometry.strip().lower())
         if kind is None or (axis is None and kind != "point"):
             return None
-        return Feature(kind, point, np.array([0.0, 0.0, 1.0]) if axis is None else axis)
+        circle = geometry.strip().lower() == "circle"
+        return Feature(kind, point, np.array([0.0, 0.0, 1.0]) if axis is None else axis, circle)
 
 
 class MateSet(NamedTuple):
@@ -68,6 +71,8 @@ def mate(tag: str, one: Feature, other: Feature, angle: float, length: float) ->
     mate has them: a line that is not parallel to its plane, a perpendicular mate that is not.
     """
     tag = tag.lower()
+    if tag == "coincident" and (found := _circle_in_plane(one, other, angle, length)):
+        return found
     if tag in KEEP_DISTANCE:
         order: tuple[FeatureKind, ...] = ("plane", "line", "point")
         swapped = order.index(one.kind) > order.index(other.kind)
@@ -77,6 +82,18 @@ def mate(tag: str, one: Feature, other: Feature, angle: float, length: float) ->
     if tag in KEEP_ANGLE and "point" not in (one.kind, other.kind):
         return MateSet(_angle_kept(one, other, angle), None)
     return None
+
+
+def _circle_in_plane(one: Feature, other: Feature, angle: float, length: float) -> MateSet | None:
+    """The displacements of a circle on a circle, or in a plane; None for other features."""
+    flat = [feature.circle or feature.kind == "plane" for feature in (one, other)]
+    if not all(flat) or not (one.circle or other.circle) or not _parallel(one, other, angle):
+        return None
+    if not (one.circle and other.circle):
+        return MateSet(*_state("a", frame(one.point, one.axis)))
+    if np.linalg.norm(other.point - one.point) > length:
+        return None
+    return MateSet(Chain([_ALONE[JointKind.REVOLUTE]], frame(one.point, one.axis)[None]), JointKind.REVOLUTE)
 
 
 Found = tuple[Chain, JointKind] | None
