@@ -128,8 +128,8 @@ def mate(kind, name, *sides):
 def loaded(folder, tree, joints="", mates="", assemblies=""):
     path = folder / "machine.xml"
     path.write_text(
-        f'<SimscapeMultibodyImportXML xmlns="urn:x"><RootAssembly name="machine"><InstanceTree>{tree}</InstanceTree>'
-        f"<Constraints>{mates}</Constraints><Joints>{joints}</Joints></RootAssembly>"
+        '<SimscapeMultibodyImportXML xmlns="urn:x"><RootAssembly name="machine" uid="machine">'
+        f"<InstanceTree>{tree}</InstanceTree><Constraints>{mates}</Constraints><Joints>{joints}</Joints></RootAssembly>"
         f'<Assemblies>{assemblies}</Assemblies><Parts><Part uid="P" name="p"/></Parts></SimscapeMultibodyImportXML>'
     )
     with warnings.catch_warnings():
@@ -183,6 +183,8 @@ PLANE, LINE, POINT = ("plane", (0, 0, 0), Z), ("line", (0, 0, 0), X), ("point", 
         ("Concentric", POINT, ("sphere", (0, 0, 0), Z), 3),
         ("Distance", POINT, ("point", (0, 0.1, 0), Z), 5),
         ("Tangent", PLANE, ("cylinder", (0, 0, 0.1), X), 4),
+        ("Coincident", ("circle", (0, 0, 0), Z), ("circle", (0, 0, 0), (0, 0, -1)), 1),
+        ("Coincident", ("circle", (0.1, 0, 0), Z), PLANE, 3),
         ("Lock", POINT, POINT, 0),
     ],
 )
@@ -308,3 +310,28 @@ def test_solids_in_several_units_are_converted_and_solids_of_one_instance_are_on
     np.testing.assert_allclose(np.ptp(pin.box, axis=0), 1000 * np.ptp(metres.box, axis=0), rtol=1e-3)  # chords
     for face in pin.faces:  # the surfaces are scaled with their triangles
         assert np.abs(face.surface.distance(face.triangles.reshape(-1, 3))).max() < 1e-3
+
+
+def test_mates_that_exporters_have_no_name_for_are_read_by_their_own(tmp_path):
+    """A lock comes without geometry, and a limit as a distance."""
+    tree = at("base", grounded="true") + at("slide") + at("knob")
+    nothing = "".join(
+        f'<ConstraintGeometry geomType="Unknown"><InstancePath><Uid>{uid}</Uid></InstancePath></ConstraintGeometry>'
+        for uid in ("slide", "knob")
+    )
+    mates = f'<UnknownConstraint name="Lock3">{nothing}</UnknownConstraint>'
+    mates += mate("Distance", "LimitDistance1", ("base", *PLANE), ("slide", *PLANE))
+    mates += mate("Concentric", "pin", ("base", *LINE), ("slide", *LINE))
+    mechanism = loaded(tmp_path, tree, mates=mates).mechanism()
+    assert mechanism.bodies["slide"] == ("slide", "knob")
+    assert mechanism.mobility().freedoms == 2
+    for said in ("'Lock3' between 'slide' and 'knob' is taken for a lock", "'LimitDistance1'"):
+        assert any(said in note for note in mechanism.notes)
+
+
+def test_mates_with_planes_of_the_assembly_are_with_what_is_held(tmp_path):
+    """Exporters name the assembly itself by its own identifier."""
+    tree = at("base", (1, 0, 0), grounded="true") + at("slide")
+    mates = mate("Coincident", "top", ("machine", "plane", (0, 0, 0.5), Z), ("slide", "plane", (0, 0, 0.5), Z))
+    (joint,) = loaded(tmp_path, tree, mates=mates).mechanism().all_joints
+    assert joint.kind == "planar" and joint.parts == ("base", "slide")
