@@ -64,6 +64,7 @@ class Assembly:
         align: float | int | None = None,
         exclude: Sequence[str] = (),
         infer: bool = True,
+        clearance: float | int | None = None,
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
 
@@ -86,6 +87,8 @@ class Assembly:
         - `exclude`: parts to leave out.
         - `infer`: without it contacts that are exact are all, as in the paper; parts that they tie to nothing are
           refused. Neither is anything inferred with `combine=False`.
+        - `clearance`: the largest radial clearance of a pin that is inferred to be in its hole, in the unit of the
+          assembly; by default a quarter of the radius.
         - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 
@@ -105,8 +108,11 @@ class Assembly:
                 contacts=None if contacts is None else _contacts_without(contacts, left),
                 align=align,
                 infer=infer,
+                clearance=clearance,
             )
-        said = Said(_in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align)
+        said = Said(
+            _in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align, clearance
+        )
         if infer and contacts is None and self.exported is not None:
             return from_export(self, self.exported, said)
         contacts = self.contacts() if contacts is None else contacts

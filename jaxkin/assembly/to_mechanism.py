@@ -58,12 +58,16 @@ class Said(NamedTuple):
     joints: Sequence[Joint] = ()
     combine: bool = True
     align: float | int | None = None
+    clearance: float | int | None = None
 
 
 def check_said(names: Sequence[str], said: Said) -> None:
     """Refuse words that name no parts, or that are no such groups: ValueError."""
     check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(names, said.fixed, said.rigid)
+    clearance = said.clearance
+    if clearance is not None and (isinstance(clearance, bool | str) or not 0 <= clearance < np.inf):
+        raise ValueError(f"clearance must be a radial length in the unit of the file, such as 0.2, got {clearance!r}")
 
 
 def from_words(

@@ -39,6 +39,8 @@ class Study:
     """Whether what solids imply beside exact contacts is taken: see `Assembly.mechanism`."""
     detect: bool = True
     """Whether contacts are looked for; otherwise the joints by hand are all there are."""
+    clearance: float | None = None
+    """The largest clearance of a pin that is inferred: see `Assembly.mechanism`."""
     align: float | None = None
     """The largest misalignment that is taken for rounding: see `Mechanism.build`."""
     tolerance: Mapping[str, float] = field(default_factory=dict)
@@ -83,6 +85,7 @@ class Study:
             align=self.align,
             exclude=self.exclude,
             infer=self.infer and self.detect,
+            clearance=self.clearance,
         )
 
     @cached_property
@@ -120,6 +123,7 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "exclude": said.exclude}
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
     common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
+    common |= {"clearance": said.clearance}
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent
