@@ -72,6 +72,9 @@ class Movement:
     """True for the three angles of a ball, in gimbal lock at phi = 90 deg: the solver uses a quaternion instead."""
     pair: str | None = None
     """Name of the lower pair that has this movement, a `JointKind`; None where no lower pair has it."""
+    letter: str | None = None
+    """Letter of the pair in the names of loops (RSSR); None where it is written as those of its elementary
+    motions: R of a rotation, P of a translation, H of a screw."""
     feature: InvariantFeature | None = None
     """The feature that the movement leaves in place on both parts; None for no movement at all."""
     features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
@@ -145,6 +148,7 @@ MOVEMENTS: dict[str, Movement] = {
         coordinates=("z", "phi"),
         elements=(_translate(2, 0), _rotate(2, 1)),
         pair="cylindrical",
+        letter="C",
         feature=InvariantFeature("axis"),
         surface="cylinder",
         aligned=frozenset({"axis", "direction"}),
@@ -155,6 +159,7 @@ MOVEMENTS: dict[str, Movement] = {
         coordinates=("x", "y", "phi"),
         elements=(_translate(0, 0), _translate(1, 1), _rotate(2, 2)),
         pair="planar",
+        letter="E",
         feature=InvariantFeature("plane"),
         surface="plane",
         aligned=frozenset({"direction"}),
@@ -164,6 +169,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_theta_phi": Movement(
         coordinates=("theta", "phi"),
         elements=(_rotate(1, 1), _rotate(0, 0)),
+        letter="U",
         feature=InvariantFeature("point"),
         # Ry(phi) Rx(theta), the universal joint: part 1 holds the y axis of the cross, part 2 its x axis
         features_alone=(InvariantFeature("axis", 1, marked=True), InvariantFeature("axis", 0, marked=True)),
@@ -176,6 +182,7 @@ MOVEMENTS: dict[str, Movement] = {
         elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
         ball=True,
         pair="spherical",
+        letter="S",
         feature=InvariantFeature("point"),
         surface="sphere",
         aligned=frozenset({"centre"}),

@@ -15,6 +15,11 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, rotation
 from jaxkin.joints.joint import Joint
 
+DEPENDENT = 1e-9
+"""Singular value of the screws of a joint, lengths scaled to the size of the mechanism, at which they are dependent.
+Screws of one joint are unit twists at a few lever arms and dependent exactly or not at all: 1e-9 is above their
+rounding, 1e-14, and a hundred times below the rank threshold of whole loops (`linkage.first_order.DOUBLE`)."""
+
 Frames = Float[np.ndarray, "frames 4 4"]
 Screws = Float[np.ndarray, "6 freedoms"]
 """Columns (w; v): angular velocity, and velocity of the point of the body at the origin of the world."""
@@ -83,10 +88,10 @@ def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 po
 def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
     """Find an orthonormal basis of the constraints: rows that vanish on all given screws.
 
-    Singular values of the screws below 1e-9 count as zero.
+    Singular values of the screws up to `DEPENDENT` count as zero.
     """
     basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
-    return basis[:, int(np.sum(strengths > 1e-9)) :].T
+    return basis[:, int(np.sum(strengths > DEPENDENT)) :].T
 
 
 def moved(pose: Pose, screws: Screws) -> Screws:
