@@ -17,5 +17,6 @@ others must not have:
 | `joints.screws.misfit` | cutoff at 1e-10 | one chain that is to make a given displacement: there is no loop |
 | `effects.extended` | none | fifty digits, with a Jacobian in float64 |
 
-The correctors take a `problem.ClosureProblem`: loops, their constants, options. The host versions are kept apart because compiling a corrector takes longer than all host analyses of a mechanism.
+The first three take a `problem.ClosureProblem`: loops, their constants, options. The host versions are kept apart
+because compiling a corrector takes longer than all host analyses of a mechanism.
 """
