@@ -10,8 +10,9 @@ is keyed by movements.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -221,11 +222,25 @@ def _displaced(
     frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
 ) -> Rigid:
     """Multiply frames by one elementary motion from the right."""
-    i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
-    columns = [frame[:, column] for column in range(4)]
+    advance = None
     if element.kind != "rotate":
-        columns[3] = columns[3] + columns[i] * (q if element.kind == "translate" else q * pitch / (2 * jnp.pi))
-    if element.kind != "translate":
-        cos, sin = cos_sin(q)
-        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+        advance = q if element.kind == "translate" else q * pitch / (2 * jnp.pi)
+    turn = None if element.kind == "translate" else tuple(cos_sin(q))
+    columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, advance, turn)
     return jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
+
+
+def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
+    """Multiply frames F by an elementary motion E about a local axis from the right, F E, in any arithmetic.
+
+    `columns` are those of F: three axes and the origin. E advances along the axis by `advance` and turns about it by
+    the angle of which `turn` is cosine and sine; None is for no advance, and for no turn.
+    """
+    i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
+    columns = list(columns)
+    if advance is not None:
+        columns[3] = columns[3] + columns[i] * advance
+    if turn is not None:
+        cos, sin = turn
+        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+    return columns

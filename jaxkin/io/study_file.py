@@ -21,17 +21,7 @@ from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.alignment import PLAY
 
-KINDS = {
-    "revolute": pairs.revolute,
-    "prismatic": pairs.prismatic,
-    "cylindrical": pairs.cylindrical,
-    "planar": pairs.planar,
-    "spherical": pairs.spherical,
-    "universal": pairs.universal,
-    "screw": pairs.screw,
-    "fixed": pairs.fixed,
-    "contact": pairs.contact_joint,
-}
+KINDS = {str(kind): function for kind, function in pairs.BY_HAND.items()} | {"contact": pairs.contact_joint}
 """Kinds of joints by hand; the keys that each takes are the arguments of its function."""
 
 LARGEST = 1_000_000

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
 from jaxkin.geometry.pose import Pose, inverse, rotation
 from jaxkin.joints.joint import Joint
 
@@ -65,14 +65,11 @@ def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
         for element in MOVEMENTS[movement].elements:
             value = q[:, first + element.coordinate]
-            columns = [found[:, column] for column in range(4)]
-            i, j, k = (np.arange(3) + element.axis) % 3
+            advance = None
             if element.kind != "rotate":
-                advance = 1.0 if element.kind == "translate" else float(joint.pitch) / (2 * np.pi)
-                columns[3] = columns[3] + advance * value * columns[i]
-            if element.kind != "translate":
-                cos, sin = np.cos(value), np.sin(value)
-                columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+                advance = value if element.kind == "translate" else float(joint.pitch) / (2 * np.pi) * value
+            turn = None if element.kind == "translate" else (np.cos(value), np.sin(value))
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
         found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
         first += len(MOVEMENTS[movement].coordinates)

@@ -35,7 +35,7 @@ class Known:
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = {frozenset(joint.parts) for joint in joints}
         self.touching = {frozenset(contact.parts) for contact in contacts}
-        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.state == "e"}
+        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         found = common_axes([bore for part in parts for bore in bores(part)])
         self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
