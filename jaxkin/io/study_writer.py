@@ -16,7 +16,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.pairs import BY_HAND
+from jaxkin.joints.pairs import JOINTS_BY_HAND
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -100,8 +100,8 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     """The kind of a joint as a study names it, and its arguments."""
     pose = np.asarray(joint.frames_1, float)[0]
     usual = np.allclose(pose, frame(pose[:3, 3], pose[:3, 2]), atol=_SAME)
-    if joint.kind in BY_HAND and (usual or joint.kind not in _AS_CONTACT):
-        takes = signature(BY_HAND[joint.kind]).parameters
+    if joint.kind in JOINTS_BY_HAND and (usual or joint.kind not in _AS_CONTACT):
+        takes = signature(JOINTS_BY_HAND[joint.kind]).parameters
         return str(joint.kind), {key: said(joint, pose) for key, said in WRITTEN_ARGUMENTS.items() if key in takes}
     if joint.kind in _AS_CONTACT:
         letter, region = _AS_CONTACT[joint.kind], None

@@ -120,7 +120,7 @@ def contact_joint(
     return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
 
 
-BY_HAND: dict[str, Callable[..., Joint]] = {
+JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.REVOLUTE: revolute,
     JointKind.PRISMATIC: prismatic,
     JointKind.CYLINDRICAL: cylindrical,

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 PANEL = 340
 """Pixels of a side of a panel."""
-COLUMNS = 4
+GALLERY_COLUMNS = 4
 
 
 def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Contact] | None = None) -> None:
@@ -42,7 +42,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
     parts = {part.name: part for part in assembly.parts}
     tolerance = default_length(assembly.parts)
     entries = legend_of_regions(contacts)
-    columns = min(COLUMNS, len(contacts))
+    columns = min(GALLERY_COLUMNS, len(contacts))
     pairs = [[parts[name] for name in contact.parts] for contact in contacts]
     canvases = [_square(canvas_of(pair, (), PANEL)) for pair in pairs]
     sheet = make_sheet(canvases[0], columns, -(-len(contacts) // columns), entries)

@@ -16,7 +16,7 @@ from jaxkin.io.study_writer import WRITTEN_ARGUMENTS
 from jaxkin.joints.combine import LOWER_PAIRS, lower_pairs
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.pairs import BY_HAND
+from jaxkin.joints.pairs import JOINTS_BY_HAND
 from jaxkin.view.sticks import stick_parts
 
 PACKAGE = Path(jk.__file__).parent
@@ -59,7 +59,7 @@ def test_a_fit_is_where_one_surface_fills_the_other():
 @pytest.mark.parametrize("kind", [kind for kind in JointKind if not kind.startswith("contact")])
 def test_a_joint_by_hand_is_one_row_for_users_and_studies(kind):
     """What its function takes can be read from a study, and be written to one from a joint that it made."""
-    function = BY_HAND[kind]
+    function = JOINTS_BY_HAND[kind]
     takes = {
         name for name, argument in signature(function).parameters.items() if argument.kind is argument.KEYWORD_ONLY
     }
