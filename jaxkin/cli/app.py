@@ -78,13 +78,13 @@ def inspect(
             step("finding contacts")
             contacts = study.contacts
         if study.assembly:
-            report.print_contacts(study.assembly, contacts, verbose)
+            report.print_assembly(study.assembly, None if study.by_export else contacts, verbose)
         # only now: what stands above helps to see why the mechanism is refused
         if png and study.assembly:
             from jaxkin.view.inspection import draw_inspection
 
-            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
-        if study.assembly and not study.fixed:
+            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.held else None)
+        if study.assembly and not study.held:
             study = run.proposed(study, study.assembly)
         report.print_mechanism(study.mechanism, contacts, verbose)
         if study_file:

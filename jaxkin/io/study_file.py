@@ -146,6 +146,7 @@ class StudyFile(_Table):
     exclude: list[str] = []
     contacts: bool = True
     infer: bool = True
+    clearance: Annotated[Number, Field(ge=0)] | None = None
     combine: bool = True
     align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
@@ -157,7 +158,7 @@ class StudyFile(_Table):
         if self.geometry is None:
             if not self.joints:
                 raise ValueError("there is nothing to study: expected geometry, or joints, or both")
-            for key in ("rename", "rigid", "ignore", "exclude", "tolerance"):
+            for key in ("rename", "rigid", "ignore", "exclude", "clearance", "tolerance"):
                 if key in self.model_fields_set:
                     raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
         return self

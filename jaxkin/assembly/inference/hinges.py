@@ -22,7 +22,8 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 def hinges(known: Known) -> list[tuple[Inference, bool]]:
     """Joints of two bodies about their common axis, and whether exact contacts say so but for the slide."""
     body, between = known.body, {}
-    by_hand = {frozenset(body[part] for part in pair) for pair in known.by_hand}
+    given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
+    by_hand = {frozenset(body[part] for part in pair) for pair in given}
     for pair in _neighbours(known.axes, body):
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in by_hand:
