@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.io.xml_tree import read_xml
 
-METRES = {
+METRES_BY_NAME = {
     "meter": 1.0, "m": 1.0, "centimeter": 0.01, "cm": 0.01, "millimeter": 0.001, "mm": 0.001,
     "inch": 0.0254, "in": 0.0254, "foot": 0.3048, "ft": 0.3048,
 }  # fmt: skip
@@ -118,7 +118,7 @@ class _Reader:
     def __init__(self, file: str, root: Element) -> None:
         self.file, self.notes = file, []
         units = root.find("DataUnits")
-        self.metres = self._unit(units, "length", "meter", METRES)
+        self.metres = self._unit(units, "length", "meter", METRES_BY_NAME)
         self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
         self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}

@@ -13,7 +13,7 @@ from jaxkin.view.sticks import stick_parts
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-GREY = (0.62, 0.64, 0.66)
+FIXED_COLOR = (0.62, 0.64, 0.66)
 """Fixed bodies."""
 
 PALETTE = (
@@ -39,7 +39,7 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     colors, of_part = cycle(PALETTE), {}
     for parts in mechanism.bodies.values():
         if not painted.issuperset(parts):
-            of_part |= dict.fromkeys(parts, GREY if parts[0] in mechanism.fixed else next(colors))
+            of_part |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in mechanism.fixed else next(colors))
     return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
 
 

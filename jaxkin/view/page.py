@@ -21,7 +21,7 @@ from jaxkin.view.scene import Scene, make_scene
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
+MAX_PAGE_POSES = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
 TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
 RISE = 0.52  # pitch that one in space is first seen from
 
@@ -30,8 +30,8 @@ def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None =
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
-    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn;
-    at poses where joints leave their faces, these are told and marked.
+    in `storyboard`. At most `MAX_PAGE_POSES` poses are kept, evenly in order of the input. Failed poses are told, not
+    drawn; at poses where joints leave their faces, these are told and marked.
 
     Raises ValueError for an unknown part and for points that are not such.
     """
@@ -48,7 +48,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     """What `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
     low, high = scene.bounds
     centre, scale = scene.view.axes.T @ (low + high) / 2, float(np.linalg.norm(high - low) / 2)
-    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MOST)).astype(int))]
+    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MAX_PAGE_POSES)).astype(int))]
     axes, yaw, pitch = scene.view.axes, *TILT
     if not scene.view.planar:  # the turntable stands upright in the world
         up = np.array([0.0, 0.0, 1.0])

@@ -45,7 +45,8 @@ def infer(
     known.add(bearing_bodies(known, rolling))
     fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
     fastening -= {name for each in rolling for name in (each.outer, each.inner)}
-    fastening -= {*fixed, *(part for contact in contacts if contact.state not in "ae" for part in contact.parts)}
+    others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
+    fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     every = [with_hosts(stack, known) for stack in stacks(known.axes, fastening, known.touching, known.order)]

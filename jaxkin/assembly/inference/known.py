@@ -36,7 +36,7 @@ class Known:
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = {frozenset(joint.parts) for joint in joints}
         self.touching = {frozenset(contact.parts) for contact in contacts}
-        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.state == "e"}
+        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         self.bores = {part.name: bores(part) for part in parts}
         found = common_axes([bore for own in self.bores.values() for bore in own], clearance)
