@@ -16,7 +16,7 @@ from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
-from jaxkin.joints.evidence import BY_HAND
+from jaxkin.joints.evidence import BY_HAND, Bond
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
@@ -90,7 +90,11 @@ def from_words(
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
     told = (*_left_out(len(contacts) - len(used), replaced, own, body), *map(str, inferences), *_told(contacts))
-    return replace(mechanism, history=(*told, *mechanism.history))
+    bonds = (
+        *(Bond(tuple(group)) for group in said.rigid),
+        *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
+    )
+    return replace(mechanism, history=(*told, *mechanism.history), bonds=bonds)
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:

@@ -53,10 +53,22 @@ def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: V
 
 def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path) -> None:
     """Write what was found as a study that names its geometry from where it stands."""
+    from jaxkin.io.study_choices import small_ranges
     from jaxkin.io.study_writer import write_study
 
     if files[0].suffix.lower() == ".toml":
         raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
     from_there = [os.path.relpath(file, target.parent).replace(os.sep, "/") for file in files]
     parts = dict(zip((file.stem for file in files), from_there, strict=True))
-    write_study(study.mechanism, target, geometry=parts if len(files) > 1 else from_there[0])
+    mechanism = study.mechanism
+    names = study.assembly.names if study.assembly else ()
+    with progress(1) as step:
+        step("trying what is open in the study")
+        write_study(
+            mechanism,
+            target,
+            geometry=parts if len(files) > 1 else from_there[0],
+            drive=small_ranges(mechanism, _drivable(study)),
+            exclude=[name for name in names if name not in mechanism.parts],
+            proposals=tried,
+        )

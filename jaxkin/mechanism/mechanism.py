@@ -13,6 +13,7 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import Bond
 from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
@@ -53,6 +54,8 @@ class Mechanism:
     """The contacts that a joint stands for, by its name; none for joints by hand."""
     contacts_at_rest: tuple[Contact, ...] = field(default=())
     """Contacts of parts that only spin and are left at rest, which no joint stands for."""
+    bonds: tuple[Bond, ...] = field(default=())
+    """Which parts were taken as one, those of the fixed body too, each with what that is known from."""
 
     @staticmethod
     def build(
