@@ -53,7 +53,7 @@ def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: V
 
 def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path) -> None:
     """Write what was found as a study that names its geometry from where it stands."""
-    from jaxkin.io.study_choices import small_ranges
+    from jaxkin.io.study_drives import small_drive
     from jaxkin.io.study_writer import write_study
 
     if files[0].suffix.lower() == ".toml":
@@ -68,7 +68,7 @@ def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], 
             mechanism,
             target,
             geometry=parts if len(files) > 1 else from_there[0],
-            drive=small_ranges(mechanism, _drivable(study)),
+            drive=small_drive(mechanism),
             exclude=[name for name in names if name not in mechanism.parts],
             proposals=tried,
         )

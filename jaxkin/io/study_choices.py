@@ -12,13 +12,12 @@ import numpy as np
 from jaxkin._grouped import product
 from jaxkin._names import match_parts
 from jaxkin.assembly.assembly import Assembly
-from jaxkin.geometry.movements import is_length
-from jaxkin.geometry.part import Part, size
+from jaxkin.geometry.part import Part
 from jaxkin.io.study_bodies import Bodies
+from jaxkin.io.study_drives import can_drive, small_ranges
 from jaxkin.io.toml_text import toml
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
@@ -27,9 +26,6 @@ if TYPE_CHECKING:
 
 _DRIVES = 12
 """Other drives that are listed at most: each is one more line of the same mechanism."""
-_TURN, _SLIDE = "-10:10:21", 0.01
-"""Degrees, and lengths over the size of the assembly, that a joint is driven by until the user says how far: so little
-that few mechanisms meet a limit."""
 _SURE = (EvidenceKind.CONTACT, EvidenceKind.USER, EvidenceKind.EXPORT)
 """Joints that nobody would turn off: they are not inferred."""
 
@@ -45,12 +41,6 @@ class Choices:
 
 
 NONE = Choices()
-
-
-def small_ranges(mechanism: Mechanism, names: Sequence[str]) -> dict[str, str]:
-    """Return a small range to either side of the assembled pose for each of some coordinates, as studies have them."""
-    length = f"{_SLIDE * size(mechanism.solids):.1g}" if mechanism.solids else "1"
-    return {name: f"-{length}:{length}:21" if is_length(name.rpartition(".")[2]) else _TURN for name in names}
 
 
 def find_choices(
@@ -89,9 +79,12 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
     for each in proposals:
         if set(each.fixed) == set(tried.fixed):
             continue
-        mechanism = tried.with_fixed(each.fixed)
+        try:
+            mechanism = tried.with_fixed(each.fixed)
+        except ValueError:  # both parts of a joint of the study would be fixed
+            continue
         driven = () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable
-        if driven and _can_drive(mechanism, driven):
+        if driven and can_drive(mechanism, driven):
             choice = {"fixed": each.fixed, "drive": small_ranges(mechanism, driven)}
             lines.append(f"# instead = {toml(choice)}  # {_told(mechanism)}")
     return lines
@@ -107,7 +100,7 @@ def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> list[str]:
             if name in driven or name in idle:
                 continue
             places = [tuple(name if each == one else each for each in driven) for one in driven]
-            found = next((place for place in places if _can_drive(mechanism, place)), None)
+            found = next((place for place in places if can_drive(mechanism, place)), None)
             if found:
                 lines.append(f"# instead = {toml({'drive': small_ranges(mechanism, found)})}")
     return lines
@@ -118,7 +111,7 @@ def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
     if any(name.rpartition(".")[0] == joint.name for name in driven):
         return "# (It is driven: choose another drive before you turn it off.)"
     mechanism = tried.without(joint)
-    if driven and not _can_drive(mechanism, driven):
+    if driven and not can_drive(mechanism, driven):
         return "# (Without it what is driven could not move.)"
     return f"# off = true  # without it: {_told(mechanism)}"
 
@@ -154,16 +147,6 @@ def _means(pattern: str, solids: Sequence[Part], names: Sequence[str]) -> bool:
 
 def _inferred(joint: Joint) -> bool:
     return joint.evidence is not None and joint.evidence.kind not in _SURE
-
-
-def _can_drive(mechanism: Mechanism, names: Sequence[str]) -> bool:
-    """Whether the loops can follow a drive of these coordinates."""
-    if opening(mechanism.linkage, mechanism.unit) is not None:
-        return False
-    try:
-        return plan_drive(mechanism.linkage, tuple(names)).infeasible is None
-    except ValueError:  # angles of a ball that are driven together only
-        return False
 
 
 def _told(mechanism: Mechanism) -> str:
