@@ -32,8 +32,8 @@ AXIS = (0.86, 0.08, 0.24)
 """Axes of joints: a red that no body has."""
 TRIED = "Tried to be fixed"
 """The heading of what could be fixed."""
-WIDTH = 3
-"""Pixels of an axis: the edges of parts have one."""
+WIDTH, THROUGH = 3, 0.75
+"""Pixels of an axis, of which the edges of parts have one, and how much of it is seen where parts hide it."""
 
 
 def inspection_page(
@@ -75,10 +75,11 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
     joints = sorted(mechanism.all_joints if mechanism else (), key=lambda joint: not joint.freedoms)
     boxes = {part.name: (part.box - centre) / scale for part in solids}
     axes = [(joint, _axis(joint, boxes, centre, scale)) for joint in joints if joint.freedoms]
-    facts = [f"{len(solids)} parts", f"{len(bodies)} bodies", f"{len(axes)} joints that move"] if mechanism else []
+    facts = [f"{len(solids)} parts"]
+    facts += [f"{len(bodies)} bodies", f"joints that move: {len(axes)}"] if mechanism else []
     return {
         "title": source,
-        "subtitle": "  ·  ".join([*(facts or [f"{len(solids)} parts"]), f"lengths in {found.unit or 'no known unit'}"]),
+        "subtitle": "  ·  ".join([*facts, f"lengths in {found.unit or 'no known unit'}"]),
         "labels": [""],
         "problems": [""],
         "lost": [""],
@@ -99,7 +100,9 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
             for name, parts in bodies.items()
         ],
         "parts": [entry | _told(part, found.unit) for entry, part in zip(entries, solids, strict=True)],
-        "paths": [{"color": list(AXIS), "width": WIDTH, "points": encoded(points)} for _, points in axes],
+        "paths": [
+            {"color": list(AXIS), "width": WIDTH, "through": THROUGH, "points": encoded(points)} for _, points in axes
+        ],
         "marks": [],
         "joints": [_joint(joint, mechanism, index) for joint in joints if mechanism],
     }

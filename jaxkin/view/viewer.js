@@ -229,7 +229,7 @@ function drawPaths(dark, paper) {
   gl.enable(gl.STENCIL_TEST);
   gl.stencilFunc(gl.EQUAL, 0, 255);
   gl.stencilOp(gl.KEEP, gl.KEEP, gl.INCR);
-  for (const path of seen) drawLines(path.lines, still, [...shade(path.color), 0.35], path.width ?? 2, 0);
+  for (const path of seen) drawLines(path.lines, still, [...shade(path.color), path.through ?? 0.35], path.width ?? 2, 0);
   gl.disable(gl.STENCIL_TEST);
   gl.depthFunc(gl.LEQUAL);
   for (const path of seen) drawLines(path.lines, still, [...shade(path.color), 1], path.width ?? 2, 0);
