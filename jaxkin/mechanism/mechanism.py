@@ -67,8 +67,7 @@ class Mechanism:
         moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
         `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
 
-        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
-        such number.
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is wrong.
         """
         noise = asked_noise(align)
         check_joints(joints)
@@ -252,10 +251,7 @@ class Mechanism:
         return replace(self, linkage=linkage, alignment=notes)
 
     def plan(self, drive: Iterable[str]) -> Plan:
-        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`.
-
-        Raises ValueError where the given pose is open.
-        """
+        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
         from jaxkin.mechanism.plan import plan
 
         return plan(self, drive)

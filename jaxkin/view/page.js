@@ -1,5 +1,5 @@
 "use strict";
-// The controls of the animated page: slider, play, legend. Drawing, mouse and touch are in `viewer.js`.
+// The controls of the animated page: slider, play, legend. Drawing is in `viewer.js`, mouse and touch are in `mouse.js`.
 const DURATION = 6000;  // milliseconds from one end of the range to the other
 
 function show(newPose) {

@@ -20,13 +20,14 @@ if TYPE_CHECKING:
 
 
 def write_page(path: Path | str, name: str, scene: Mapping[str, object]) -> None:
-    """Write the page `name.html` with its controls `name.js`, the viewer, and the scene that both read.
+    """Write the page `name.html` with its controls `name.js`, the viewer, and the scene that they read.
 
     The page needs nothing else, neither a network nor a server.
     """
     data = json.dumps(scene, ensure_ascii=False, separators=(",", ":"))
     text = _read(f"{name}.html").replace("{{style}}", _read("viewer.css"))
-    text = text.replace("{{viewer}}", _read("viewer.js")).replace("{{controls}}", _read(f"{name}.js"))
+    text = text.replace("{{viewer}}", _read("viewer.js") + _read("mouse.js"))
+    text = text.replace("{{controls}}", _read(f"{name}.js"))
     Path(path).write_text(text.replace("{{scene}}", data.replace("<", "\\u003c")), "utf-8")  # no name ends the script
 
 
