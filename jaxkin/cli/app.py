@@ -103,8 +103,7 @@ def inspect(
             written.write_page(study, tried, page)
             report.say(f"\nWritten: {page}. Open it in a browser.")
         if study_file:
-            written.write_study(study, files, tried, study_file)
-            report.say(f"\nWritten: {study_file}. Choose among its lines, then: jaxkin sweep {study_file} --out motion")
+            report.say(f"\nWritten: {study_file}. {written.write_study(study, files, tried, study_file)}")
 
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")

@@ -51,8 +51,8 @@ def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: V
     inspection_page(assembly, page, source=assembly.source, missing=missing, contacts=contacts)
 
 
-def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path) -> None:
-    """Write what was found as a study that names its geometry from where it stands."""
+def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path) -> str:
+    """Write what was found as a study that names its geometry from where it stands; say what can be done with it."""
     from jaxkin.io.study_drives import small_drive
     from jaxkin.io.study_writer import write_study
 
@@ -64,11 +64,15 @@ def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], 
     names = study.assembly.names if study.assembly else ()
     with progress(1) as step:
         step("trying what is open in the study")
+        drive = small_drive(mechanism)
         write_study(
             mechanism,
             target,
             geometry=parts if len(files) > 1 else from_there[0],
-            drive=small_drive(mechanism),
+            drive=drive,
             exclude=[name for name in names if name not in mechanism.parts],
             proposals=tried,
         )
+    if not drive:
+        return "Nothing can drive in it yet: see its last line."
+    return f"Choose among its lines, then: jaxkin sweep {target} --out motion"

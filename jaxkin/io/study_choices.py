@@ -14,7 +14,7 @@ from jaxkin._names import match_parts
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part
 from jaxkin.io.study_bodies import Bodies
-from jaxkin.io.study_drives import can_drive, small_ranges
+from jaxkin.io.study_drives import can_drive, small_ranges, useful_coordinates
 from jaxkin.io.toml_text import toml
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
@@ -92,17 +92,12 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
 
 def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> list[str]:
     """Coordinates that can take the place of one of those that drive."""
-    lines, idle = [], {*mechanism.mobility().idle} if driven else set()
-    for joint in mechanism.all_joints if driven else ():
-        for name in (f"{joint.name}.{coordinate}" for coordinate in joint.coordinates):
-            if len(lines) == _DRIVES:
-                return lines
-            if name in driven or name in idle:
-                continue
-            places = [tuple(name if each == one else each for each in driven) for one in driven]
-            found = next((place for place in places if can_drive(mechanism, place)), None)
-            if found:
-                lines.append(f"# instead = {toml({'drive': small_ranges(mechanism, found)})}")
+    lines: list[str] = []
+    for name in useful_coordinates(mechanism) if driven else ():
+        places = [tuple(name if each == one else each for each in driven) for one in driven if name not in driven]
+        found = next((place for place in places if can_drive(mechanism, place)), None)
+        if found and len(lines) < _DRIVES:
+            lines.append(f"# instead = {toml({'drive': small_ranges(mechanism, found)})}")
     return lines
 
 

@@ -37,6 +37,14 @@ def can_drive(mechanism: Mechanism, driven: Sequence[str]) -> bool:
         return False
 
 
+def useful_coordinates(mechanism: Mechanism) -> list[str]:
+    """Name the coordinates in which more shows than idle motions, and parts that only spin."""
+    found = mechanism.mobility()
+    joints = [joint for joint in mechanism.all_joints if not {*joint.parts} & {*found.spinning}]
+    names = (f"{joint.name}.{coordinate}" for joint in joints for coordinate in joint.coordinates)
+    return [name for name in names if name not in found.idle]
+
+
 def small_drive(mechanism: Mechanism) -> dict[str, str]:
     """Return small ranges for coordinates that determine the motion of solids; none where nothing can be driven.
 
@@ -48,9 +56,7 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     found = mechanism.mobility()
     driven = found.drivable
     if len(driven) == 1 and _shares(mechanism, driven)[0] < _POOR:
-        idle = {*found.idle}
-        every = [f"{joint.name}.{each}" for joint in mechanism.all_joints for each in joint.coordinates]
-        others = [name for name in every if name not in idle and can_drive(mechanism, [name])]
+        others = [name for name in useful_coordinates(mechanism) if can_drive(mechanism, [name])]
         driven = (max(others, key=lambda name: _shares(mechanism, [name])[0], default=driven[0]),)
     return small_ranges(mechanism, driven)
 

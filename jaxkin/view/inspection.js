@@ -58,7 +58,7 @@ function section(title, kind, indices, open) {
 
 function lists() {
   const every = kind => [...ENTRIES[kind].keys()];
-  section("Joints that move", "joint", movable, true);
+  section("Joints", "joint", movable, true);
   const groups = [...new Set(scene.notes.map(note => note.group))].sort();  // "Contacts", "Inferred ...", "Nearly ...", "Noted"
   for (const group of groups)
     section(group, "note", every("note").filter(i => scene.notes[i].group === group), scene.notes.length < MANY);
@@ -112,8 +112,17 @@ function approach(kind, entry, always) {  // bring what is chosen near, if it is
   if (always || radius * zoom < SMALL) lookAt(place, Math.max(2 * radius, 1e-3));
 }
 
-function choose() {  // what the address names after "#"
-  const [kind, ...rest] = decodeURIComponent(location.hash.slice(1)).split("="), key = rest.join("="), every = ENTRIES[kind] ?? [];
+function address() {  // what the address names after "#": a kind and a name
+  try {
+    const [kind, ...rest] = decodeURIComponent(location.hash.slice(1)).split("=");
+    return [kind, rest.join("=")];
+  } catch {  // a lonely "%"
+    return ["", ""];
+  }
+}
+
+function choose() {
+  const [kind, key] = address(), every = Object.hasOwn(ENTRIES, kind) ? ENTRIES[kind] : [];
   const entry = every.find(each => each.key === key) ?? every[Number(key) - 1];
   const shown = new Set(entry?.parts ?? []), around = new Set((entry?.parts ?? []).flatMap(i => bodyOf(i).parts));
   parts.forEach((part, i) => { part.alpha = !entry || shown.has(i) ? 1 : around.has(i) ? BESIDE : GHOST; });
