@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,7 +53,7 @@ def find_choices(
     """
     tried = _Tried(mechanism, bodies)
     driven = tuple(drive or ())
-    instead = [*_other_fixed(tried, proposals), *_other_drives(mechanism, driven)]
+    instead = [*_other_fixed(tried, proposals), *islice(_other_drives(mechanism, driven), _DRIVES)]
     off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _inferred(joint)}
     return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off)
 
@@ -90,15 +91,12 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
     return lines
 
 
-def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> list[str]:
+def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> Iterator[str]:
     """Coordinates that can take the place of one of those that drive."""
-    lines: list[str] = []
     for name in useful_coordinates(mechanism) if driven else ():
         places = [tuple(name if each == one else each for each in driven) for one in driven if name not in driven]
-        found = next((place for place in places if can_drive(mechanism, place)), None)
-        if found and len(lines) < _DRIVES:
-            lines.append(f"# instead = {toml({'drive': small_ranges(mechanism, found)})}")
-    return lines
+        if found := next((place for place in places if can_drive(mechanism, place)), None):
+            yield f"# instead = {toml({'drive': small_ranges(mechanism, found)})}"
 
 
 def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
