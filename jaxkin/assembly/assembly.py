@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match_parts, nearest
+from jaxkin.assembly.exported import Exported
+from jaxkin.assembly.from_export import from_export
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
@@ -32,6 +34,8 @@ class Assembly:
     """Unit of all lengths, such as "mm"; "" where the files have none and none was said."""
     source: str
     """The file that it was read from."""
+    exported: Exported | None = None
+    """What its CAD system says of joints and bodies, where the file holds that."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -52,7 +56,7 @@ class Assembly:
     def mechanism(
         self,
         *,
-        fixed: Sequence[str],
+        fixed: Sequence[str] = (),
         rigid: Sequence[Sequence[str]] = (),
         ignore: Sequence[Sequence[str]] = (),
         joints: Sequence[Joint] = (),
@@ -61,8 +65,12 @@ class Assembly:
         align: float | int | None = None,
         exclude: Sequence[str] = (),
         infer: bool = True,
+        clearance: float | int | None = None,
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+
+        Where the file is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
+        `fixed` may be left out; contacts do where `contacts` are given, or with `infer=False`.
 
         Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
         bolts and what they hold, parts that only one other holds (`jaxkin.assembly.inference`). Each inference is told
@@ -80,26 +88,35 @@ class Assembly:
         - `exclude`: parts to leave out.
         - `infer`: without it contacts that are exact are all, as in the paper; parts that they tie to nothing are
           refused. Neither is anything inferred with `combine=False`.
+        - `clearance`: the largest radial clearance of a pin that is inferred to be in its hole, in the unit of the
+          assembly; by default a quarter of the radius.
         - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 
         Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
         groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
         """
-        contacts = self.contacts() if contacts is None else contacts
         if exclude:
             left = _in_full(exclude, self.parts, "exclude")
+            if contacts is None and not (infer and self.exported):
+                contacts = self.contacts()
             return self.without(left).mechanism(
                 fixed=fixed,
                 rigid=rigid,
                 ignore=ignore,
                 joints=joints,
                 combine=combine,
-                contacts=_contacts_without(contacts, left),
+                contacts=None if contacts is None else _contacts_without(contacts, left),
                 align=align,
                 infer=infer,
+                clearance=clearance,
             )
-        said = Said(_in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align)
+        said = Said(
+            _in_full(fixed, self.parts, "fixed"), _groups(rigid, self.parts), ignore, joints, combine, align, clearance
+        )
+        if infer and contacts is None and self.exported is not None:
+            return from_export(self, self.exported, said)
+        contacts = self.contacts() if contacts is None else contacts
         check_said(self.names, said)
         return (inferred if infer and combine else from_words)(self, contacts, said)
 
@@ -138,7 +155,8 @@ class Assembly:
         for name in names:
             if name not in self.names:
                 raise ValueError(f"exclude names the unknown part {name!r}{nearest(name, self.names)}")
-        return replace(self, parts=tuple(part for part in self.parts if part.name not in names))
+        parts = tuple(part for part in self.parts if part.name not in names)
+        return replace(self, parts=parts, exported=self.exported and self.exported.without(names))
 
     @property
     def found(self) -> tuple[Contacts, ...]:

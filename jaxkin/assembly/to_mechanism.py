@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
@@ -16,7 +17,7 @@ from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
-from jaxkin.joints.evidence import BY_HAND, Bond
+from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
@@ -57,12 +58,16 @@ class Said(NamedTuple):
     joints: Sequence[Joint] = ()
     combine: bool = True
     align: float | int | None = None
+    clearance: float | int | None = None
 
 
 def check_said(names: Sequence[str], said: Said) -> None:
     """Refuse words that name no parts, or that are no such groups: ValueError."""
     check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(names, said.fixed, said.rigid)
+    clearance = said.clearance
+    if clearance is not None and (isinstance(clearance, bool | str) or not 0 <= clearance < np.inf):
+        raise ValueError(f"clearance must be a radial length in the unit of the file, such as 0.2, got {clearance!r}")
 
 
 def from_words(
@@ -89,12 +94,24 @@ def from_words(
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
-    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *map(str, inferences), *_told(contacts))
+    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences), *_told(contacts))
     bonds = (
         *(Bond(tuple(group)) for group in said.rigid),
         *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
     )
     return replace(mechanism, history=(*told, *mechanism.history), bonds=bonds)
+
+
+def told_of(inferences: Sequence[Inference]) -> list[str]:
+    """Tell inferences one by one, but what the CAD system said itself as counts: there is nothing to doubt in it."""
+    said = Counter(
+        str(each.joint.kind) if each.joint else "weld or rigid group"
+        for each in inferences
+        if each.evidence.kind is EvidenceKind.EXPORT
+    )
+    counts = ", ".join(f"{count} {kind}" for kind, count in said.most_common())
+    others = [str(each) for each in inferences if each.evidence.kind is not EvidenceKind.EXPORT]
+    return [f"joints and bodies as the CAD system exported them: {counts}", *others] if said else others
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:

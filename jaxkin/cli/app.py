@@ -84,15 +84,15 @@ def inspect(
             step("finding contacts")
             contacts = study.contacts
         if study.assembly:
-            report.print_contacts(study.assembly, contacts, verbose)
+            report.print_assembly(study.assembly, None if study.by_export else contacts, verbose)
         # only now: what stands above helps to see why the mechanism is refused
         if png and study.assembly:
             from jaxkin.view.inspection import draw_inspection
 
-            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.fixed else None)
+            draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.held else None)
         tried: tuple[Proposal, ...] = ()
         try:
-            if study.assembly and not study.fixed:
+            if study.assembly and not study.held:
                 study, tried = run.proposed(study, study.assembly)
             report.print_mechanism(study.mechanism, contacts, verbose)
         except ValueError as refusal:

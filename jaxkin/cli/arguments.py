@@ -14,8 +14,9 @@ Files = Annotated[
     typer.Argument(
         metavar="FILE...",
         help="The assembled mechanism: a STEP file or a mesh (.stl, .obj, .ply, .3mf, .glb) of all parts, or several "
-        "files of one part each, called as the files. Or a study: a TOML file that names the geometry and says what is "
-        "fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
+        "files of one part each, called as the files. Or what a CAD system exports for Simscape Multibody: an XML file "
+        "with joints and mates, beside the files of its parts. Or a study: a TOML file that names the geometry and "
+        "says what is fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
     ),
 ]
 Unit = Annotated[

@@ -29,8 +29,11 @@ def say(text: str = "") -> None:
     Console().print(Text(text), soft_wrap=True)
 
 
-def print_contacts(assembly: Assembly, contacts: Contacts, verbose: bool) -> None:
+def print_assembly(assembly: Assembly, contacts: Contacts | None, verbose: bool) -> None:
     """Parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
+    if contacts is None:
+        say(f"{assembly.describe(verbose)}\n")
+        return
     said = {f"{part.name}: {note}" for part in assembly.parts for note in part.notes}
     notes = tuple(note for note in contacts.notes if note not in said)
     say(f"{assembly.describe(verbose)}\n\n{replace(contacts, notes=notes).describe(verbose)}\n")

@@ -96,7 +96,7 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
 
 def checked(study: Study) -> Study:
     """The study, if a part is fixed."""
-    if study.assembly and not study.fixed:
+    if study.assembly and not study.held:
         names = ", ".join(study.assembly.names)
         raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")
     return study

@@ -48,6 +48,21 @@ class ContactState:
     """Names of the lengths between successive frames of the chain, in turn; None where a gap has no length to be set:
     half-angles of cones, since the frames alone do not hold them."""
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether two planes lie on each other: (a)."""
+        return self.kinds == ("plane", "plane")
+
+    @property
+    def is_fit(self) -> bool:
+        """Whether one curved surface fills the other: (e), (k), (o)."""
+        return self.region == "surface" and not self.is_flat
+
+    @property
+    def is_pin(self) -> bool:
+        """Whether a pin fills its bore: (e)."""
+        return self.is_fit and self.kinds == ("cylinder", "cylinder")
+
 
 # fmt: off
 CONTACT_STATES: tuple[ContactState, ...] = (
@@ -114,7 +129,8 @@ def find_state(letter: str, region: str | None = None) -> ContactState:
     """
     rows: dict[str, ContactState] = {state.region: state for state in CONTACT_STATES if state.letter == letter}
     if not rows:
-        raise ValueError(f"a contact state is a letter from 'a' to 'p', got {letter!r}")
+        letters = sorted(state.letter for state in CONTACT_STATES)
+        raise ValueError(f"a contact state is a letter from {letters[0]!r} to {letters[-1]!r}, got {letter!r}")
     if region is None:
         return rows.get("point") or next(iter(rows.values()))
     if region not in rows:

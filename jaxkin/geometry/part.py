@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.pose import Pose, apply
 from jaxkin.geometry.surfaces import Surface
 
 
@@ -58,6 +59,23 @@ class Part:
         """Lowest and highest corner of the bounding box."""
         corners = self.triangles.reshape(-1, 3)
         return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+
+def moved(part: Part, pose: Pose) -> Part:
+    """Displace a part by a pose, (4, 4)."""
+    faces = tuple(
+        replace(face, surface=face.surface.moved(pose), triangles=apply(pose, face.triangles)) for face in part.faces
+    )
+    return replace(part, faces=faces, triangles=apply(pose, part.triangles))
+
+
+def scaled(part: Part, factor: float) -> Part:
+    """Enlarge a part by a factor from the origin of the world, as for another unit of length."""
+    faces = tuple(
+        replace(face, surface=face.surface.scaled(factor), triangles=factor * face.triangles) for face in part.faces
+    )
+    resolution = factor * part.vertex_resolution
+    return replace(part, faces=faces, triangles=factor * part.triangles, vertex_resolution=resolution)
 
 
 def size(parts: tuple[Part, ...]) -> float:

@@ -39,6 +39,10 @@ class Plane:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return Plane(pose[:3, :3] @ self.point + pose[:3, 3], pose[:3, :3] @ self.normal)
 
+    def scaled(self, factor: float) -> Plane:
+        """Enlarge the surface by a factor from the origin of the world."""
+        return replace(self, point=factor * self.point)
+
 
 @dataclass(frozen=True, eq=False)
 class Cylinder:
@@ -62,6 +66,10 @@ class Cylinder:
     def moved(self, pose: Pose) -> Cylinder:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, point=pose[:3, :3] @ self.point + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
+
+    def scaled(self, factor: float) -> Cylinder:
+        """Enlarge the surface by a factor from the origin of the world."""
+        return replace(self, point=factor * self.point, radius=factor * self.radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +99,10 @@ class Cone:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, apex=pose[:3, :3] @ self.apex + pose[:3, 3], axis=pose[:3, :3] @ self.axis)
 
+    def scaled(self, factor: float) -> Cone:
+        """Enlarge the surface by a factor from the origin of the world."""
+        return replace(self, apex=factor * self.apex)
+
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
@@ -112,6 +124,10 @@ class Sphere:
     def moved(self, pose: Pose) -> Sphere:
         """Displace the surface by a rigid 4x4 displacement in world coordinates."""
         return replace(self, centre=pose[:3, :3] @ self.centre + pose[:3, 3])
+
+    def scaled(self, factor: float) -> Sphere:
+        """Enlarge the surface by a factor from the origin of the world."""
+        return replace(self, centre=factor * self.centre, radius=factor * self.radius)
 
 
 Surface = Plane | Cylinder | Cone | Sphere

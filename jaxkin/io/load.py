@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,11 +10,15 @@ import numpy as np
 
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
+from jaxkin.io.exports import read_exported
 from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.step import read_step
 from jaxkin.io.units import METRES
 
-STEP = (".step", ".stp")
+STEP_SUFFIXES = (".step", ".stp")
+
+EXPORT = ".xml"
+"""The suffix of exports for Simscape Multibody."""
 
 _TWINS = 1e-6
 """Of the size of the assembly; two copies in the same place differ by the rounding of their placements at most."""
@@ -26,7 +30,9 @@ def load(
     """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
 
     STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
-    one mesh file a part is a node, or a connected body where there is but one node.
+    one mesh file a part is a node, or a connected body where there is but one node. Of an export for Simscape Multibody
+    (.xml), which SolidWorks, Creo, Inventor and Onshape write, the joints, mates and rigid groups are read too; the
+    files of its solids are those beside it.
 
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
     have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
@@ -40,6 +46,11 @@ def load(
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     if isinstance(source, str | Path):
         name = Path(source).name
+        if Path(source).suffix.lower() == EXPORT:
+            parts, said, exported = read_exported(Path(source), lambda file: _read(file, seconds))
+            twice = tuple(f"the parts {twins} are the same solid in the same place" for twins in _twins(parts))
+            exported = replace(exported, notes=(*exported.notes, *twice))
+            return Assembly(parts, _agreed({name: said}, unit), name, exported)
         parts, said = _read(Path(source), seconds)
         return Assembly(_apart(parts, f"{name}: "), _agreed({name: said}, unit), name)
     if not isinstance(source, Mapping) or not source:
@@ -65,9 +76,9 @@ def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[t
         raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
     if suffix in MESHES:
         return read_mesh(path, name, seconds)
-    if suffix not in STEP:
+    if suffix not in STEP_SUFFIXES:
         raise ValueError(
-            f"{path}: load reads STEP files ({', '.join(STEP)}) and meshes ({', '.join(MESHES)}); got "
+            f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}) and meshes ({', '.join(MESHES)}); got "
             f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
         )
     parts, unit = read_step(path, seconds)
@@ -83,16 +94,21 @@ def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[t
 
 def _apart(parts: tuple[Part, ...], where: str = "") -> tuple[Part, ...]:
     """The parts, no two of them the same solid in the same place; `where` begins the message about two that are."""
+    if twins := next(_twins(parts), None):
+        raise ValueError(f"{where}the parts {twins} are the same solid in the same place: leave one out")
+    return parts
+
+
+def _twins(parts: tuple[Part, ...]) -> Iterator[str]:
+    """Yield the names of two parts that are the same solid in the same place; those without faces are none."""
     near = _TWINS * size(parts)
     seen: dict[int, list[Part]] = {}
-    for part in parts:
+    for part in (part for part in parts if part.faces):
         for other in seen.setdefault(len(part.triangles), []):
             same = np.abs(part.box - other.box).max() < near
             if same and np.linalg.norm(part.triangles.mean(axis=(0, 1)) - other.triangles.mean(axis=(0, 1))) < near:
-                twins = f"{other.name!r} and {part.name!r}"
-                raise ValueError(f"{where}the parts {twins} are the same solid in the same place: leave one out")
+                yield f"{other.name!r} and {part.name!r}"
         seen[len(part.triangles)].append(part)
-    return parts
 
 
 def _agreed(said: Mapping[str, str], unit: str | None) -> str:

@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.io.xml_tree import read_xml
 
-METRES = {
+METRES_BY_NAME = {
     "meter": 1.0, "m": 1.0, "centimeter": 0.01, "cm": 0.01, "millimeter": 0.001, "mm": 0.001,
     "inch": 0.0254, "in": 0.0254, "foot": 0.3048, "ft": 0.3048,
 }  # fmt: skip
@@ -27,8 +27,8 @@ class ExportedPart:
 
     path: tuple[str, ...]
     """Identifiers of the assemblies that hold it, from the root, and its own."""
-    name: str
-    """Names along the path, joined by "/"."""
+    names: tuple[str, ...]
+    """Names along the path."""
     file: str
     """Name of its STEP file, beside the XML; empty where the export names none."""
     transform: np.ndarray
@@ -37,7 +37,12 @@ class ExportedPart:
     """Kilograms."""
     grounded: bool
     body: tuple[str, ...] | None
-    """The rigid group that holds it, named by its path and number; None where the part moves alone."""
+    """The rigid group, or the rigid assembly, that holds it, by its path; None where the part moves alone."""
+
+    @property
+    def name(self) -> str:
+        """Names along the path, joined by "/"."""
+        return "/".join(self.names)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,12 +65,36 @@ class ExportedJoint:
 
 
 @dataclass(frozen=True, eq=False)
+class MatedFeature:
+    """The geometry of an instance that a mate is about."""
+
+    path: tuple[str, ...]
+    kind: str
+    """As the exporter writes it: "plane", "line", "cylinder", "point", ..."""
+    point: np.ndarray
+    """(3,) in world coordinates, metres; the origin of the instance where the export has none."""
+    axis: np.ndarray | None
+    """(3,) unit vector in world coordinates: of a plane its normal; None where the export has none."""
+
+
+@dataclass(frozen=True, eq=False)
+class ExportedMate:
+    """A mate between geometry of two instances."""
+
+    name: str
+    kind: str
+    """The tag that the exporter writes: "Concentric", "Coincident", ..."""
+    sides: tuple[MatedFeature, MatedFeature]
+
+
+@dataclass(frozen=True, eq=False)
 class Export:
     """What one XML file says."""
 
     name: str
     parts: tuple[ExportedPart, ...]
     joints: tuple[ExportedJoint, ...]
+    mates: tuple[ExportedMate, ...]
     notes: tuple[str, ...]
     """What is in the file and was not understood, one line each."""
 
@@ -89,15 +118,16 @@ class _Reader:
     def __init__(self, file: str, root: Element) -> None:
         self.file, self.notes = file, []
         units = root.find("DataUnits")
-        self.metres = self._unit(units, "length", "meter", METRES)
+        self.metres = self._unit(units, "length", "meter", METRES_BY_NAME)
         self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
         self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
-        self.placed: dict[tuple[str, ...], np.ndarray] = {}
+        self.root = ""
+        self.placed: dict[tuple[str, ...], np.ndarray] = {(): np.eye(4)}
 
     def export(self, root: Element) -> Export:
         """Place all instances, then the joints of the root and of each sub-assembly where it is placed."""
-        tree = root.find("InstanceTree")
+        tree, self.root = root.find("InstanceTree"), root.get("uid", "")
         parts, assemblies = [], [((), root)]
         if tree is not None:
             for path, names, instance, grounded, body in self._instances(tree, (), (), np.eye(4), False, None):
@@ -108,49 +138,64 @@ class _Reader:
                     assemblies.append((path, self.assembly_of[uid]))
                 else:
                     self.notes.append(f"{'/'.join(names)}: no part or assembly {uid!r} in the file; left out")
-        joints = tuple(joint for path, assembly in assemblies for joint in self._joints(assembly, path))
-        return Export(root.get("name", ""), tuple(parts), joints, tuple(self.notes))
+        found = [one for path, assembly in assemblies for one in self._relations(assembly, path)]
+        joints = tuple(one for one in found if isinstance(one, ExportedJoint))
+        mates = tuple(one for one in found if isinstance(one, ExportedMate))
+        return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes))
 
     def _instances(
         self, at: Element, path: tuple, names: tuple, above: np.ndarray, grounded: bool, body: tuple | None
     ) -> Iterator[tuple]:
         """Yield (path, names, element, grounded, body) of the instances inside an element, outer ones first.
 
-        The outermost rigid group decides the body: its members do not move against each other.
+        Parts of one rigid group, and of an assembly that is rigid, do not move against each other; of several, one
+        inside the other, the outermost decides.
         """
-        for number, one in enumerate(at):
-            held = grounded or one.get("grounded", "").strip().lower() == "true"
-            if one.tag == "Instance":
-                inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
-                self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
-                yield inner, called, one, held, body
-                yield from self._instances(one, inner, called, self.placed[inner], held, body)
-            elif one.tag == "RigidGroup":
-                yield from self._instances(one, path, names, above, held, body or (*path, f"group {number}"))
+        for one in at.iterfind("Instance"):
+            held = grounded or _true(one, "grounded")
+            inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
+            group = one.get("rigidGroup")
+            own = body or ((*path, f"group {group}") if group else inner if _true(one, "rigid") else None)
+            self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
+            yield inner, called, one, held, own
+            yield from self._instances(one, inner, called, self.placed[inner], held, own)
 
     def _part(self, part: Element, path: tuple, names: tuple, grounded: bool, body: tuple | None) -> ExportedPart:
         geometry, mass = part.find("GeometryFile"), part.findtext("MassProperties/Mass")
         file = "" if geometry is None else geometry.get("name", "")
         kilograms = None if mass is None else float(self._numbers(mass, 1, names[-1])[0]) * self.kilograms
-        return ExportedPart(path, "/".join(names), file, self.placed[path], kilograms, grounded, body)
+        return ExportedPart(path, names, file, self.placed[path], kilograms, grounded, body)
 
-    def _joints(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint]:
-        """Yield the joints and mates of an assembly at a path; note those without two frames (mates by geometry)."""
+    def _relations(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint | ExportedMate]:
+        """Yield the joints and mates of an assembly at a path; note those that are neither."""
         for one in [*assembly.iterfind("Joints/*"), *assembly.iterfind("Constraints/*")]:
             name = one.get("name", "")
-            frames = [one.find("BaseFrame"), one.find("FollowerFrame")]
-            sides = [self._side(frame, path, name) for frame in frames if frame is not None]
-            found = [side for side in sides if side is not None]
-            if len(found) == 2:
-                yield ExportedJoint(name, one.tag, (found[0], found[1]))
+            frames = [self._side(frame, path, name) for frame in (one.find("BaseFrame"), one.find("FollowerFrame"))]
+            features = [self._feature(each, path, name) for each in one.iterfind("ConstraintGeometry")]
+            if frames[0] and frames[1]:
+                yield ExportedJoint(name, one.tag, (frames[0], frames[1]))
+            elif len(features) == 2 and features[0] and features[1]:
+                yield ExportedMate(name, one.tag, (features[0], features[1]))
             else:
-                self.notes.append(f"{one.tag} {name!r}: not two frames on instances of the file; left out")
+                self.notes.append(f"{one.tag} {name!r}: no two frames or features of instances of the file; left out")
 
-    def _side(self, frame: Element, above: tuple, name: str) -> ExportedSide | None:
-        path = (*above, *(uid.text or "" for uid in frame.iterfind("InstancePath/Uid")))
-        if path not in self.placed:
+    def _side(self, frame: Element | None, above: tuple, name: str) -> ExportedSide | None:
+        if frame is None or (path := self._path(frame, above)) not in self.placed:
             return None
         return ExportedSide(path, self.placed[path] @ self._transform(frame.find("Transform"), name))
+
+    def _feature(self, geometry: Element, above: tuple, name: str) -> MatedFeature | None:
+        if (path := self._path(geometry, above)) not in self.placed:
+            return None
+        place, axis, point = self.placed[path], None, np.zeros(3)
+        if (written := geometry.findtext("Position")) is not None:
+            point = self._numbers(written, 3, name) * self.metres
+        if (written := geometry.findtext("Axis")) is not None:
+            axis = self._numbers(written, 3, name)
+            if not (length := float(np.linalg.norm(axis))):
+                raise ValueError(f"{self.file}: {name!r}: expected the direction of an axis, got {written!r}")
+            axis = place[:3, :3] @ (axis / length)
+        return MatedFeature(path, geometry.get("geomType", ""), place[:3, :3] @ point + place[:3, 3], axis)
 
     def _transform(self, at: Element | None, name: str) -> np.ndarray:
         """Read a (4, 4) transform, metres; rotations are written row by row. The identity where there is none."""
@@ -159,6 +204,11 @@ class _Reader:
             transform[:3, :3] = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
+
+    def _path(self, side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
+        """Identifiers from the root to the instance that a side of a joint or mate is on; of the root itself none."""
+        path = tuple(uid.text or "" for uid in side.iterfind("InstancePath/Uid"))
+        return above if path == (self.root,) and (*above, *path) not in self.placed else (*above, *path)
 
     def _numbers(self, text: str | None, count: int, name: str) -> np.ndarray:
         try:
@@ -174,3 +224,7 @@ class _Reader:
         if name not in known:
             raise ValueError(f"{self.file}: unit of {what} {name!r} is not known; expected one of {', '.join(known)}")
         return known[name]
+
+
+def _true(instance: Element, attribute: str) -> bool:
+    return instance.get(attribute, "").strip().lower() == "true"

@@ -22,10 +22,10 @@ from jaxkin.io.time_limit import TimeLimit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
 
-_TOLD = 3
-"""Doubts about a file that its warning tells."""
+_TOLD_DEFECTS = 3
+"""Defects of a file that its warning tells."""
 
-LARGEST = 500_000_000
+MAX_STEP_BYTES = 500_000_000
 """Bytes of a file; a large assembly has some fifty million."""
 
 _PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator.*")
@@ -50,8 +50,8 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
     text = data.decode("latin-1")
     unit_name, metres = length_unit(text, path.name)
     placed = placed_parts(text, path.name)
-    found, doubts = _instances(data, limit)
-    doubts += missing(text, placed, found)
+    found, defects = _instances(data, limit)
+    defects += missing(text, placed, found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
     parts = []
@@ -63,9 +63,11 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
         parts.append(replace(part, path=instance.path, original_name=next(iter(_given(instance)), "")))
-        doubts += [f"{name!r}: {damage}" for damage in damages]
-    if doubts:
-        told = "; ".join(doubts[:_TOLD]) + (f"; and {len(doubts) - _TOLD} more" if len(doubts) > _TOLD else "")
+        defects += [f"{name!r}: {damage}" for damage in damages]
+    if defects:
+        told = "; ".join(defects[:_TOLD_DEFECTS]) + (
+            f"; and {len(defects) - _TOLD_DEFECTS} more" if len(defects) > _TOLD_DEFECTS else ""
+        )
         warnings.warn(
             f"{path.name} is damaged or incomplete ({told}): parts or faces may be missing or wrong; export it again",
             stacklevel=2,
@@ -95,8 +97,10 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
 
 def _checked(path: Path) -> bytes:
     """The content of the file, if it can be a STEP file with solids."""
-    if (size := check_file(path, "STEP file")) > LARGEST:
-        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it part by part")
+    if (size := check_file(path, "STEP file")) > MAX_STEP_BYTES:
+        raise ValueError(
+            f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_STEP_BYTES / 1e6:.0f}: export it part by part"
+        )
     data = path.read_bytes()
     if not data.strip():
         raise ValueError(f"{path.name} is empty: expected a STEP file")

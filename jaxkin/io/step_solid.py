@@ -14,7 +14,7 @@ from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Pose, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
-from jaxkin.io.step_check import Doubt, unsound
+from jaxkin.io.step_check import Defect, unsound
 from jaxkin.io.step_glb import Color, Instance
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 
@@ -34,13 +34,13 @@ class Solid:
     """What could not be read as one of the four surfaces, and what was repaired."""
     damages: tuple[str, ...]
     """Notes on faces that are so in damaged files only."""
-    doubts: tuple[Doubt, ...]
+    defects: tuple[Defect, ...]
 
     def placed(self, name: str, pose: Pose, color: Color | None) -> tuple[Part, list[str]]:
         """The part at a pose, and those of its notes that tell of a damage."""
         faces = tuple(Face(face.name, face.surface.moved(pose), apply(pose, face.triangles)) for face in self.faces)
-        notes = [*self.notes, *(doubt.note(pose) for doubt in self.doubts if not doubt.damage)]
-        damages = [*self.damages, *(doubt.note(pose) for doubt in self.doubts if doubt.damage)]
+        notes = [*self.notes, *(defect.note(pose) for defect in self.defects if not defect.damage)]
+        damages = [*self.damages, *(defect.note(pose) for defect in self.defects if defect.damage)]
         return Part(name, faces, apply(pose, self.triangles), color, (*notes, *damages)), damages
 
 
@@ -79,8 +79,8 @@ def make_solid(instance: Instance, metres: float) -> Solid:
             notes.append(f"{label}: {note}")
             repaired = True
         faces.append(Face(label, surface, corners))
-    doubts = [] if repaired or not len(triangles) else unsound(triangles, tolerance)
-    return Solid(merge_faces(faces, tolerance), triangles, tuple(notes), tuple(damages), tuple(doubts))
+    defects = [] if repaired or not len(triangles) else unsound(triangles, tolerance)
+    return Solid(merge_faces(faces, tolerance), triangles, tuple(notes), tuple(damages), tuple(defects))
 
 
 def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:

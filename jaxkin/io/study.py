@@ -39,6 +39,8 @@ class Study:
     """Whether what solids imply beside exact contacts is taken: see `Assembly.mechanism`."""
     detect: bool = True
     """Whether contacts are looked for; otherwise the joints by hand are all there are: see `Assembly.of_joints`."""
+    clearance: float | None = None
+    """The largest clearance of a pin that is inferred: see `Assembly.mechanism`."""
     align: float | None = None
     """The largest misalignment that is taken for rounding: see `Mechanism.build`."""
     tolerance: Mapping[str, float] = field(default_factory=dict)
@@ -50,15 +52,28 @@ class Study:
 
     @cached_property
     def contacts(self) -> Contacts:
-        """The contacts of the assembly, within the tolerances of the study."""
-        return self.assembly.contacts(**self.tolerance) if self.assembly and self.detect else Contacts(())
+        """The contacts of the assembly, within the tolerances of the study; none where they are not looked for."""
+        if self.assembly is None or not self.detect or self.by_export:
+            return Contacts(())
+        return self.assembly.contacts(**self.tolerance)
+
+    @property
+    def by_export(self) -> bool:
+        """Whether what a CAD system exported makes the mechanism, not contacts: see `Assembly.mechanism`."""
+        return self.assembly is not None and self.assembly.exported is not None and self.detect and self.infer
+
+    @property
+    def held(self) -> Sequence[str]:
+        """The parts that are fixed: by the study, or else by the CAD system; none where neither says any."""
+        exported = self.assembly.exported if self.assembly and self.by_export else None
+        return self.fixed or (exported.fixed if exported else ())
 
     @cached_property
     def mechanism(self) -> Mechanism:
         """The mechanism; ValueError where what is said about it makes none."""
         if self.assembly is None:
             return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
-        if not self.fixed:
+        if not self.held:
             raise ValueError(f"no part is fixed; the parts are {', '.join(self.assembly.names)}")
         if not self.detect:
             return self.assembly.of_joints(
@@ -70,10 +85,11 @@ class Study:
             ignore=self.ignore,
             joints=self.joints,
             combine=self.combine,
-            contacts=self.contacts,
+            contacts=None if self.by_export else self.contacts,
             align=self.align,
             exclude=self.exclude,
             infer=self.infer,
+            clearance=self.clearance,
         )
 
     @cached_property
@@ -116,6 +132,7 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     }
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
     common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
+    common |= {"clearance": said.clearance}
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent
@@ -146,4 +163,4 @@ def _renamed(assembly: Assembly, names: Mapping[str, str], source: str) -> Assem
     for new in names.values():
         if taken.count(new) > 1:
             raise ValueError(f"{source}: rename: two parts would be called {new!r}; give each a name of its own")
-    return replace(assembly, parts=parts)
+    return replace(assembly, parts=parts, exported=assembly.exported and assembly.exported.renamed(names))

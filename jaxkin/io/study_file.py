@@ -14,27 +14,19 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from jaxkin._files import check_file
 from jaxkin._names import closest
-from jaxkin.io.ranges import FORM, MOST, RADIANS, Range, read_range
+from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.alignment import PLAY
 
-KINDS = {
-    "revolute": pairs.revolute,
-    "prismatic": pairs.prismatic,
-    "cylindrical": pairs.cylindrical,
-    "planar": pairs.planar,
-    "spherical": pairs.spherical,
-    "universal": pairs.universal,
-    "screw": pairs.screw,
-    "fixed": pairs.fixed,
-    "contact": pairs.contact_joint,
+JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAND.items()} | {
+    "contact": pairs.contact_joint
 }
 """Kinds of joints by hand; the keys that each takes are the arguments of its function."""
 
-LARGEST = 1_000_000
+MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -88,7 +80,7 @@ class ToleranceTable(_Table):
 class JointTable(_Table):
     """A joint by hand: its kind, its two parts, and what the function of that kind takes."""
 
-    kind: Annotated[str, BeforeValidator(partial(_one_of, KINDS))]
+    kind: Annotated[str, BeforeValidator(partial(_one_of, JOINT_FUNCTIONS))]
     parts: Pair
     point: Triple | None = None
     axis: Triple | None = None
@@ -103,7 +95,9 @@ class JointTable(_Table):
 
     @model_validator(mode="after")
     def _keys_of_the_kind(self) -> JointTable:
-        needed = {name: p for name, p in signature(KINDS[self.kind]).parameters.items() if p.kind is p.KEYWORD_ONLY}
+        needed = {
+            name: p for name, p in signature(JOINT_FUNCTIONS[self.kind]).parameters.items() if p.kind is p.KEYWORD_ONLY
+        }
         missing = [name for name, p in needed.items() if p.default is p.empty and getattr(self, name) is None]
         if missing:
             raise ValueError(f"a joint of kind {self.kind!r} needs {' and '.join(missing)}")
@@ -123,7 +117,7 @@ class RangeTable(_Table):
 
     first: Number | None = Field(None, alias="from")
     last: Number | None = Field(None, alias="to")
-    poses: Annotated[int, Field(ge=1, le=MOST)] | None = None
+    poses: Annotated[int, Field(ge=1, le=MAX_POSES)] | None = None
     values: list[Number] | None = None
     unit: Annotated[str, BeforeValidator(partial(_one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
 
@@ -163,6 +157,7 @@ class StudyFile(_Table):
     exclude: list[str] = []
     contacts: bool = True
     infer: bool = True
+    clearance: Annotated[Number, Field(ge=0)] | None = None
     combine: bool = True
     align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
@@ -175,7 +170,7 @@ class StudyFile(_Table):
         if self.geometry is None:
             if not self.joints:
                 raise ValueError("there is nothing to study: expected geometry, or joints, or both")
-            for key in ("rename", "rigid", "ignore", "exclude", "tolerance"):
+            for key in ("rename", "rigid", "ignore", "exclude", "clearance", "tolerance"):
                 if key in self.model_fields_set:
                     raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
         return self
@@ -187,7 +182,7 @@ class StudyFile(_Table):
             if table.off:
                 continue
             try:
-                made.append(KINDS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
+                made.append(JOINT_FUNCTIONS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
             except ValueError as error:
                 raise ValueError(f"{file}: {error}") from None
         return tuple(made)
@@ -210,8 +205,8 @@ _KEYS = {
 
 def read_study_file(path: Path) -> StudyFile:
     """The file as it is written, validated; ValueError, FileNotFoundError otherwise."""
-    if (size := check_file(path, "TOML file of a study")) > LARGEST:
-        raise ValueError(f"{path.name} has {size} bytes: a study has {LARGEST} at most")
+    if (size := check_file(path, "TOML file of a study")) > MAX_STUDY_BYTES:
+        raise ValueError(f"{path.name} has {size} bytes: a study has {MAX_STUDY_BYTES} at most")
     try:
         said = tomllib.loads(path.read_bytes().decode())
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

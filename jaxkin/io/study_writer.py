@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +21,7 @@ from jaxkin.io.toml_text import comment, toml, toml_key
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import JOINTS_BY_HAND
 from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
@@ -133,8 +135,9 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     """The kind of a joint as a study names it, and its arguments."""
     pose = np.asarray(joint.frames_1, float)[0]
     usual = np.allclose(pose, frame(pose[:3, 3], pose[:3, 2]), atol=_SAME)
-    if joint.kind in _LOWER_PAIRS and (usual or joint.kind not in _AS_CONTACT):
-        return str(joint.kind), _LOWER_PAIRS[joint.kind](joint, pose)
+    if joint.kind in JOINTS_BY_HAND and (usual or joint.kind not in _AS_CONTACT):
+        takes = signature(JOINTS_BY_HAND[joint.kind]).parameters
+        return str(joint.kind), {key: said(joint, pose) for key, said in WRITTEN_ARGUMENTS.items() if key in takes}
     if joint.kind in _AS_CONTACT:
         letter, region = _AS_CONTACT[joint.kind], None
     elif state := joint.contact_state:
@@ -145,25 +148,15 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     return "contact", keys | ({"region": "circle"} if region == "circle" else {})
 
 
-def _place(joint: Joint, pose: Pose) -> dict[str, object]:
-    return {"point": pose[:3, 3].tolist(), "axis": pose[:3, 2].tolist()}
-
-
-_LOWER_PAIRS: dict[JointKind, Callable[[Joint, Pose], dict[str, object]]] = {
-    JointKind.REVOLUTE: _place,
-    JointKind.PRISMATIC: _place,
-    JointKind.CYLINDRICAL: _place,
-    JointKind.SCREW: lambda joint, pose: _place(joint, pose) | {"pitch": float(joint.pitch)},
-    JointKind.PLANAR: lambda _, pose: {"point": pose[:3, 3].tolist(), "normal": pose[:3, 2].tolist()},
-    JointKind.SPHERICAL: lambda _, pose: {"point": pose[:3, 3].tolist()},
-    JointKind.UNIVERSAL: lambda _, pose: {
-        "point": pose[:3, 3].tolist(),
-        "axis1": pose[:3, 1].tolist(),
-        "axis2": pose[:3, 0].tolist(),
-    },
-    JointKind.FIXED: lambda *_: {},
+WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
+    "point": lambda _, pose: pose[:3, 3].tolist(),
+    "axis": lambda _, pose: pose[:3, 2].tolist(),
+    "normal": lambda _, pose: pose[:3, 2].tolist(),
+    "axis1": lambda _, pose: pose[:3, 1].tolist(),
+    "axis2": lambda _, pose: pose[:3, 0].tolist(),
+    "pitch": lambda joint, _: float(joint.pitch),
 }
-"""What the function of each kind in `jaxkin.joints.pairs` takes, from a joint and its frame."""
+"""Keyword argument of the functions in `jaxkin.joints.pairs` -> what it was, from a joint and its frame."""
 
 
 def _drive(mechanism: Mechanism, drive: Mapping[str, str] | None) -> list[str]:

@@ -12,23 +12,42 @@ its translation separately.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, Movement
 from jaxkin.geometry.pose import Pose, Vector, frame
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, movements
-from jaxkin.joints.screws import Screws, chain, complement, freedoms, misfit
+from jaxkin.joints.screws import Screws, complement, freedoms, misfit
+from jaxkin.joints.screws import chain as displace
 
-LOWER_PAIRS = {
-    movement.turns_and_slides: (JointKind(movement.pair), name)
-    for name, movement in MOVEMENTS.items()
-    if movement.pair and not movement.has_pitch
-}
+
+def lower_pairs(movements: Mapping[str, Movement]) -> dict[tuple[int, int], tuple[JointKind, str]]:
+    """Tabulate the lower pairs among some movements: number of rotations and of translations -> kind, key.
+
+    Raises ValueError where two of them share these numbers: contacts that are combined could not tell them apart.
+    """
+    found: dict[tuple[int, int], tuple[JointKind, str]] = {}
+    for name, movement in movements.items():
+        if movement.pair and not movement.has_pitch:
+            kind, other = found.setdefault(movement.turns_and_slides, (JointKind(movement.pair), name))
+            if other != name:
+                turns, slides = movement.turns_and_slides
+                raise ValueError(
+                    f"movement {name!r} is said to be the pair {movement.pair!r}, with {turns} rotations and {slides} "
+                    f"translations, as {other!r} is already ({kind}): contacts can be combined to one of them only, "
+                    "leave the `pair` of the other out"
+                )
+    return found
+
+
+LOWER_PAIRS = lower_pairs(MOVEMENTS)
 """Number of rotations and of translations, which no two lower pairs share -> kind and movement of the pair."""
 
 
@@ -47,33 +66,47 @@ class LowerPair:
     meant to allow more."""
 
 
+class Chain(NamedTuple):
+    """A displacement set: the product of some movements."""
+
+    movements: Sequence[str]
+    """Keys of `MOVEMENTS`."""
+    frames: Float[np.ndarray, "frames 4 4"]
+    """A frame for each movement, in world coordinates at the assembled pose."""
+
+
 def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
     """Find the lower pair that the contacts of two parts are equivalent to; None if there is none.
 
     The contacts may give the two parts in either order, since a lower pair allows the inverse of each displacement that
-    it allows. Where the origin of the pair is arbitrary, it is the possible one nearest to the origin of the first
-    contact; the x axis is that of the first contact frame with the same z axis.
+    it allows.
     """
-    centre, size = contacts[0].frames[0, :3, 3], noise.size
-    scaled = [_scaled(contact.frames, centre, size) for contact in contacts]
-    allowed = [
-        chain(movements(c), f, np.zeros(freedoms(movements(c))))[1] for c, f in zip(contacts, scaled, strict=True)
-    ]
+    return lower_pair([Chain(movements(contact), contact.frames) for contact in contacts], noise)
+
+
+def lower_pair(chains: Sequence[Chain], noise: Noise) -> LowerPair | None:
+    """Find the lower pair whose displacements are those that all chains have in common; None if there is none.
+
+    Where the origin of the pair is arbitrary, it is the possible one nearest to the origin of the first chain; the x
+    axis is that of the first frame with the same z axis.
+    """
+    centre, size = chains[0].frames[0, :3, 3], noise.size
+    scaled = [Chain(chain.movements, _scaled(chain.frames, centre, size)) for chain in chains]
+    allowed = [displace(*each, np.zeros(freedoms(each.movements)))[1] for each in scaled]
     # entries of the matrices are sums of a few numbers, each within the noise
     tolerance = 4 * noise.angle
     forbidden = np.vstack([complement(screws) for screws in allowed])
     _, strengths, twists = np.linalg.svd(forbidden, full_matrices=True)
     rank = int(np.sum(strengths > tolerance))
-    candidate = _candidate(twists[rank:].T, np.concatenate(scaled), tolerance)
+    candidate = _candidate(twists[rank:].T, np.concatenate([each.frames for each in scaled]), tolerance)
     if candidate is None:
         return None
     kind, movement, pose = candidate
     coordinates = freedoms([movement])
     for q in np.random.default_rng(0).uniform(-0.5, 0.5, (2, coordinates)):
-        displacement = chain([movement], pose[None], q)[0]
-        for contact, frames in zip(contacts, scaled, strict=True):
-            if misfit(movements(contact), frames, displacement) > tolerance:
-                return None
+        displacement = displace([movement], pose[None], q)[0]
+        if any(misfit(*each, displacement) > tolerance for each in scaled):
+            return None
     pose = pose.copy()
     pose[:3, 3] = centre + size * pose[:3, 3]
     return LowerPair(kind, movement, pose, float(strengths[:rank].min(initial=1.0)))

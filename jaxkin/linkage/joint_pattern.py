@@ -13,27 +13,25 @@ from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.solve_order import Group
 from jaxkin.topology.graph import Circuit
 
-LETTERS = {
-    ("rotate",): "R",
-    ("translate",): "P",
-    ("screw",): "H",
-    ("rotate", "translate"): "C",
-    ("rotate", "translate", "translate"): "E",
-    ("rotate", "rotate"): "U",
-    ("rotate", "rotate", "rotate"): "S",
-}
-"""The letter of a pair by the kinds of its elementary motions, sorted."""
+OF_ELEMENT = {"rotate": "R", "translate": "P", "screw": "H"}
+"""Kind of an elementary motion -> letter of the pair that has this motion alone."""
 
 
 def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:
-    """The letter of a joint, of which only some coordinates move."""
-    letters, first = [], 0
+    """The letter of a joint, of which only some coordinates move.
+
+    A movement that is free as a whole has the letter of its lower pair. One of which a coordinate is driven is what its
+    other elementary motions are, leftmost factor first: a planar pair driven by its angle is (PP), driven by x it is
+    (PR), no C, whose axes are one.
+    """
+    letters, first = "", 0
     for name in movements:
         movement = MOVEMENTS[name]
-        kinds = tuple(sorted(e.kind for e in movement.elements if first + e.coordinate in coordinates))
-        letters += [LETTERS[kinds]] if kinds else []
+        moving = [element for element in movement.elements if first + element.coordinate in coordinates]
+        letter_of_pair = movement.letter if len(moving) == len(movement.elements) else None
+        letters += letter_of_pair or "".join(OF_ELEMENT[element.kind] for element in moving)
         first += len(movement.coordinates)
-    return letters[0] if len(letters) == 1 else f"({''.join(letters)})" if letters else ""
+    return letters if len(letters) < 2 else f"({letters})"
 
 
 def loop_name(group: Group, letters: Mapping[int, str], kind: str) -> str:

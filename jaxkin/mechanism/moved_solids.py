@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Part, moved
 from jaxkin.geometry.pose import Pose, apply
 
 _ALIKE = 1e-12
@@ -39,15 +39,8 @@ def moved_solids(
         for name, some in contacts.items()
         if all(_can_follow(contact, places) for contact in some)
     }
-    moved = tuple(_moved_part(part, places[part.name]) for part in solids)
-    return MovedSolids(moved, found, tuple(name for name in contacts if name not in found))
-
-
-def _moved_part(part: Part, place: Pose) -> Part:
-    faces = tuple(
-        replace(face, surface=face.surface.moved(place), triangles=apply(place, face.triangles)) for face in part.faces
-    )
-    return replace(part, faces=faces, triangles=apply(place, part.triangles))
+    displaced = tuple(moved(part, places[part.name]) for part in solids)
+    return MovedSolids(displaced, found, tuple(name for name in contacts if name not in found))
 
 
 def _can_follow(contact: Contact, places: Mapping[str, Pose]) -> bool:

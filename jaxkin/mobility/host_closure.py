@@ -9,6 +9,7 @@ import jax
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
@@ -21,6 +22,12 @@ _LONGEST_STEP = 0.5
 """Radians, or characteristic lengths: what a linear model of a rotation is good for."""
 _STAGNANT = 1e-9
 """Relative decrease of the merit in a step without more damping than at first, below which it is the least."""
+_ROUNDING = 1e-14
+"""Residual, some 45 roundings of float64, below which a step gains nothing: the host computes in float64, also where
+the mechanism has `SINGLE` numbers."""
+_DAMPING_FLOOR = 1e-14
+"""Least damping of a step, relative to the mean square of the rows of J: the square of `DOUBLE.rank`, so that the host
+takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
 _LEAST_TRUST = 1e12
 """Damping, over the square of the residual, at which no step lessens the residual: it is the least."""
 
@@ -86,7 +93,7 @@ class ClosedLoops:
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
         names = [name for joint in joints.values() for name in joint.coordinates]
-        self.units = np.array([length if name.split(".")[-1] in ("x", "y", "z") else 1.0 for name in names])
+        self.units = np.array([length if is_length(name) else 1.0 for name in names])
         """Of each column: what its scaled coordinate is multiplied by."""
         self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values())
         """Whether all joints have one frame on both of their parts: then the assembled pose is closed as it is given,
@@ -106,9 +113,9 @@ class ClosedLoops:
         found, trust, free = self.travel(q), 1.0, np.ones(len(q))
         free[list(held)] = 0.0
         for _ in range(_ITERATIONS):
-            if found.gap < 1e-14 or trust > _LEAST_TRUST:
+            if found.gap < _ROUNDING or trust > _LEAST_TRUST:
                 break
-            damping = max(1e-14, trust * 1e-2 * min(1.0, 2 * found.merit))
+            damping = max(_DAMPING_FLOOR, trust * 1e-2 * min(1.0, 2 * found.merit))
             step = least_norm(found.jacobian * free, found.residual, damping)
             step *= min(1.0, _LONGEST_STEP / max(float(np.linalg.norm(step)), _LONGEST_STEP))
             trial = self.travel(q - step)

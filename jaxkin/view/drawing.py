@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.view.sheet import Color
 
-GREY = (0.62, 0.64, 0.66)
+FIXED_COLOR = (0.62, 0.64, 0.66)
 """Fixed bodies."""
 
 PALETTE = (
@@ -43,7 +43,7 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     colors, of_part = cycle(PALETTE), {}
     for parts in mechanism.bodies.values():
         if not painted.issuperset(parts):
-            of_part |= dict.fromkeys(parts, GREY if parts[0] in mechanism.fixed else next(colors))
+            of_part |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in mechanism.fixed else next(colors))
     return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
 
 
@@ -52,7 +52,7 @@ def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> 
     shades = [tuple(1 - pale + pale * dark * value for value in color) for pale, dark in SHADES for color in PALETTE]
     colors, found = cycle(shades), {}
     for parts in bodies.values():
-        found |= dict.fromkeys(parts, GREY if parts[0] in fixed else next(colors))
+        found |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in fixed else next(colors))
     return found
 
 

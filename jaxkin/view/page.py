@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin.solve.status import Status
-from jaxkin.view.drawing import GREY, body_label
+from jaxkin.view.drawing import FIXED_COLOR, body_label
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.lost_marks import told
 from jaxkin.view.scene import Scene, make_scene
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
     from jaxkin.view.sheet import Color
 
-MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
+MAX_PAGE_POSES = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
 TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
 RISE = 0.52  # pitch that one in space is first seen from
 
@@ -28,8 +28,8 @@ def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None =
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
-    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn;
-    at poses where joints leave their faces, these are told and marked.
+    in `storyboard`. At most `MAX_PAGE_POSES` poses are kept, evenly in order of the input. Failed poses are told, not
+    drawn; at poses where joints leave their faces, these are told and marked.
 
     Raises ValueError for an unknown part and for points that are not such.
     """
@@ -40,7 +40,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     """What `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
     low, high = scene.bounds
     centre, scale = scene.view.axes.T @ (low + high) / 2, float(np.linalg.norm(high - low) / 2)
-    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MOST)).astype(int))]
+    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MAX_PAGE_POSES)).astype(int))]
     axes, yaw, pitch = scene.view.axes, *TILT
     if not scene.view.planar:  # the turntable stands upright in the world
         up = np.array([0.0, 0.0, 1.0])
@@ -48,7 +48,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     corners = np.stack(np.meshgrid(*(scene.bounds - (low + high) / 2).T), axis=-1).reshape(-1, 3) @ scene.view.axes
     first, second = headline(motion)
     status, entries = np.asarray(motion.status), inputs(motion)
-    colors = {part.name: part.color or GREY for part in scene.parts}
+    colors = {part.name: part.color or FIXED_COLOR for part in scene.parts}
     return {
         "title": first,
         "subtitle": second,

@@ -52,13 +52,28 @@ def test_joints_of_an_assembly_are_found_at_each_of_its_places(tmp_path: Path) -
     assert export.joints[1].sides[1].path == ("two", "c")
 
 
-def test_members_of_nested_rigid_groups_are_one_body(tmp_path: Path) -> None:
-    b, c, d = (instance(uid, "P", FRAME.format("0 0 0")) for uid in "bcd")
-    export = read_export(written(tmp_path, f"<RigidGroup>{b}<RigidGroup>{c}</RigidGroup></RigidGroup>{d}"))
-    first, second, alone = (part.body for part in export.parts)
-    assert first is not None
-    assert first == second
-    assert alone is None
+def test_members_of_rigid_groups_and_of_rigid_assemblies_are_one_body(tmp_path: Path) -> None:
+    b, c = (instance(uid, "P", FRAME.format("0 0 0"), rigidGroup="root-1") for uid in "bc")
+    d, e = (instance(uid, "P", FRAME.format("0 0 0"), rigidGroup="a-1") for uid in "de")
+    inside = instance("a", "A", FRAME.format("0 0 0"), d + e, rigid="true")
+    alone = instance("f", "P", FRAME.format("0 0 0"))
+    export = read_export(written(tmp_path, b + c + inside + alone, assemblies='<Assembly uid="A"/>'))
+    assert [part.body for part in export.parts] == [("group root-1",)] * 2 + [("a",)] * 2 + [None]
+
+
+def test_mates_are_placed_with_their_instance(tmp_path: Path) -> None:
+    tree = instance("b", "P", TURNED.format("1 0 0")) + instance("c", "P", FRAME.format("0 0 0"))
+
+    def geometry(uid: str) -> str:
+        path = f"<InstancePath><Uid>{uid}</Uid></InstancePath>"
+        place = "<Position>2 0 0</Position><Axis>2 0 0</Axis>"
+        return f'<ConstraintGeometry geomType="line">{path}{place}</ConstraintGeometry>'
+
+    mate = f'<Concentric name="pin">{geometry("b")}{geometry("c")}</Concentric>'
+    (found,) = read_export(written(tmp_path, tree, mate)).mates
+    np.testing.assert_allclose(found.sides[0].point, [1, 2, 0])
+    np.testing.assert_allclose(found.sides[0].axis, [0, 1, 0])
+    np.testing.assert_allclose(found.sides[1].axis, [1, 0, 0])
 
 
 def test_what_is_not_understood_is_named(tmp_path: Path) -> None:

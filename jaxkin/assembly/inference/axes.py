@@ -52,19 +52,23 @@ class CommonAxis:
         return self.one.part, self.other.part
 
 
-def common_axes(bores: Sequence[Bore]) -> list[CommonAxis]:
-    """Find all pairs of bores of different parts that share an axis; pins with a sleeve between are not in the hole."""
+def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[CommonAxis]:
+    """Find all pairs of bores of different parts that share an axis; pins with a sleeve between are not in the hole.
+
+    `clearance` is the largest radial clearance of a pin in its hole, in the unit of the file; by default MAX_CLEARANCE
+    times the radius of the hole.
+    """
     if len(bores) < 2:
         return []
-    near = _coaxial(bores)
-    pins = [each for each in near if each.one.hole != each.other.hole and _fits(each)]
+    near = _coaxial(bores, clearance)
+    pins = [each for each in near if each.one.hole != each.other.hole and _fits(each, clearance)]
     pins = [each for each in pins if not _sleeved(each, pins)]
     filled = {id(bore) for each in pins for bore in (each.one, each.other)}
     empty = [each for each in near if each.one.hole and each.other.hole and _equal(each)]
     return [*pins, *(each for each in empty if not {id(each.one), id(each.other)} & filled)]
 
 
-def _coaxial(bores: Sequence[Bore]) -> list[CommonAxis]:
+def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]:
     """Pairs of bores of different parts whose axes are one within the largest clearance; the pin comes first."""
     points, axes = (np.array([getattr(bore, name) for bore in bores]) for name in ("point", "axis"))
     radii = np.array([bore.radius for bore in bores])
@@ -75,7 +79,7 @@ def _coaxial(bores: Sequence[Bore]) -> list[CommonAxis]:
         offset = points[rest] - points[i]
         tilt = np.linalg.norm(np.cross(axes[rest], axes[i]), axis=1)
         apart = np.linalg.norm(offset - np.outer(offset @ axes[i], axes[i]), axis=1)
-        reach = MAX_CLEARANCE * np.maximum(radii[rest], radii[i])
+        reach = np.maximum(MAX_CLEARANCE * np.maximum(radii[rest], radii[i]), clearance or 0.0)
         for k in np.flatnonzero((parts[rest] != parts[i]) & (tilt <= MAX_TILT) & (apart <= reach)).tolist():
             pair = (bores[i], bores[i + 1 + k])
             one, other = pair if not pair[0].hole or pair[1].hole else pair[::-1]
@@ -83,11 +87,12 @@ def _coaxial(bores: Sequence[Bore]) -> list[CommonAxis]:
     return found
 
 
-def _fits(pair: CommonAxis) -> bool:
+def _fits(pair: CommonAxis, clearance: float | None) -> bool:
     """Whether the pin can be in the hole: by its radius, by how far it is off centre, and along the axis."""
     loose, radius = pair.clearance, pair.other.radius
     centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
-    return -MAX_INTERFERENCE * radius <= loose <= MAX_CLEARANCE * radius and centred and engaged(pair) > 0
+    most = MAX_CLEARANCE * radius if clearance is None else clearance
+    return -MAX_INTERFERENCE * radius <= loose <= most and centred and engaged(pair) > 0
 
 
 def _equal(pair: CommonAxis) -> bool:

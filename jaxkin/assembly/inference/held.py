@@ -36,7 +36,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     for contact in known.contacts:
         for pin, other in (contact.parts, contact.parts[::-1]):
             surface = contact.surfaces[contact.parts.index(pin)]
-            if contact.state != "a" or pin not in axis_of or frozenset(contact.parts) in known.pinned:
+            if not contact.contact_state.is_flat or pin not in axis_of or frozenset(contact.parts) in known.pinned:
                 continue
             if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis_of[pin].axis)) < ACROSS:
                 directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))

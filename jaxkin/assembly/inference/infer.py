@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, bearings, outside_of
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -29,17 +30,23 @@ def infer(
     rigid: Sequence[Sequence[str]] = (),
     joints: Sequence[Joint] = (),
     ignored: Collection[Pair] = (),
+    clearance: float | None = None,
 ) -> tuple[list[Inference], list[Inference]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
-    Pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with clearance or
-    interference, bores without a pin, parts that lie on one other only, and parts that touch nothing. Apart from these
-    comes what would stop slides that exact contacts allow: for those slides that are of no use. Between the parts of
-    pairs that are `ignored` nothing is inferred.
+    Bearings, pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with
+    clearance or interference, bores without a pin, parts that lie on one other only, and parts that touch nothing.
+    Apart from these comes what would stop slides that exact contacts allow: for those slides that are of no use.
+    Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     """
-    known = Known(parts, contacts, fixed, rigid, joints, ignored)
+    known = Known(parts, contacts, fixed, rigid, joints, ignored, clearance)
+    rolling = bearings(known)
+    known.axes = outside_of(rolling, known.axes)
+    known.add(bearing_bodies(known, rolling))
     fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
-    fastening -= {*fixed, *(part for contact in contacts if contact.state not in "ae" for part in contact.parts)}
+    fastening -= {name for each in rolling for name in (each.outer, each.inner)}
+    others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
+    fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     every = [with_hosts(stack, known) for stack in stacks(known.axes, fastening, known.touching, known.order)]
@@ -47,6 +54,7 @@ def infer(
         known.add(added)
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
+    known.found += bearing_joints(known, rolling)
     joined = hinges(known)
     known.found += [joint for joint, exact in joined if not exact]
     known.add(lying_on_one(known))

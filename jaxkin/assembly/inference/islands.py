@@ -38,7 +38,7 @@ def lying_on_one(known: Known) -> list[Inference]:
         owners = frozenset(body[part] for part in contact.parts)
         surface = contact.surfaces[0]
         planes.setdefault(owners, []).append(surface.normal if isinstance(surface, Plane) else np.zeros(3))
-        if contact.state != "a":
+        if not contact.contact_state.is_flat:
             planes[owners].append(np.zeros(3))
     hinged = {frozenset(body[part] for part in parts) for parts in jointed}
     result = []

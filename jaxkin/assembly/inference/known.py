@@ -27,6 +27,7 @@ class Known:
         rigid: Sequence[Sequence[str]],
         joints: Sequence[Joint],
         ignored: Collection[Pair] = (),
+        clearance: float | None = None,
     ):
         self.parts, self.contacts, self.fixed = parts, contacts, tuple(fixed)
         self.solids = {part.name: part for part in parts}
@@ -35,9 +36,10 @@ class Known:
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = {frozenset(joint.parts) for joint in joints}
         self.touching = {frozenset(contact.parts) for contact in contacts}
-        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.state == "e"}
+        self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
-        found = common_axes([bore for part in parts for bore in bores(part)])
+        self.bores = {part.name: bores(part) for part in parts}
+        found = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
 
     @property

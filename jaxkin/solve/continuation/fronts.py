@@ -5,15 +5,15 @@ Two fronts, forwards and backwards, trace a range; `reach` has one for every tar
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure.closure import Geometry
 from jaxkin.solve.continuation.input_path import InputPath
-from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -33,13 +33,11 @@ RESTING = 3
 """Stage of a front that takes no part in a step."""
 
 
-class ContinuationProblem(NamedTuple):
-    """What is traced: the loops, the path of their inputs, and how."""
+@dataclass(frozen=True, eq=False)
+class ContinuationProblem(ClosureProblem):
+    """What is traced: loops that stay closed while their inputs follow a path."""
 
-    system: LoopSystem
-    geometry: Geometry
     path: InputPath
-    options: SolverOptions
     follow_limits: Bool[Array, ""] | bool = True
     """Whether fronts go on beyond limits, with the damped corrector; if not, they stop there."""
 

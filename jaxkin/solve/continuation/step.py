@@ -182,21 +182,20 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
     """Bring the predicted states to closure by Newton's method, or where that fails by the damped corrector."""
-    system, geometry, _, options, follow_limits = problem
-    predicted = attempt.predicted
+    options, predicted = problem.options, attempt.predicted
     target_residual = rounding_residual(predicted.x.dtype, TARGET_ROUNDINGS)
-    state, closed, residual_norm = newton(system, geometry, predicted, target_residual, extrapolate_residual=True)
+    state, closed, residual_norm = newton(problem, predicted, target_residual, extrapolate_residual=True)
     quick = LevenbergMarquardtResult(state, closed, residual_norm, jnp.zeros(residual_norm.shape, bool))
     closes = residual_norm <= target_residual
     near = closes & (difference(state, predicted) <= MAX_START_DISTANCE)
     left_open = attempt.beyond | attempt.closing & ~near | attempt.following & ~closes
 
     def damped() -> LevenbergMarquardtResult:
-        steps = jnp.where(attempt.beyond, options.limit_steps, options.corrector_steps)
+        steps = jnp.where(attempt.beyond, options.limit_steps, options.damped_steps)
         steps = jnp.where(attempt.closing, options.rescue_steps, steps)
-        return select_poses(left_open, levenberg_marquardt(system, geometry, predicted, steps, target_residual), quick)
+        return select_poses(left_open, levenberg_marquardt(problem, predicted, steps, target_residual), quick)
 
-    return lax.cond(any_in_lockstep(left_open) & follow_limits, damped, lambda: quick)
+    return lax.cond(any_in_lockstep(left_open) & problem.follow_limits, damped, lambda: quick)
 
 
 def _accepted(
@@ -248,7 +247,7 @@ def reach(
     def path(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
         return jnp.where(at == distance, targets, at * direction), direction
 
-    problem = ContinuationProblem(system, geometry, path, options)
+    problem = ContinuationProblem(system, geometry, options, path)
     fronts = lax.while_loop(
         lambda fronts: any_in_lockstep(~arrived(fronts, distance)),
         lambda fronts: substep(problem, fronts, distance),

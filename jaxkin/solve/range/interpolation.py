@@ -18,19 +18,19 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure.closure import Geometry, closure
+from jaxkin.solve.closure.closure import closure
 from jaxkin.solve.closure.joint_coordinates import remove_passive_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.step import input_slopes
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.correctors.newton import newton
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
 from jaxkin.solve.status import default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
 
 MAX_SEGMENTS = 256
@@ -84,7 +84,7 @@ def interpolate(
     sharp, closes = rounding_residual(dtype, SHARP_ROUNDINGS), rounding_residual(dtype, CLOSED_ROUNDINGS)
     max_segments = max((MAX_SEGMENTS_WITH_SPINS if system.spinning else MAX_SEGMENTS) // shard_count, 1)
     length = max(2 ** (poses - 1).bit_length() // max_segments, 1)
-    segments = _solved_segments(system, geometry, samples, values, length)
+    segments = _solved_segments(problem, samples, values, length)
 
     def fill_segment(number: Array, found: Poses) -> Poses:
         first = segments.first[number]
@@ -118,10 +118,10 @@ def interpolate(
 
 
 def _solved_segments(
-    system: LoopSystem, geometry: Geometry, samples: BranchSamples, values: Float[Array, " poses"], length: int
+    problem: ClosureProblem, samples: BranchSamples, values: Float[Array, " poses"], length: int
 ) -> _Segments:
     """Cut the values into segments of `length` poses, and solve their nodes all at once."""
-    poses = values.shape[0]
+    system, poses = problem.system, values.shape[0]
     # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
     begin, end = values[first], values[first + length - 1]
@@ -130,12 +130,12 @@ def _solved_segments(
     nodes = (middle[:, None] + half_width[:, None] * jnp.asarray(NODES, values.dtype)).reshape(-1)
     prediction = predict(system, samples, nodes)
     state = drive(system, prediction.state, nodes[None])
-    state, evaluation, _ = newton(system, geometry, state, rounding_residual(values.dtype, CLOSED_ROUNDINGS))
+    state, evaluation, _ = newton(problem, state, rounding_residual(values.dtype, CLOSED_ROUNDINGS))
     middles = evaluation.jacobian[..., len(NODES) // 2 :: len(NODES)]
     inverses = inverse_jacobian(middles, damping_floor(values.dtype), equation_blocks(system))
 
     slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
-    state_and_slope = jax.jvp(partial(remove_passive_spin, system, geometry), (state,), (slope,))
+    state_and_slope = jax.jvp(partial(remove_passive_spin, system, problem.geometry), (state,), (slope,))
     polynomials = jax.tree.map(partial(_coefficients, half_width), *state_and_slope)
     status = prediction.status.reshape(-1, len(NODES))
     near = difference(state, prediction.state) <= MAX_NODE_CORRECTION

@@ -36,10 +36,10 @@ def correct_poses(
     With `follow_limits=False` poses that Newton's method does not close are STALLED; else the damped corrector goes on
     with them.
     """
-    system, geometry = problem.system, problem.geometry
+    system = problem.system
     prediction = predict(system, samples, at)
     state = drive(system, prediction.state, inputs)
-    quick, _, residual_norm = newton(system, geometry, state, tolerance.target_residual)
+    quick, _, residual_norm = newton(problem, state, tolerance.target_residual)
     near = difference(quick, state) <= MAX_CORRECTION
     closes = residual_norm <= jnp.maximum(rounding_residual(at.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
     good = closes & near & prediction.covered & is_closed(prediction.status)
@@ -75,7 +75,7 @@ def _correct_some(
     def step(carry):
         number, found = carry
         own = jax.tree.map(lambda array: lax.dynamic_slice_in_dim(array, number, size, axis=-1), begin)
-        here = levenberg_marquardt(problem.system, problem.geometry, own, problem.options.rescue_steps, target_residual)
+        here = levenberg_marquardt(problem, own, problem.options.rescue_steps, target_residual)
         found = jax.tree.map(
             lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, number, axis=-1),
             found,

@@ -25,6 +25,7 @@ from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.implicit_derivative import attach_derivative
@@ -131,7 +132,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
         return at[None], jnp.ones_like(at)[None]
 
-    problem = ContinuationProblem(system, asked.geometry, identity, options, asked.follow_limits)
+    problem = ContinuationProblem(system, asked.geometry, options, identity, asked.follow_limits)
     samples = trace_branch(problem, values)
     kept = samples.complete | asked.follow_limits
     values = jnp.where(kept, values, 0.0)
@@ -150,7 +151,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     geometry, follow_limits = asked.geometry, asked.follow_limits
     at, path = curve_through(asked.inputs)
     at, inputs = (shard(array, asked.shard_count, asked.shard_start) for array in (at, asked.inputs))
-    problem = ContinuationProblem(system, geometry, path, options, follow_limits)
+    problem = ContinuationProblem(system, geometry, options, path, follow_limits)
     samples = trace_branch(problem, at)
     kept = samples.complete | follow_limits
     at, inputs = jnp.where(kept, at, 0.0), jnp.where(kept, inputs, 0.0)
@@ -170,18 +171,16 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     one_by_one = partial(in_groups, corrected, size=group_size(system))
     if len(at) < options.interpolate_from:
         return _stalled_unless(kept, one_by_one((at, inputs)))
-    neighbours = partial(_of_neighbours, system, geometry, samples, one_by_one)
+    neighbours = partial(_of_neighbours, problem, samples, one_by_one)
     return _stalled_unless(kept, in_groups(neighbours, (at, inputs), CHORD_BATCH))
 
 
-def _of_neighbours(
-    system: LoopSystem, geometry: Geometry, samples: BranchSamples, one_by_one, group: tuple[Array, Array]
-) -> Poses:
+def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]) -> Poses:
     """Correct a group of neighbouring poses by chord steps; if one of them does not close, each by itself."""
     at, inputs = group
-    prediction = predict(system, samples, at)
-    begun = drive(system, prediction.state, inputs)
-    state, residual_norm = chord_newton(system, geometry, begun, rounding_residual(at.dtype, SHARP_ROUNDINGS))
+    prediction = predict(problem.system, samples, at)
+    begun = drive(problem.system, prediction.state, inputs)
+    state, residual_norm = chord_newton(problem, begun, rounding_residual(at.dtype, SHARP_ROUNDINGS))
     closes = residual_norm <= rounding_residual(at.dtype, CLOSED_ROUNDINGS)
     near = difference(state, begun) <= MAX_CORRECTION
     good = closes & near & prediction.covered & (prediction.status == Status.CLOSED.value)

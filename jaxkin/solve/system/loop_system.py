@@ -13,7 +13,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import NamedTuple
 
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.screws import freedoms
 from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.loop_class import LoopClass
@@ -125,7 +125,7 @@ class LoopSystem:
     def is_length(self) -> tuple[bool, ...]:
         """For each column whether it is a translation."""
         return tuple(
-            name in ("x", "y", "z")
+            is_length(name)
             for movements in self.movements
             for movement in movements
             for name in MOVEMENTS[movement].coordinates

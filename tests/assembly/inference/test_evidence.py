@@ -36,6 +36,15 @@ def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
     assert np.all(mechanism.sweep({f"{joint.name}.phi": np.linspace(0, 1, 5), f"{joint.name}.z": np.zeros(5)}).closed)
 
 
+def test_the_largest_clearance_can_be_said():
+    """In the unit of the file: 0.5 of a radius of 5 is within the default, and more is asked for."""
+    assert joint_of(hinge_with(4.5).mechanism(fixed=["base"], clearance=0.6), "base", "lever").freedoms
+    assert not hinge_with(4.5).mechanism(fixed=["base"], clearance=0.4).joints_between("base", "lever")
+    assert joint_of(hinge_with(3.0).mechanism(fixed=["base"], clearance=2.1), "base", "lever").freedoms
+    with pytest.raises(ValueError, match=r"clearance must be a radial length .* got -1"):
+        hinge_with(4.5).mechanism(fixed=["base"], clearance=-1)
+
+
 @pytest.mark.parametrize("radius", [2.0, 6.5])
 def test_a_post_that_is_far_too_thin_or_thick_is_no_pin(radius):
     mechanism = hinge_with(radius).mechanism(fixed=["base"])

@@ -1,0 +1,63 @@
+"""What a CAD system says of an assembly beside its solids: which parts it holds, bodies, joints and mates."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
+
+from jaxkin.joints.combine import Chain
+from jaxkin.joints.kinds import JointKind
+
+
+@dataclass(frozen=True, eq=False)
+class Constraint:
+    """A joint or a mate between two parts."""
+
+    name: str
+    parts: tuple[str, str]
+    """Part 1 and part 2; displacements are those of part 2 relative to part 1."""
+    text: str
+    """What the CAD system calls it, such as "Revolute 'hinge'"."""
+    chain: Chain
+    """The displacements that it allows; a weld allows none."""
+    kind: JointKind | None
+    """The kind of joint that it is by itself; None where it is none."""
+    offset: float = 0.0
+    """Distance between the two places that the export gives for its axis or centre, in the unit of the assembly."""
+    tilt: float = 0.0
+    """Angle between its two axes, radians."""
+
+
+@dataclass(frozen=True, eq=False)
+class Exported:
+    """What the export of a CAD system says."""
+
+    fixed: tuple[str, ...]
+    """Parts that the CAD system holds."""
+    rigid: tuple[tuple[str, ...], ...]
+    """Groups of parts that do not move against each other."""
+    constraints: tuple[Constraint, ...]
+    notes: tuple[str, ...]
+    """What is in the export and was not understood, a line each."""
+
+    def renamed(self, names: Mapping[str, str]) -> Exported:
+        """The same with other names for some parts."""
+
+        def new(parts: tuple[str, ...]) -> tuple[str, ...]:
+            return tuple(names.get(part, part) for part in parts)
+
+        constraints = tuple(
+            replace(each, parts=(names.get(each.parts[0], each.parts[0]), names.get(each.parts[1], each.parts[1])))
+            for each in self.constraints
+        )
+        return Exported(new(self.fixed), tuple(map(new, self.rigid)), constraints, self.notes)
+
+    def without(self, parts: Collection[str]) -> Exported:
+        """The same without some parts, and what it says of them."""
+
+        def left(group: tuple[str, ...]) -> tuple[str, ...]:
+            return tuple(part for part in group if part not in parts)
+
+        constraints = tuple(each for each in self.constraints if not {*each.parts} & {*parts})
+        groups = tuple(group for group in map(left, self.rigid) if len(group) > 1)
+        return Exported(left(self.fixed), groups, constraints, self.notes)

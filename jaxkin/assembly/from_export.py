@@ -1,0 +1,172 @@
+"""The mechanism that the joints and mates of a CAD system make, as its export says them."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import count
+from typing import TYPE_CHECKING
+
+from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.islands import tied_to_nothing
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.subassemblies import rigid_subassemblies
+from jaxkin.assembly.to_mechanism import Said, check_said, from_words
+from jaxkin.contacts.contact import Contacts
+from jaxkin.geometry.part import size
+from jaxkin.joints.combine import lower_pair
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint, joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.regularise import Noise
+from jaxkin.topology.bodies import bodies
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.assembly import Assembly
+    from jaxkin.mechanism.mechanism import Mechanism
+
+DIGITS = 1e-6
+"""Radians, or lengths over the size of the assembly, within which axes of an export are parallel or coincide: exporters
+write nine decimals of a metre, which is 1e-7 of a part of ten millimetres, and directions that are rounded alike."""
+
+
+def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism:
+    """Make the mechanism that an export says, with what the user says before it; contacts are not looked at.
+
+    All joints and mates between two bodies become the one lower pair that they amount to together; where there is none,
+    each becomes a joint of its own. Parts that nothing of the export ties move with the sub-assembly that they are in,
+    else with the part nearest to them. Parts are fixed by the user, or else by the export. Each step is told in the
+    notes of the mechanism.
+
+    Raises ValueError where neither fixes a part, and for names that do not exist.
+    """
+    said = said._replace(fixed=said.fixed or exported.fixed)
+    if not said.fixed:
+        raise ValueError(
+            f"{assembly.source}: its CAD system holds no part; say which parts are fixed, as in "
+            f"fixed=[{assembly.names[0]!r}]"
+        )
+    check_said(assembly.names, said)
+    notes = [*exported.notes]
+    noise = Noise(DIGITS, DIGITS * size(assembly.parts))
+    groups = _groups(exported, said)
+    constraints = [each for each in exported.constraints if not _replaced(each, said)]
+    while locked := _locked(assembly, said, groups, constraints, noise):
+        groups += locked
+    joints = _joints(assembly, said, groups, constraints, noise, notes)
+    groups += rigid_subassemblies(assembly.parts, said, groups, [each.joint.parts for each in joints if each.joint])
+    known = Known(assembly.parts, Contacts(()), said.fixed, said.rigid, said.joints)
+    known.add(groups)
+    body = known.body
+    known.found += [each for each in joints if body[each.parts[0]] != body[each.parts[1]]]
+    known.add(tied_to_nothing(known))
+    mechanism = from_words(assembly, Contacts(()), said, known.found)
+    return replace(mechanism, history=(*notes, *mechanism.history))
+
+
+def _groups(exported: Exported, said: Said) -> list[Inference]:
+    """The rigid groups of the export, and its welds."""
+    groups = [
+        Inference(group, Evidence(EvidenceKind.EXPORT, (), "a rigid group of the CAD system"))
+        for group in exported.rigid
+    ]
+    welds = [each for each in exported.constraints if each.kind is JointKind.FIXED and not _replaced(each, said)]
+    return groups + [Inference(each.parts, Evidence(EvidenceKind.EXPORT, (), each.text)) for each in welds]
+
+
+def _replaced(constraint: Constraint, said: Said) -> bool:
+    """Whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
+    parts = {*constraint.parts}
+    return any(parts == {*given.parts} for given in said.joints) or any(parts == {*pair} for pair in said.ignore)
+
+
+def _between(
+    assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint]
+) -> list[list[Constraint]]:
+    """The constraints of each two bodies; those inside a body are left out."""
+    body = bodies(assembly.names, said.fixed, [*said.rigid, *(each.parts for each in groups)])
+    found: dict[frozenset[str], list[Constraint]] = defaultdict(list)
+    for each in constraints:
+        owners = frozenset(body[part] for part in each.parts)
+        if len(owners) == 2:
+            found[owners].append(each)
+    return list(found.values())
+
+
+def _locked(
+    assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint], noise: Noise
+) -> list[Inference]:
+    """Pairs of bodies that several constraints leave no freedom together."""
+    result = []
+    for several in _between(assembly, said, groups, constraints):
+        pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None
+        if pair is not None and pair.kind is JointKind.FIXED:
+            evidence = Evidence(EvidenceKind.EXPORT, (), f"{_told(several)} leave no freedom")
+            result.append(Inference(several[0].parts, evidence))
+    return result
+
+
+def _joints(
+    assembly: Assembly,
+    said: Said,
+    groups: Sequence[Inference],
+    constraints: Sequence[Constraint],
+    noise: Noise,
+    notes: list[str],
+) -> list[Inference]:
+    """The joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
+    taken = {given.name for given in said.joints}
+    result = []
+    for several in _between(assembly, said, groups, constraints):
+        for name, found in _joints_of_two(several, noise, notes):
+            unique = next(each for each in _numbered(name) if each not in taken)
+            taken.add(unique)
+            evidence = found.evidence or Evidence(EvidenceKind.EXPORT)
+            result.append(Inference(found.parts, evidence, replace(found, name=unique)))
+    return result
+
+
+def _joints_of_two(several: Sequence[Constraint], noise: Noise, notes: list[str]) -> list[tuple[str, Joint]]:
+    """The joints of two bodies with names that others may have too: one lower pair where there is one."""
+    parts = several[0].parts
+    if len(several) > 1 and (pair := lower_pair([each.chain for each in several], noise)) is not None:
+        evidence = _evidence(several, notes, noise)
+        made = joint("-".join(parts), parts, pair.kind, (pair.movement,), [pair.frame], evidence=evidence)
+        return [("-".join(parts), made)]
+    result = []
+    for each in several:
+        if each.kind is None:
+            notes.append(
+                f"{each.text} between {each.parts[0]!r} and {each.parts[1]!r} is left out: by itself it is no joint, "
+                "and with what else joins the two it is no lower pair"
+            )
+        else:
+            movements, frames = tuple(each.chain.movements), each.chain.frames
+            evidence = _evidence([each], notes, noise)
+            result.append((each.name, joint(each.name, each.parts, each.kind, movements, frames, evidence=evidence)))
+    return result
+
+
+def _evidence(several: Sequence[Constraint], notes: list[str], noise: Noise) -> Evidence:
+    """What a joint is known from; axes of the two sides that do not meet are noted with their sizes."""
+    offset, tilt = max(each.offset for each in several), max(each.tilt for each in several)
+    sizes: tuple[tuple[str, float], ...] = ()
+    if offset > noise.length or tilt > noise.angle:
+        sizes = (("offset", offset), ("tilt", tilt))
+        parts = " and ".join(map(repr, several[0].parts))
+        notes.append(
+            f"{_told(several)} between {parts}: its two sides are {offset:.2g} and {tilt:.2g} rad apart as exported; "
+            f"taken as it stands on {several[0].parts[0]!r}"
+        )
+    return Evidence(EvidenceKind.EXPORT, sizes, _told(several))
+
+
+def _told(several: Sequence[Constraint]) -> str:
+    return " and ".join(each.text for each in several)
+
+
+def _numbered(name: str) -> Iterator[str]:
+    """The name, then "name#2", "name#3", ..."""
+    return (name if number == 1 else f"{name}#{number}" for number in count(1))

@@ -1,0 +1,170 @@
+"""Rolling bearings: a ring inside a ring, with balls, rollers, a cage and shields between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.geometry.part import Part
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+THICKEST = 0.45
+"""Radius of the inner ring over that of the hole of the outer one, at least: rings of catalogues have 0.6 to 0.9, and
+needle bearings nearly 1."""
+ROUND = 1.02
+"""A ring reaches no farther from its axis than this, over its largest radius: it is a body of revolution."""
+FLUSH = 0.05
+"""Ends of two rings that are flush, over the width of the wider one: what a bearing without its balls is known by."""
+ROLLING = 3
+"""Balls or rollers that centre a ring, at least."""
+SLACK = 0.05
+"""Play that parts between two rings have beyond the section of the rings, over the radius of the outer one."""
+
+
+class Bearing(NamedTuple):
+    """A rolling bearing."""
+
+    outer: str
+    inner: str
+    between: tuple[str, ...]
+    """Balls, rollers, cage and shields, which are taken for one body with the inner ring."""
+    axis: Bore
+    """The outside of the inner ring."""
+    rolling: int
+    """Number of balls or rollers."""
+
+
+class _Ring(NamedTuple):
+    """A body of revolution with a hole."""
+
+    part: Part
+    hole: Bore
+    """The narrowest one."""
+    outside: Bore
+    """The widest one."""
+
+
+def bearings(known: Known) -> list[Bearing]:
+    """Find the bearings among the parts: each ring belongs to one, the tightest pairs come first."""
+    rings = [ring for part in known.parts if (ring := _ring(part, known.bores[part.name])) is not None]
+    nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
+    found: list[Bearing] = []
+    taken: set[str] = set()
+    for outer, inner in sorted(nested, key=lambda pair: pair[0].hole.radius - pair[1].outside.radius, reverse=True):
+        names = {outer.part.name, inner.part.name}
+        between = [part for part in known.parts if part.name not in names | taken and _between(part, outer, inner)]
+        coaxial = {ring.part.name for ring in rings}
+        rolling = sum(part.name not in coaxial for part in between)
+        if not names & taken and (rolling >= ROLLING or _flush(outer, inner)):
+            taken |= names | {part.name for part in between}
+            members = tuple(part.name for part in between)
+            found.append(Bearing(outer.part.name, inner.part.name, members, inner.outside, rolling))
+    return found
+
+
+def bearing_bodies(known: Known, found: Sequence[Bearing]) -> list[Inference]:
+    """The inner ring of each bearing with its shaft and what is between the rings; the outer one with its housing."""
+    result = []
+    for each in found:
+        if each.between:
+            result.append(Inference((each.inner, *each.between), _evidence(each, "they turn with the inner ring")))
+        shafts = [pair for pair in known.axes if pair.other.part == each.inner and not pair.virtual]
+        housings = [pair for pair in known.axes if pair.one.part == each.outer and not pair.virtual]
+        for seats, ring in ((shafts, each.inner), (housings, each.outer)):
+            if seats:
+                seat = max(seats, key=engaged)
+                parts = tuple(sorted(seat.parts, key=known.order.__getitem__))
+                result.append(Inference(parts, _evidence(each, f"{ring!r} sits on the other one")))
+    return result
+
+
+def bearing_joints(known: Known, found: Sequence[Bearing]) -> list[Inference]:
+    """A revolute joint for each two bodies that bearings join, however many of them are on their common axis."""
+    body, lines, result = known.body, {}, []
+    for each in found:
+        owners = frozenset((body[each.outer], body[each.inner]))
+        if len(owners) < 2 or owners in {frozenset(body[part] for part in pair) for pair in known.by_hand}:
+            continue
+        if any(each.axis.on_axis_of(line) for line in lines.setdefault(owners, [])):
+            continue
+        lines[owners].append(each.axis)
+        parts = (each.outer, each.inner)
+        joint = pairs.revolute("-".join(parts), *parts, point=each.axis.point, axis=each.axis.axis)
+        evidence = _evidence(each, "turns in the outer ring")
+        result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+    return result
+
+
+def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[CommonAxis]:
+    """Leave out common axes that only bearings have: between the parts of one, and of what is between its rings."""
+    of = {name: number for number, each in enumerate(found) for name in (each.outer, each.inner, *each.between)}
+    hidden = {name for each in found for name in each.between}
+    return [
+        pair
+        for pair in axes
+        if not {*pair.parts} & hidden and (pair.one.part not in of or of[pair.one.part] != of.get(pair.other.part))
+    ]
+
+
+def _evidence(bearing: Bearing, what: str) -> Evidence:
+    of = f"with {bearing.rolling} balls or rollers" if bearing.rolling else "of two rings of one width"
+    text = f"a bearing {of}, {bearing.inner!r} inside of {bearing.outer!r}: {what}"
+    sizes = (("radius", bearing.axis.radius), ("balls or rollers", float(bearing.rolling)))
+    return Evidence(EvidenceKind.BEARING, sizes, text)
+
+
+def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
+    holes, outsides = [bore for bore in own if bore.hole], [bore for bore in own if not bore.hole]
+    if not holes or not outsides or not all(bore.on_axis_of(own[0]) for bore in own[1:]):
+        return None
+    hole, outside = min(holes, key=lambda bore: bore.radius), max(outsides, key=lambda bore: bore.radius)
+    away, _ = _section(part, outside)
+    return _Ring(part, hole, outside) if away.max() <= ROUND * outside.radius else None
+
+
+def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
+    """Distances of the corners of a part from an axis, and where they are along it."""
+    corners = part.triangles.reshape(-1, 3) - axis.point
+    along = corners @ axis.axis
+    return np.linalg.norm(corners - np.outer(along, axis.axis), axis=1), along
+
+
+def _inside(outer: _Ring, inner: _Ring) -> bool:
+    """Whether a ring is inside another one, with room for balls, and at the same place of one axis."""
+    if not inner.outside.on_axis_of(outer.hole):
+        return False
+    ratio = inner.outside.radius / outer.hole.radius
+    if not THICKEST <= ratio < 1 / ROUND:
+        return False
+    (low1, high1), (low2, high2) = (_ends(ring, outer.hole) for ring in (outer, inner))
+    return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2
+
+
+def _ends(ring: _Ring, axis: Bore) -> tuple[float, float]:
+    along = _section(ring.part, axis)[1]
+    return float(along.min()), float(along.max())
+
+
+def _flush(outer: _Ring, inner: _Ring) -> bool:
+    ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
+    return bool(np.abs(ends[0] - ends[1]).max() <= FLUSH * np.ptp(ends, axis=1).max())
+
+
+def _between(part: Part, outer: _Ring, inner: _Ring) -> bool:
+    """Whether a part is inside of the section that both rings make together."""
+    reach, slack = outer.outside.radius, SLACK * outer.outside.radius
+    middle = part.box.mean(axis=0) - outer.hole.point
+    if np.linalg.norm(middle) > 2 * reach + outer.hole.half:  # before all corners are looked at
+        return False
+    away, along = _section(part, outer.hole)
+    ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
+    within = along.min() >= ends[:, 0].min() - slack and along.max() <= ends[:, 1].max() + slack
+    return bool(within and away.min() > inner.hole.radius and away.max() < outer.outside.radius)
