@@ -1,0 +1,22 @@
+"""Formulas for the pose of a single loop: no iteration, one evaluation a pose.
+
+| module | loop | unknown coordinates |
+|---|---|---|
+| `equations` | A cos x + B sin x = C; (s + b)^2 = c | one angle; one displacement |
+| `planar_dyad` | planar, of turns R and slides P: RRR; RRP, RPR, PRR; RPP, PRP, PPR | three |
+| `spherical_triangle` | turns about axes through one point: RRR | three angles |
+| `rod` | a rod between two balls, whose other joints are known but for one | one angle or displacement |
+
+A loop is written as a product of displacements in world coordinates, each about its axis in the assembled pose,
+
+    U_1(q_1) K_1 U_2(q_2) K_2 ... U_n(q_n) K_n = 1,
+
+where the `U` are the elementary motions of unknown coordinates in order of travel, and `K` is what lies behind each of
+them and is known. All `q` are displacements from the assembled pose, in which the `U` are 1. A product that is 1 stays
+1 when it is begun at another factor, so RRP, RPR and PRR are one case.
+
+Every formula takes the sign of the branch, that of its signed root in the assembled pose, and returns the coordinates
+(angles in (-pi, pi]) with the discriminant over its largest possible value. The discriminant is positive where two
+poses exist, zero at a limit, negative where the loop cannot close; there the root is taken as zero. Coordinates are
+right to some roundings over the root of the discriminant.
+"""

@@ -1,0 +1,215 @@
+"""Planar dyads: three unknown turns and slides of one planar loop, in whatever order.
+
+Vectors and rotations of the plane are complex numbers here, kept as real and imaginary part. With e_i for the turn of
+unknown i, r_i for the rotation of what lies behind it and z_i for the link from its centre to that of the next one,
+
+    RRR    e_1 z_1 + e_1 r_1 e_2 z_2 = -conj(r_3) z_3          a triangle of sides |z_1|, |z_2|, |z_3|
+    RRP    e_1 z_1 = -conj(r_3) (z_3 + conj(r_2) z_2 + s d)     a circle and a line
+    RPP    z_1 + r_1 (s_2 d_2 + z_2) + r_1 r_2 (s_3 d_3 + z_3) = 0    two lines
+
+and all turns together are 1.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import jax.numpy as jnp
+
+from jaxkin.solve.closed_form.equations import Number, direction, ratio, root, solve_slide
+
+
+class Complex(NamedTuple):
+    """A vector or a rotation of the plane."""
+
+    real: Number
+    imag: Number
+
+
+class PlanarDisplacement(NamedTuple):
+    """A displacement of the plane: the point z goes to `turn` z + `shift`."""
+
+    turn: Complex
+    """Of absolute value 1."""
+    shift: Complex
+
+
+Three = tuple[Number, Number, Number]
+"""One number for each unknown."""
+
+
+class Dyad(NamedTuple):
+    """The pose of a dyad."""
+
+    coordinates: Three
+    """Of the unknowns in the order in which they were given: radians in (-pi, pi], or lengths."""
+    discriminant: Number
+    """RRR: the squared sine of the angle between the two links. RRP: that of the angle between the link and the slide.
+    RPP: that of the angle between the slides, of which there is one pose only."""
+
+
+class _Link(NamedTuple):
+    """What lies between an unknown and the next one."""
+
+    turn: Complex
+    shift: Complex
+    along: Complex
+    """Direction of the slide before it."""
+
+
+def add(*vectors: Complex) -> Complex:
+    """Add vectors."""
+    return Complex(sum(v.real for v in vectors), sum(v.imag for v in vectors))
+
+
+def times(*factors: Complex) -> Complex:
+    """Multiply complex numbers."""
+    first, *rest = factors
+    for factor in rest:
+        first = Complex(
+            first.real * factor.real - first.imag * factor.imag, first.real * factor.imag + first.imag * factor.real
+        )
+    return first
+
+
+def scale(number: Number, vector: Complex) -> Complex:
+    """Multiply a vector by a real number."""
+    return Complex(number * vector.real, number * vector.imag)
+
+
+def conj(number: Complex) -> Complex:
+    """Conjugate: the rotation back, or the mirror image."""
+    return Complex(number.real, -number.imag)
+
+
+def compose(first: PlanarDisplacement, then: PlanarDisplacement) -> PlanarDisplacement:
+    """Multiply two displacements."""
+    return PlanarDisplacement(times(first.turn, then.turn), add(first.shift, times(first.turn, then.shift)))
+
+
+def about(centre: Complex, turn: Complex) -> PlanarDisplacement:
+    """Make the turn about a point."""
+    moved = times(turn, centre)
+    return PlanarDisplacement(turn, Complex(centre.real - moved.real, centre.imag - moved.imag))
+
+
+def planar_dyad(kinds: str, places: Sequence[Complex], between: Sequence[PlanarDisplacement], sign: Number) -> Dyad:
+    """Solve U_1 K_1 U_2 K_2 U_3 K_3 = 1 for the coordinates of the three `U`.
+
+    `kinds` are three letters in order of travel, R for a turn and P for a slide, not PPP. `places` are the centre of
+    each turn and the unit direction of each slide in the assembled pose, `between` the displacements `K`, which are
+    known. `sign` is that of `signed_root` in the assembled pose.
+    """
+    first = _first(kinds)
+    kinds = kinds[first:] + kinds[:first]
+    found, discriminant = _FORMULAS[kinds](_links(kinds, first, places, between), sign)
+    return Dyad((found[-first % 3], found[(1 - first) % 3], found[(2 - first) % 3]), discriminant)
+
+
+def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarDisplacement]) -> Number:
+    """Compute the root of the discriminant, with the sign of the branch, in a pose in which all three unknowns are 0.
+
+    Arguments are those of `planar_dyad`. The root is the sine of the angle between the links of RRR, the cosine of the
+    angle of link and slide of RRP, and 1 for RPP, which has one pose.
+    """
+    first = _first(kinds)
+    kinds = kinds[first:] + kinds[:first]
+    one, two, three = _links(kinds, first, places, between)
+    if kinds == "RRR":
+        lengths = root(_square(one.shift) * _square(two.shift))
+        return ratio(times(conj(one.shift), one.turn, two.shift).imag, lengths)
+    if kinds == "RRP":
+        return ratio(times(conj(three.along), _to_line(two, three)).real, root(_square(one.shift)))
+    return jnp.ones_like(one.shift.real)
+
+
+def _first(kinds: str) -> int:
+    """The number of the unknown at which the loop is begun, so that its letters are a key of `_FORMULAS`."""
+    return next(k for k in range(3) if kinds[k:] + kinds[:k] in _FORMULAS)
+
+
+def _links(
+    kinds: str, first: int, places: Sequence[Complex], between: Sequence[PlanarDisplacement]
+) -> tuple[_Link, _Link, _Link]:
+    """The links behind the unknowns, begun at the unknown `first`; each from centre to centre, a slide's at 0."""
+    links: list[_Link] = []
+    for k, (here, then) in enumerate(zip(kinds, kinds[1:] + kinds[:1], strict=True)):
+        place, turn, shift = places[(first + k) % 3], *between[(first + k) % 3]
+        if then == "R":
+            shift = add(shift, times(turn, places[(first + k + 1) % 3]))
+        if here == "R":
+            shift = Complex(shift.real - place.real, shift.imag - place.imag)
+        links.append(_Link(turn, shift, place))
+    return links[0], links[1], links[2]
+
+
+def _triangle(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
+    """Solve RRR: w = conj(z_1) r_1 e_2 z_2 is known by its real part, by its size, and by the sign of the rest."""
+    one, two, three = links
+    first, second, third = (_square(link.shift) for link in links)
+    sides = first * second
+    real = 0.5 * (third - first - second)
+    size = root(sides)
+    product = (size - real) * (size + real)
+    w = Complex(real, sign * root(product))
+    e_1 = times(
+        conj(three.turn),
+        Complex(-three.shift.real, -three.shift.imag),
+        conj(one.shift),
+        Complex(first + real, -w.imag),
+    )
+    e_2 = times(w, one.shift, conj(two.shift), conj(one.turn))
+    e_3 = conj(times(e_1, e_2, one.turn, two.turn, three.turn))
+    return (_angle(e_1), _angle(e_2), _angle(e_3)), ratio(product, sides)
+
+
+def _circle_and_line(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
+    """Solve RRP: u = conj(d) (z_3 + conj(r_2) z_2 + s d) is known by its imaginary part, size, and sign of the rest."""
+    one, two, three = links
+    square = _square(one.shift)
+    begun = times(conj(three.along), _to_line(two, three))
+    radius = root(square)
+    slide = solve_slide(begun.real, (radius - begun.imag) * (radius + begun.imag), square, sign)
+    e_1 = times(conj(three.turn), three.along, Complex(-begun.real - slide.value, -begun.imag), conj(one.shift))
+    e_2 = conj(times(e_1, one.turn, two.turn, three.turn))
+    return (_angle(e_1), _angle(e_2), slide.value), slide.discriminant
+
+
+def _two_lines(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
+    """Solve RPP: the turn is the one that is left, and the slides are solved by Cramer's rule."""
+    del sign
+    one, two, three = links
+    left = add(times(conj(one.turn), one.shift), two.shift, times(two.turn, three.shift))
+    along_2, along_3 = two.along, times(two.turn, three.along)
+    sine = _cross(along_2, along_3)
+    parallel = sine == 0
+    divisor = jnp.where(parallel, 1.0, sine)
+    e_1 = conj(times(one.turn, two.turn, three.turn))
+    slides = [jnp.where(parallel, 0.0, -part / divisor) for part in (_cross(left, along_3), _cross(along_2, left))]
+    return (_angle(e_1), slides[0], slides[1]), sine * sine
+
+
+_FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
+    "RRR": _triangle,
+    "RRP": _circle_and_line,
+    "RPP": _two_lines,
+}
+"""Letters of the unknowns, begun at the one that makes them one of these -> formula."""
+
+
+def _to_line(two: _Link, three: _Link) -> Complex:
+    """z_3 + conj(r_2) z_2 of the slide in RRP."""
+    return add(three.shift, times(conj(two.turn), two.shift))
+
+
+def _square(vector: Complex) -> Number:
+    return vector.real * vector.real + vector.imag * vector.imag
+
+
+def _angle(number: Complex) -> Number:
+    return direction(number.imag, number.real)
+
+
+def _cross(one: Complex, other: Complex) -> Number:
+    return one.real * other.imag - one.imag * other.real

@@ -1,0 +1,99 @@
+"""The spherical triangle: three unknown turns about axes through one point.
+
+The first and the third axis a_1, a_3 are carried along by none of their own turns, so that
+
+    a_1 . K_1 U_2 K_2 a_3 = a_1 . K_3^T a_3
+
+holds the second angle alone: the cosine rule, A cos x + B sin x = C. The first and the third turn carry one known
+direction to another each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.solve.closed_form.equations import Number, direction, ratio, root, solve_turn
+
+Vector = Float[Array | np.ndarray, "3 *#poses"]
+Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
+"""[row, column]."""
+
+
+class Triangle(NamedTuple):
+    """The pose of a spherical triangle."""
+
+    coordinates: tuple[Number, Number, Number]
+    """Radians in (-pi, pi], in order of travel."""
+    discriminant: Number
+    """The squared sine of the angle at the second axis, between the arcs to the first and to the third."""
+
+
+def spherical_triangle(axes: Sequence[Vector], between: Sequence[Rotation], sign: Number) -> Triangle:
+    """Solve U_1 K_1 U_2 K_2 U_3 K_3 = 1 for the angles of the three `U`.
+
+    `axes` are the unit axes of the `U` in the assembled pose, `between` the rotations `K`, which are known. `sign` is
+    that of `signed_root` in the assembled pose.
+    """
+    one, two, three = axes
+    first, second, third = between
+    before, behind = back(first, one), carry(second, three)
+    carried = dot(before, two) * dot(two, behind)
+    turned_back = back(third, three)
+    found = solve_turn(
+        dot(before, behind) - carried, dot(before, cross(two, behind)), dot(one, turned_back) - carried, sign
+    )
+    arrived = carry(first, rotate(two, found.value, behind))
+    other = back(second, rotate(two, -found.value, before))
+    angles = angle_about(one, arrived, turned_back), found.value, angle_about(three, carry(third, one), other)
+    return Triangle(angles, found.discriminant)
+
+
+def signed_root(axes: Sequence[Vector], between: Sequence[Rotation]) -> Number:
+    """Compute the sine of the angle at the second axis, with its sign, in a pose in which all three unknowns are 0."""
+    one, two, three = axes
+    first, second, _ = between
+    before, behind = back(first, one), carry(second, three)
+    across = cross(two, before), cross(two, behind)
+    return ratio(dot(before, across[1]), root(dot(across[0], across[0]) * dot(across[1], across[1])))
+
+
+def dot(one: Vector, other: Vector) -> Number:
+    """Scalar product."""
+    return jnp.sum(one * other, axis=0)
+
+
+def cross(one: Vector, other: Vector) -> Vector:
+    """Vector product."""
+    return jnp.stack(
+        [
+            one[1] * other[2] - one[2] * other[1],
+            one[2] * other[0] - one[0] * other[2],
+            one[0] * other[1] - one[1] * other[0],
+        ]
+    )
+
+
+def carry(rotation: Rotation, vector: Vector) -> Vector:
+    """Rotate a vector by a matrix."""
+    return jnp.sum(rotation * vector[None], axis=1)
+
+
+def back(rotation: Rotation, vector: Vector) -> Vector:
+    """Rotate a vector by the inverse of a matrix."""
+    return jnp.sum(rotation * vector[:, None], axis=0)
+
+
+def rotate(axis: Vector, angle: Number, vector: Vector) -> Vector:
+    """Rotate a vector about a unit axis (Rodrigues)."""
+    along = axis * dot(axis, vector)
+    return along + jnp.cos(angle) * (vector - along) + jnp.sin(angle) * cross(axis, vector)
+
+
+def angle_about(axis: Vector, begun: Vector, wanted: Vector) -> Number:
+    """Compute the angle about a unit axis that turns one vector as near to another as it can."""
+    return direction(dot(axis, cross(begun, wanted)), dot(begun, wanted) - dot(axis, begun) * dot(axis, wanted))
