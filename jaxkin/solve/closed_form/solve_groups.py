@@ -1,0 +1,161 @@
+"""All groups of a loop system by their formulas, one after another."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
+from jaxkin.solve.closed_form.chain_motions import (
+    Axes,
+    Coordinates,
+    Plane,
+    carried,
+    known_rows,
+    planar_place,
+    planar_product,
+    planar_rest,
+    planar_sense,
+    plane_of,
+)
+from jaxkin.solve.closed_form.equations import Number
+from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
+from jaxkin.solve.system.chain_tables import chain_tables
+from jaxkin.solve.system.loop_system import LoopSystem
+
+
+class Solved(NamedTuple):
+    """Poses by formulas."""
+
+    x: Float[Array, "columns poses"]
+    """Radians, those of unknowns in (-pi, pi], and characteristic lengths; zero for balls."""
+    discriminant: Float[Array, "groups poses"]
+    """Of every group, over its largest possible value."""
+
+
+def branch_signs(system: LoopSystem, axes: Axes) -> list[Number]:
+    """The sign of the branch of every group in the assembled pose, in which all coordinates are taken as zero."""
+    rest: Coordinates = [jnp.zeros(1, axes.last.dtype)] * system.columns
+    return [jnp.sign(_signed_root(system, axes, formula, rest)) for formula in _formulas(system)]
+
+
+def solve_groups(
+    system: LoopSystem, axes: Axes, signs: list[Number], inputs: Float[Array, "driven poses"]
+) -> Solved:
+    """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
+    x: list[Array | None] = [None] * system.columns
+    for column, row in zip(system.driven, inputs, strict=True):
+        x[column] = row
+    discriminants = []
+    for formula, sign in zip(_formulas(system), signs, strict=True):
+        coordinates, discriminant = _solve(system, axes, formula, x, sign)
+        for column, found in zip(formula.columns, coordinates, strict=True):
+            x[column] = jnp.broadcast_to(found, inputs.shape[1:])
+        discriminants.append(jnp.broadcast_to(discriminant, inputs.shape[1:]))
+    zero = jnp.zeros_like(inputs[0])
+    return Solved(jnp.stack([zero if row is None else row for row in x]), jnp.stack(discriminants))
+
+
+def _formulas(system: LoopSystem) -> list[GroupFormula]:
+    found = [formula for formula in group_formulas(system) if isinstance(formula, GroupFormula)]
+    if len(found) < len(group_formulas(system)):
+        raise ValueError(f"a group has no formula: {group_formulas(system)}")
+    return found
+
+
+def _solve(
+    system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates, sign: Number
+) -> tuple[list[Number], Number]:
+    """Compute the coordinates of a group, and its discriminant."""
+    chain, rows = formula.chain, formula.rows
+    senses = [float(chain_tables(system).sign[row, chain]) for row in rows]
+    if formula.name == "planar dyad":
+        plane = plane_of(system, axes)
+        found, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, plane, formula, x), sign)
+        senses = [
+            planar_sense(system, axes, plane, row, chain) if letter == "R" else sense
+            for row, letter, sense in zip(rows, formula.letters, senses, strict=True)
+        ]
+    elif formula.name == "spherical triangle":
+        found, discriminant = spherical_triangle.spherical_triangle(*_spherical(system, axes, formula, x), sign)
+    else:
+        near, far, length = _rod(system, axes, formula, x)
+        axis, centre = _axis(axes, formula)
+        if formula.letters == "R":
+            *found, discriminant = rod.rod_turn(axis, centre, near, far, length, sign)
+        else:
+            *found, discriminant = rod.rod_slide(axis, near, far, length, sign)
+    return [sense * each for sense, each in zip(senses, found, strict=True)], discriminant
+
+
+def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
+    if formula.name == "planar dyad":
+        return planar_dyad.signed_root(
+            formula.letters, *_planar(system, axes, plane_of(system, axes), formula, rest)
+        )
+    if formula.name == "spherical triangle":
+        return spherical_triangle.signed_root(*_spherical(system, axes, formula, rest))
+    near, far, _ = _rod(system, axes, formula, rest)
+    axis, centre = _axis(axes, formula)
+    if formula.letters == "R":
+        return rod.signed_root_of_turn(axis, centre, near, far)
+    return rod.signed_root_of_slide(axis, near, far)
+
+
+def _planar(system: LoopSystem, axes: Axes, plane: Plane, formula: GroupFormula, x: Coordinates):
+    """Places and known displacements of a dyad: the arguments of `planar_dyad`."""
+    chain, (one, two, three) = formula.chain, formula.rows
+    places = [planar_place(system, axes, plane, row, chain) for row in formula.rows]
+
+    def product(begin: int, end: int) -> planar_dyad.PlanarDisplacement:
+        return planar_product(system, axes, plane, chain, known_rows(system, chain, begin, end), x)
+
+    behind = planar_dyad.compose(product(three + 1, len(axes.poses)), planar_rest(axes, plane, chain))
+    return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
+
+
+def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+    """Axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
+    chain, (one, two, three) = formula.chain, formula.rows
+    found = [axes.poses[row, chain, :3, 2, None] for row in formula.rows]
+    eye = jnp.eye(3, dtype=axes.last.dtype)
+
+    def rotated(begin: int, end: int, columns: Array):
+        rows = known_rows(system, chain, begin, end)
+        turned = [carried(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
+        return jnp.stack(jnp.broadcast_arrays(*turned), axis=1)
+
+    behind = rotated(three + 1, len(axes.poses), axes.last[chain, :3, :3].T)
+    before = rotated(0, one, eye)
+    return found, [
+        rotated(one + 1, two, eye),
+        rotated(two + 1, three, eye),
+        jnp.einsum("ijp,jkp->ikp", *jnp.broadcast_arrays(behind, before)),
+    ]
+
+
+def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
+    """The balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
+
+    The chain begins in the first ball, at the origin of its coordinates, and ends in the second; the rod is the other
+    chain, or whatever lies on the other side.
+    """
+    chain, (row,) = formula.chain, formula.rows
+    origin = jnp.zeros((3, 1), axes.last.dtype)
+    near = carried(system, axes, chain, known_rows(system, chain, 0, row), x, origin, inverse=True)
+    behind = known_rows(system, chain, row + 1, len(axes.poses))
+    far = carried(system, axes, chain, behind, x, axes.last[chain, :3, 3, None])
+    other = formula.other_chain
+    if other is None:
+        raise ValueError(f"the loop of {formula} is not cut at a rod")
+    rod_rows = known_rows(system, other, 0, len(axes.poses))
+    end = carried(system, axes, other, rod_rows, x, axes.last[other, :3, 3, None])
+    return near, far, jnp.sqrt(spherical_triangle.dot(end, end))
+
+
+def _axis(axes: Axes, formula: GroupFormula):
+    """Direction of the axis of the unknown, and a point on it."""
+    frame = axes.poses[formula.rows[0], formula.chain, :3, :, None]
+    return frame[:, 2], frame[:, 3]
