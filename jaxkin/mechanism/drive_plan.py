@@ -22,6 +22,8 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
+from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -53,6 +55,9 @@ class DrivenElement(NamedTuple):
     inputs: tuple[int, ...]
     """Which of the inputs it has, in the order of `system.driven`; none where it is only to be closed."""
     joints: Joints
+    axes: Axes | None
+    """The axes of the assembled pose, from which formulas compute the poses; None where they are traced, or where a
+    group has no formula: see `jaxkin.solve.closed_form`."""
     given: GivenLoops | None
     """What the poses are brought to the least residual of, where the loops solved are those of `linkage.ideal`."""
 
@@ -81,10 +86,13 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     if key in (kept := _kept(linkage)):
         return kept[key]
     plan = _plan_drive(linkage, keys)
-    on_device = jax.device_put([element.joints for element in plan.elements])
+    on_device = jax.device_put([(element.joints, element.axes) for element in plan.elements])
     if traced(on_device):
         return plan
-    elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
+    elements = tuple(
+        element._replace(joints=joints, axes=axes)
+        for element, (joints, axes) in zip(plan.elements, on_device, strict=True)
+    )
     kept[key] = plan._replace(elements=elements)
     return kept[key]
 
@@ -136,7 +144,10 @@ def _element(
         every = block_system(linkage, loop_group, driven, LoopClass())
         given = GivenLoops(*every, block_joints(linkage.joints, loop_group))
     joints = block_joints(linkage.solved_joints, loop_group)
-    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, given)
+    axes = None
+    if on_host is not None and why_not_all(system) is None:
+        axes = assembled_axes(system, block_joints(on_host.solved_joints, loop_group))
+    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, given)
 
 
 def ranked_groups(

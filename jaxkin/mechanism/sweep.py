@@ -73,7 +73,14 @@ def sweep(
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     solutions = [
-        solve(element.system, options, element.joints, _padded([followed[i] for i in element.inputs]), asked)
+        solve(
+            element.system,
+            options,
+            element.joints,
+            _padded([followed[i] for i in element.inputs]),
+            asked,
+            element.axes,
+        )
         for element in elements
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)

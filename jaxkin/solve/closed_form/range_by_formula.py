@@ -15,13 +15,10 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
-from jaxkin.solve.closed_form.chain_motions import assembled_axes
-from jaxkin.solve.closed_form.solve_groups import branch_signs, solve_groups
-from jaxkin.solve.closure.closure import closure, geometry_in_space
-from jaxkin.solve.closure.planar import planar_geometry
+from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.solve_groups import branch_signs, residual_norm, solve_groups
 from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
 from jaxkin.solve.status import ClosureTolerance, Status, rounding_residual
-from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, driven
 
@@ -54,50 +51,48 @@ class FormulaPoses(NamedTuple):
 
 
 def find_poses_by_formula(
-    system: LoopSystem, joints: Joints, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
 ) -> FormulaPoses:
     """Find the poses for finite inputs in radians or lengths of the mechanism, of a system that is all formulas.
 
     `inputs` is the range, or a shard of it: the way from the assembled pose is judged for what is given.
     """
-    space, length = geometry_in_space(system, *joints)
-    geometry = planar_geometry(system, space) if system.planar else space
-    lengths = jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
+    lengths = jnp.where(jnp.array(system.is_length, bool), axes.length, 1.0)[:, None]
     values = inputs / driven(system, lengths)
-    axes = assembled_axes(space)
-    signs = branch_signs(system, axes)
-
     low, high = jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)
     whole_turn = jnp.asarray(system.periodic) & (high - low > TURN)
     low, high = jnp.where(whole_turn, -TURN / 2, low), jnp.where(whole_turn, TURN / 2, high)
     way = low + (high - low) * jnp.asarray(np.linspace(0.0, 1.0, NODES), values.dtype)
-    nodes = solve_groups(system, axes, signs, jnp.append(way, 0.0)[None])
-    begin, found = nodes.x[:, -1:], solve_groups(system, axes, signs, values)
+    signs = branch_signs(system, axes)
+    every, discriminant = solve_groups(
+        system, axes, signs, jnp.concatenate([way, jnp.zeros(1, way.dtype), values[0]])[None]
+    )
+    nodes, begin, found = every[:, :NODES], every[:, NODES : NODES + 1], every[:, NODES + 1 :]
 
     turning = jnp.asarray(_unwrapped(system))[:, None]
-    steps = jnp.diff(nodes.x[:, :-1], axis=1)
+    steps = jnp.diff(nodes, axis=1)
     steps = steps - turning * TURN * jnp.round(steps / TURN)
-    path = nodes.x[:, :1] + jnp.concatenate([jnp.zeros_like(steps[:, :1]), jnp.cumsum(steps, axis=1)], axis=1)
+    path = nodes[:, :1] + jnp.concatenate([jnp.zeros_like(steps[:, :1]), jnp.cumsum(steps, axis=1)], axis=1)
     path = path - turning * TURN * jnp.round((path[:, _node(jnp.zeros(1), low, high)] - begin) / TURN)
     winding = turning * TURN * jnp.round((path[:, -1:] - path[:, :1]) / TURN)
 
     turns = jnp.where(whole_turn, jnp.round(values / TURN), 0.0)
     expected = path[:, _node((values - TURN * turns)[0], low, high)] + winding * turns
-    x = found.x + turning * TURN * jnp.round((expected - found.x) / TURN)
-    state = State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype))
-    residual_norm = closure(system, geometry, state).residual_norm
+    x = found + turning * TURN * jnp.round((expected - found) / TURN)
+    residual = residual_norm(system, axes, x)
 
     closes = jnp.maximum(rounding_residual(x.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    closes = jnp.all(residual_norm <= jnp.minimum(closes, tolerance.max_residual))
+    closes = jnp.all(residual <= jnp.minimum(closes, tolerance.max_residual))
     moves_little = jnp.max(jnp.abs(turning * steps)) <= MAX_TURN
     away = jnp.max(jnp.abs(begin))
     begins = (away <= CLOSED_START) | (
-        (away <= MAX_START_DISTANCE) & (jnp.min(nodes.discriminant[:, -1]) >= OPEN_START_DISCRIMINANT)
+        (away <= MAX_START_DISTANCE) & (jnp.min(discriminant[:, NODES]) >= OPEN_START_DISCRIMINANT)
     )
-    positive = jnp.min(least_between(nodes.discriminant[:, :-1])) > LEAST_DISCRIMINANT
-    proven = closes & moves_little & begins & positive & (jnp.min(found.discriminant) > LEAST_DISCRIMINANT)
+    positive = jnp.min(least_between(discriminant[:, :NODES])) > LEAST_DISCRIMINANT
+    proven = closes & moves_little & begins & positive & (jnp.min(discriminant) > LEAST_DISCRIMINANT)
     status = jnp.where(proven, Status.CLOSED.value, Status.STALLED.value)
-    return FormulaPoses(Poses(state, jnp.broadcast_to(status, residual_norm.shape), residual_norm), proven)
+    state = State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype))
+    return FormulaPoses(Poses(state, jnp.broadcast_to(status, residual.shape), residual), proven)
 
 
 def least_between(values: Float[Array, "rows nodes"]) -> Float[Array, "rows intervals"]:

@@ -8,21 +8,17 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
+from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.chain_motions import (
-    Axes,
     Coordinates,
-    Plane,
     carried,
-    known_rows,
+    moving_rows,
     planar_place,
     planar_product,
     planar_rest,
-    planar_sense,
-    plane_of,
 )
 from jaxkin.solve.closed_form.equations import Number
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
-from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
@@ -37,7 +33,7 @@ class Solved(NamedTuple):
 
 def branch_signs(system: LoopSystem, axes: Axes) -> list[Number]:
     """The sign of the branch of every group in the assembled pose, in which all coordinates are taken as zero."""
-    rest: Coordinates = [jnp.zeros(1, axes.last.dtype)] * system.columns
+    rest: Coordinates = [jnp.zeros(1, axes.centre.dtype)] * system.columns
     return [jnp.sign(_signed_root(system, axes, formula, rest)) for formula in _formulas(system)]
 
 
@@ -69,15 +65,8 @@ def _solve(
     system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates, sign: Number
 ) -> tuple[list[Number], Number]:
     """Compute the coordinates of a group, and its discriminant."""
-    chain, rows = formula.chain, formula.rows
-    senses = [float(chain_tables(system).sign[row, chain]) for row in rows]
     if formula.name == "planar dyad":
-        plane = plane_of(system, axes)
-        found, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, plane, formula, x), sign)
-        senses = [
-            planar_sense(system, axes, plane, row, chain) if letter == "R" else sense
-            for row, letter, sense in zip(rows, formula.letters, senses, strict=True)
-        ]
+        found, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, formula, x), sign)
     elif formula.name == "spherical triangle":
         found, discriminant = spherical_triangle.spherical_triangle(*_spherical(system, axes, formula, x), sign)
     else:
@@ -87,14 +76,12 @@ def _solve(
             *found, discriminant = rod.rod_turn(axis, centre, near, far, length, sign)
         else:
             *found, discriminant = rod.rod_slide(axis, near, far, length, sign)
-    return [sense * each for sense, each in zip(senses, found, strict=True)], discriminant
+    return [axes.sense[row, formula.chain] * each for row, each in zip(formula.rows, found, strict=True)], discriminant
 
 
 def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
     if formula.name == "planar dyad":
-        return planar_dyad.signed_root(
-            formula.letters, *_planar(system, axes, plane_of(system, axes), formula, rest)
-        )
+        return planar_dyad.signed_root(formula.letters, *_planar(system, axes, formula, rest))
     if formula.name == "spherical triangle":
         return spherical_triangle.signed_root(*_spherical(system, axes, formula, rest))
     near, far, _ = _rod(system, axes, formula, rest)
@@ -104,30 +91,30 @@ def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Co
     return rod.signed_root_of_slide(axis, near, far)
 
 
-def _planar(system: LoopSystem, axes: Axes, plane: Plane, formula: GroupFormula, x: Coordinates):
+def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     """Places and known displacements of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
-    places = [planar_place(system, axes, plane, row, chain) for row in formula.rows]
+    places = [planar_place(system, axes, row, chain) for row in formula.rows]
 
-    def product(begin: int, end: int) -> planar_dyad.PlanarDisplacement:
-        return planar_product(system, axes, plane, chain, known_rows(system, chain, begin, end), x)
+    def product(begin: int, end: int | None) -> planar_dyad.PlanarDisplacement:
+        return planar_product(system, axes, chain, moving_rows(system, chain, begin, end), x)
 
-    behind = planar_dyad.compose(product(three + 1, len(axes.poses)), planar_rest(axes, plane, chain))
+    behind = planar_dyad.compose(product(three + 1, None), planar_rest(axes, chain))
     return places, [product(one + 1, two), product(two + 1, three), planar_dyad.compose(behind, product(0, one))]
 
 
 def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     """Axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
-    found = [axes.poses[row, chain, :3, 2, None] for row in formula.rows]
-    eye = jnp.eye(3, dtype=axes.last.dtype)
+    found = [axes.direction[row, chain, :, None] for row in formula.rows]
+    eye = jnp.eye(3, dtype=axes.centre.dtype)
 
-    def rotated(begin: int, end: int, columns: Array):
-        rows = known_rows(system, chain, begin, end)
+    def rotated(begin: int, end: int | None, columns: Array):
+        rows = moving_rows(system, chain, begin, end)
         turned = [carried(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
         return jnp.stack(jnp.broadcast_arrays(*turned), axis=1)
 
-    behind = rotated(three + 1, len(axes.poses), axes.last[chain, :3, :3].T)
+    behind = rotated(three + 1, None, axes.open_turn[chain].T)
     before = rotated(0, one, eye)
     return found, [
         rotated(one + 1, two, eye),
@@ -143,19 +130,51 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     chain, or whatever lies on the other side.
     """
     chain, (row,) = formula.chain, formula.rows
-    origin = jnp.zeros((3, 1), axes.last.dtype)
-    near = carried(system, axes, chain, known_rows(system, chain, 0, row), x, origin, inverse=True)
-    behind = known_rows(system, chain, row + 1, len(axes.poses))
-    far = carried(system, axes, chain, behind, x, axes.last[chain, :3, 3, None])
+    origin = jnp.zeros((3, 1), axes.centre.dtype)
+    near = carried(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
+    behind = moving_rows(system, chain, row + 1)
+    far = carried(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
     other = formula.other_chain
     if other is None:
         raise ValueError(f"the loop of {formula} is not cut at a rod")
-    rod_rows = known_rows(system, other, 0, len(axes.poses))
-    end = carried(system, axes, other, rod_rows, x, axes.last[other, :3, 3, None])
+    rod_rows = moving_rows(system, other)
+    end = carried(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
     return near, far, jnp.sqrt(spherical_triangle.dot(end, end))
 
 
 def _axis(axes: Axes, formula: GroupFormula):
     """Direction of the axis of the unknown, and a point on it."""
-    frame = axes.poses[formula.rows[0], formula.chain, :3, :, None]
-    return frame[:, 2], frame[:, 3]
+    here = formula.rows[0], formula.chain
+    return axes.direction[here][:, None], axes.centre[here][:, None]
+
+
+def residual_norm(system: LoopSystem, axes: Axes, x: Float[Array, "columns poses"]) -> Float[Array, " poses"]:
+    """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas."""
+    rows = list(x)
+    if system.planar:
+        square = axes.off_plane
+        for chain in range(len(system.loops)):
+            product = planar_product(system, axes, chain, moving_rows(system, chain), rows)
+            turn, shift = planar_dyad.compose(product, planar_rest(axes, chain))
+            # a turn changes four of the nine entries of a rotation matrix
+            square += 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
+        return jnp.sqrt(square)
+    square = jnp.zeros(())
+    rods = {formula.chain: formula for formula in _formulas(system) if formula.name == "rod"}
+    for formula in rods.values():
+        ends = (_end(system, axes, chain, rows) for chain in (formula.chain, formula.other_chain))
+        lengths = [jnp.sqrt(spherical_triangle.dot(end, end)) for end in ends]
+        square += (lengths[0] - lengths[1]) ** 2
+    for chain in system.sections.spherical:
+        moving = moving_rows(system, chain)
+        end = _end(system, axes, chain, rows)
+        square += spherical_triangle.dot(end, end)
+        for column, unit in zip(axes.open_turn[chain].T, jnp.eye(3), strict=True):
+            left = carried(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
+            square += spherical_triangle.dot(left, left)
+    return jnp.sqrt(square)
+
+
+def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):
+    """Where a chain ends, (3, poses)."""
+    return carried(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])

@@ -49,17 +49,6 @@ def loop_geometry(
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of the loops from the frames of the joints, and the characteristic length.
 
-    Those of planar loops are in the plane. For the rest see `geometry_in_space`.
-    """
-    space, length = geometry_in_space(system, frames_1, frames_2, pitch)
-    return planar_geometry(system, space) if system.planar else space, length
-
-
-def geometry_in_space(
-    system: LoopSystem, frames_1: tuple[Given, ...], frames_2: tuple[Given, ...], pitch: tuple[Given, ...]
-) -> tuple[Spatial, Float[Array, ""]]:
-    """Compute the constants of the loops in space, whether they are planar or not, and the characteristic length.
-
     All arguments have one entry a joint. The origin is moved to the centroid of the frames on part 1, and lengths are
     divided by the root-mean-square distance of these from it (the characteristic length), so that no result depends on
     unit or origin. Both are held constant in derivatives, in which they cancel.
@@ -73,7 +62,8 @@ def geometry_in_space(
     frames = jnp.concatenate([*frames_1, *frames_2])
     frames = frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
     frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
-    return spatial_geometry(system, frames, jnp.stack(pitch) / length), length
+    space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
+    return planar_geometry(system, space) if system.planar else space, length
 
 
 def scaled_geometry(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:

@@ -16,6 +16,8 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin._traced import traced
+from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, find_poses_by_formula
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -58,17 +60,27 @@ def solve(
     joints: Joints,
     inputs: Float[Array | np.ndarray, "driven poses"],
     tolerance: ClosureTolerance,
+    axes: Axes | None = None,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Find displacements of all joints (radians, lengths of the mechanism) for given inputs, and the outcome.
 
     Compiled once for a system, the options that a program depends on, and a number of poses. `tolerance` decides, not
-    `options.tolerance`: it may be traced.
+    `options.tolerance`: it may be traced. `axes` are those of the assembled pose, of systems whose poses are formulas:
+    the general program is compiled only if the formulas do not prove that the motion leads to every pose.
     """
     if not traced((joints, inputs, tolerance)):
-        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
+        by_formula = _solve_by_formula(system, options, joints, inputs, tolerance, axes)
+        if by_formula is None:
+            return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
+        displaced, (poses, _) = by_formula
+        return displaced, Outcome(poses.status, poses.residual_norm)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
-    # compiler options are for whole programs only: inside one that is being traced the search becomes part of that
-    poses = _poses_program(whole=not traced(numbers))(system, options.of_program, *numbers)
+    by_formula = None if traced(numbers) else _solve_by_formula(system, options, *numbers, axes)
+    if by_formula is None:
+        # compiler options are for whole programs only: inside one that is being traced the search becomes part of that
+        poses = _poses_program(whole=not traced(numbers))(system, options.of_program, *numbers)
+    else:
+        poses = by_formula[1].poses
     found = _displacements_program(system, joints, inputs, poses)
     return found, Outcome(poses.status, poses.residual_norm)
 
@@ -76,6 +88,32 @@ def solve(
 def compilations() -> int:
     """The number of programs that find poses and were compiled in this process: one more shows a recompilation."""
     return _traces
+
+
+def _solve_by_formula(
+    system: LoopSystem,
+    options: SolverOptions,
+    joints: Joints,
+    inputs: Float[Array | np.ndarray, "driven poses"],
+    tolerance: ClosureTolerance,
+    axes: Axes | None,
+) -> tuple[Float[Array, "columns poses"], FormulaPoses] | None:
+    """Solve for numbers that are known by formulas; None where they do not prove their poses.
+
+    Ranges that are interpolated are left to the general program, whose poses cost less there than formulas.
+    """
+    if axes is None or options.method != CONTINUATION or inputs.shape[1] >= options.interpolate_from or inputs.dtype != np.float64:
+        return None
+    found = _formula_program()(system, joints, axes, inputs, tolerance)
+    return found if bool(found[1].proven) else None
+
+
+def _by_formula(
+    system: LoopSystem, joints: Joints, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+) -> tuple[Float[Array, "columns poses"], FormulaPoses]:
+    _count_trace()
+    found = find_poses_by_formula(system, axes, inputs, tolerance)
+    return displacements(system, joints, inputs, found.poses), found
 
 
 def _solve_numbers(
@@ -147,6 +185,12 @@ _displacements_program = jax.jit(displacements, static_argnames="system")
 def _solve_program():
     """The program of a plain sweep: poses and displacements."""
     return jax.jit(_solve, static_argnames=("system", "options", "shard_count"), **jit_options())
+
+
+@cache
+def _formula_program():
+    """The program of a plain sweep whose poses are formulas: poses and displacements."""
+    return jax.jit(_by_formula, static_argnames="system", **jit_options())
 
 
 @cache
