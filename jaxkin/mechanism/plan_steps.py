@@ -14,6 +14,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.solve_order import Group
 from jaxkin.mechanism.drive_plan import DrivenElement, ranked_groups
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
+from jaxkin.solve.closed_form.group_formulas import group_formulas, why_not_all
 from jaxkin.solve.system.equation_blocks import EquationBlock, blocks_of_groups
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -53,6 +54,12 @@ class Step:
     merged: int
     """Number of groups of loops that are one step because they share what is left free; 1 where nothing is shared."""
 
+    method: str
+    """"formula" or "Newton". Poses by formula are those of sweeps that are not traced by JAX, of fewer poses than
+    `SolverOptions.interpolate_from`, where no limit or change point is near the way: others are Newton's too."""
+    why: str
+    """Which formula it is, or why there is none."""
+
     def __str__(self) -> str:
         after = f"after {listed([str(other + 1) for other in self.after])}: " if self.after else ""
         of_joints = ", ".join(joint for joint in self.joints if joint not in self.follow)
@@ -63,7 +70,7 @@ class Step:
         count = "1 " if self.loops == 1 else ""
         return (
             f"{after}{count}{self.loop_class} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
-            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}"
+            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; {self.method} ({self.why})"
         )
 
 
@@ -116,6 +123,7 @@ def _step(
     cuts = [system.cuts[loop] for loop in loops]
     rank = group.rank - sum(RANK_OF_CUT[len(cut)] for cut in cuts)
     cut = {ball for balls in cuts for ball in balls}
+    method, why = _method(element, number)
     joint_of_ball = {ball: joint for (joint, _), (ball, _) in system.places.items()}
     rows = linkage.structure.row_of
     ends = {rows[part] for joint in group.joints for part in joints[joint].parts}
@@ -132,7 +140,22 @@ def _step(
         follow=tuple(joints[element.loop_group.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
         after=after,
         merged=group.merged,
+        method=method,
+        why=why,
     )
+
+
+def _method(element: DrivenElement, number: int) -> tuple[str, str]:
+    """How a group is solved, "formula" or "Newton", and why."""
+    blocks = blocks_of_groups(element.system)
+    found = group_formulas(element.system)[sum(bool(block.columns) for block in blocks[:number])]
+    if isinstance(found, str):
+        return "Newton", found
+    if (missing := why_not_all(element.system)) is not None:
+        return "Newton", f"the {found.name} {found.letters} has a formula, but {missing}"
+    if element.axes is None:
+        return "Newton", f"the {found.name} {found.letters} has a formula, but its joint frames are traced"
+    return "formula", f"{found.name} {found.letters}"
 
 
 def _names(linkage: Linkage, element: DrivenElement, block: EquationBlock) -> tuple[str, ...]:

@@ -190,3 +190,29 @@ def test_rates_found_group_by_group_close_all_loops(seed, dyads, welded):
             rates[now] = solution + random.normal(size=len(free)) @ free
             np.testing.assert_allclose(rows @ rates, 0.0, atol=1e-5 * max(1.0, np.abs(rates).max()))
         np.testing.assert_allclose(jacobian @ rates, 0.0, atol=1e-5 * max(1.0, np.abs(rates).max()))
+
+
+@pytest.mark.parametrize(
+    ("make", "drive", "methods"),
+    [
+        (planar_fourbar, "A", [("formula", "planar dyad RRR")]),
+        (slider_crank, "A", [("formula", "planar dyad PRR")]),
+        (cardan_shafts, "in", [("formula", "spherical triangle RRR")]),
+        (rssr_linkage, "A", [("formula", "rod R")]),
+        (catalogue.jansen, "O", [("formula", "planar dyad RRR")] * 3),
+        (bennett_linkage, "A", [("Newton", "a loop in space without a rod between two balls")]),
+        (catalogue.stephenson, "G", [("Newton", "its 2 loops are solved together")]),
+    ],
+    ids=lambda value: getattr(value, "__name__", None),
+)
+def test_every_step_says_whether_it_has_a_formula(make, drive, methods):
+    plan = make().plan([drive])
+    assert [(step.method, step.why) for step in plan.steps] == methods
+    assert all(f"; {method} ({why})" in str(plan) for method, why in methods)
+
+
+def test_a_step_with_a_formula_beside_one_without_says_so():
+    steps = catalogue.parallelogram(3).plan(["A"]).steps
+    assert [step.method for step in steps] == ["Newton", "Newton"]
+    assert steps[0].why == "the planar dyad RRR has a formula, but not all loops that are solved with it have one"
+    assert steps[1].why == "2 unknowns, where the formula of the planar dyad is for 3"

@@ -45,8 +45,9 @@ def why_not_all(system: LoopSystem) -> str | None:
         return "formulas follow a single input only"
     if system.turned_balls:
         return "a ball turns in a loop"
-    without = [number for number, found in enumerate(group_formulas(system), 1) if isinstance(found, str)]
-    return f"group {without[0]} has no formula" if without else None
+    if any(isinstance(found, str) for found in group_formulas(system)):
+        return "not all loops that are solved with it have one"
+    return None
 
 
 def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -> GroupFormula | str:
