@@ -78,9 +78,7 @@ def assembled_axes(system: LoopSystem, joints: Joints) -> Axes:
     off = np.sum(tilt[moves]) + np.sum((turn @ normal - normal) ** 2) + np.sum((shift @ normal) ** 2)
     sense = np.where(turns, sense * np.sign(direction @ normal), sense)
     flat = np.einsum("ai,cij,bj->cab", plane, turn, plane)
-    return Axes(
-        direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off, np.asarray(length)
-    )
+    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off, np.asarray(length))
 
 
 def _inverse(poses: Float[np.ndarray, "chains 4 4"]) -> Float[np.ndarray, "chains 4 4"]:

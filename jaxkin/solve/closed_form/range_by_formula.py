@@ -107,9 +107,7 @@ def least_between(values: Float[Array, "rows nodes"]) -> Float[Array, "rows inte
     return jnp.minimum(values[:, 1:], values[:, :-1]) - 0.25 * jnp.max(nearest, axis=0)
 
 
-def _node(
-    at: Float[Array, " poses"], low: Float[Array, ""], high: Float[Array, ""]
-) -> Int[Array, " poses"]:
+def _node(at: Float[Array, " poses"], low: Float[Array, ""], high: Float[Array, ""]) -> Int[Array, " poses"]:
     """The number of the node that is nearest to an input."""
     width = jnp.where(high > low, high - low, 1.0)
     return jnp.clip(jnp.round((NODES - 1) * (at - low) / width), 0, NODES - 1).astype(jnp.int32)

@@ -37,9 +37,7 @@ def branch_signs(system: LoopSystem, axes: Axes) -> list[Number]:
     return [jnp.sign(_signed_root(system, axes, formula, rest)) for formula in _formulas(system)]
 
 
-def solve_groups(
-    system: LoopSystem, axes: Axes, signs: list[Number], inputs: Float[Array, "driven poses"]
-) -> Solved:
+def solve_groups(system: LoopSystem, axes: Axes, signs: list[Number], inputs: Float[Array, "driven poses"]) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
     x: list[Array | None] = [None] * system.columns
     for column, row in zip(system.driven, inputs, strict=True):

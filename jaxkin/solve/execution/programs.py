@@ -102,7 +102,12 @@ def _solve_by_formula(
 
     Ranges that are interpolated are left to the general program, whose poses cost less there than formulas.
     """
-    if axes is None or options.method != CONTINUATION or inputs.shape[1] >= options.interpolate_from or inputs.dtype != np.float64:
+    if (
+        axes is None
+        or options.method != CONTINUATION
+        or inputs.shape[1] >= options.interpolate_from
+        or inputs.dtype != np.float64
+    ):
         return None
     found = _formula_program()(system, joints, axes, inputs, tolerance)
     return found if bool(found[1].proven) else None

@@ -48,6 +48,7 @@ def program_of(linkage):
     return program
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("linkage", LINKAGES, ids=lambda linkage: linkage.name)
 def test_what_is_proven_can_be_reached_and_is_right(linkage):
     count = checked(linkage, program_of(linkage), np.random.default_rng(1), 40)
