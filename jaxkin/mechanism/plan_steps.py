@@ -70,7 +70,8 @@ class Step:
         count = "1 " if self.loops == 1 else ""
         return (
             f"{after}{count}{self.loop_class} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
-            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; {self.method} ({self.why})"
+            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; "
+            f"{self.method} ({self.why})"
         )
 
 

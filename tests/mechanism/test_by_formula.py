@@ -1,4 +1,4 @@
-"""Sweeps by formula: the poses, statuses and derivatives of the general program, which is compiled only where needed."""
+"""Sweeps by formula: poses, statuses, derivatives are the general program's, which is compiled only where needed."""
 
 import jax
 import jax.numpy as jnp

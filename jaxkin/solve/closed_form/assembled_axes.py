@@ -1,7 +1,7 @@
 """The axes of the elementary motions of a loop system in the assembled pose (host code: numpy, no compilation).
 
-The closure of a chain is E_1(q_1) E_2(q_2) ... E_n(q_n) M = 1. Every E is a turn about, or a slide along, its axis where
-that is in the assembled pose; M is what is left open there, and 1 unless dimensions were changed.
+The closure of a chain is E_1(q_1) E_2(q_2) ... E_n(q_n) M = 1. Every E is a turn about, or a slide along, its axis in
+the assembled pose; M is what is left open there, and 1 unless dimensions were changed.
 """
 
 from __future__ import annotations
