@@ -12,6 +12,7 @@ from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
@@ -166,6 +167,11 @@ class Assembly:
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
         return {}
+
+    @cached_property
+    def measured(self) -> Measured:
+        """What is measured of the solids for inferences."""
+        return Measured(self.parts)
 
     def __str__(self) -> str:
         return self.describe()
