@@ -26,8 +26,8 @@ _ROUNDING = 1e-14
 """Residual, some 45 roundings of float64, below which a step gains nothing: the host computes in float64, also where
 the mechanism has `SINGLE` numbers."""
 _DAMPING_FLOOR = 1e-14
-"""Least damping of a step, relative to the mean square of the rows of J: the square of `DOUBLE.rank`, so that the host
-takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
+"""Least damping of a step, relative to the mean square of the rows of J: the square of `RANK_TOLERANCE`, so that the
+host takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
 _LEAST_TRUST = 1e12
 """Damping, over the square of the residual, at which no step lessens the residual: it is the least."""
 

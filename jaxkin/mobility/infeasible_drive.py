@@ -32,7 +32,7 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
     the motion may branch, the drive is left to the solver. What is to be driven instead can be given at both poses,
     where there is such.
     """
-    for found, columns in _driven_blocks(linkage, driven):
+    for found, columns in _driven_groups(linkage, driven):
         if _follows(found, columns):
             continue
         given = names(linkage, found, columns)
@@ -89,7 +89,7 @@ def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[s
     spinning = [part.name for part in linkage.spinning]
     return tuple(
         name
-        for found, columns in _driven_blocks(linkage, driven)
+        for found, columns in _driven_groups(linkage, driven)
         for name in names(linkage, found, drivable(linkage, found, columns, spinning))
     )
 
@@ -100,7 +100,7 @@ def _loops_of(found: LoopFreedoms) -> str:
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
 
 
-def _driven_blocks(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
+def _driven_groups(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
     """The loops that hold a driven coordinate, with its columns; of loops that cannot be closed nothing is known."""
     for found in loop_freedoms(linkage):
         columns = [column for column, owner in enumerate(found.columns) if owner in driven]

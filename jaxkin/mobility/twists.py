@@ -17,7 +17,7 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement
-from jaxkin.linkage.first_order import DOUBLE
+from jaxkin.linkage.first_order import RANK_TOLERANCE
 
 _LOST = 1e-10
 """A constraint direction is lost with some rows if all but this share of it (squared) lies in them."""
@@ -38,7 +38,7 @@ class Twists:
     @cached_property
     def _decomposed(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         u, s, vt = np.linalg.svd(self.matrix, full_matrices=False)
-        rank = int((s > DOUBLE.rank * s.max(initial=0.0)).sum())
+        rank = int((s > RANK_TOLERANCE * s.max(initial=0.0)).sum())
         return u[:, :rank], s[:rank], vt[:rank]
 
     @property
@@ -54,7 +54,7 @@ class Twists:
         """Independent twists that some of the rows allow these bodies while all others rest."""
         own = np.concatenate([6 * self.bodies.index(body) + np.arange(6) for body in bodies])
         strengths = np.linalg.svd(self.matrix[np.ix_(rows, own)], compute_uv=False)
-        return len(own) - int((strengths > DOUBLE.rank * strengths.max(initial=0.0)).sum())
+        return len(own) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
 
     def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
         """The motions that the system gains without some of its rows: of the bodies, beside those that it has anyway.

@@ -23,7 +23,7 @@ Frames = tuple[Float[Array, "_ 4 4"], ...]
 
 
 def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
-    """Compute the rotation matrices of all balls, by number, without passive spin of rods.
+    """Compute the rotation matrices of all balls, by number, without the idle spins of rods.
 
     A ball at which a loop is cut gets the rotation that closes the loop.
     """
@@ -31,8 +31,8 @@ def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
     return remove_spin_from_rotations(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
 
 
-def remove_passive_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
-    """Remove the passive spin of all rods: the result is a smooth function of the input, unlike the solver's state."""
+def remove_idle_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
+    """Remove the idle spins of all rods: the result is a smooth function of the input, unlike the solver's state."""
     if not isinstance(geometry, Spatial) or not system.spinning:
         return state
     return remove_spin_from_state(system, geometry.lines, _all_turns(system, geometry, state), state)

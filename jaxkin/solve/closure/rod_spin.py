@@ -1,4 +1,4 @@
-"""Remove the passive spin of rods between two balls: the rotation about the line of their centres, which no loop fixes.
+"""Remove the idle spin of rods between two balls: the rotation about the line of their centres, which no loop fixes.
 
 Least-norm steps leave some spin behind. Of all spins the one is chosen at which the balls turn least from the assembled
 pose: with the quaternion `(w, v)` of either ball and the line `n`, fixed in the rod, the sum of their `|v|^2` is least.

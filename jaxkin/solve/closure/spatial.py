@@ -41,7 +41,7 @@ class Spatial(NamedTuple):
     """The constant pose behind the last step."""
     pitch: Float[Array, " joints"]
     lines: Lines
-    """Lines of the passive spins: see `rod_spin`."""
+    """Lines of the idle spins, unit vectors: see `rod_spin`."""
     centres: Float[Array, "3 spherical"]
     """Points about which the spherical loops turn, of `LoopSystem.sections`."""
 

@@ -1,8 +1,8 @@
 """Find least-norm solutions of many small linear systems at once, by the algorithm that suits their size.
 
-Closure equations are often redundant (parallel axes, several contacts of one pair), and coordinates may be passive (the
-spin of a rod between two balls). `x = J^T (J J^T + damping s 1)^-1 r` is defined in both cases, and lies in the row
-space of J by construction: rounding sets no passive coordinate in motion, as it does with `(J^T J + damping)^-1 J^T r`.
+Closure equations are often redundant (parallel axes, several contacts of one pair), and freedoms may be idle (the spin
+of a rod between two balls). `x = J^T (J J^T + damping s 1)^-1 r` is defined in both cases, and lies in the row space of
+J by construction: rounding sets no idle freedom in motion, as it does with `(J^T J + damping)^-1 J^T r`.
 
 | rows | algorithm |
 |---|---|
