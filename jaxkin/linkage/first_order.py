@@ -1,4 +1,4 @@
-"""Loops at first order: the rates of the joints that keep them closed, as linear equations in numpy."""
+"""Write the closure of loops at first order, as linear equations for the rates of their joints (numpy, on the host)."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ RANK_TOLERANCE = 1e-7
 """`Thresholds.rank` in float64. Its square, 45 units of rounding, is the damping of J J^T, from which least-norm steps
 are computed. Singular values of J below 1.5e-8, the root of one unit of rounding, are rounding in J J^T."""
 RATE_TOLERANCE = 2e-5
-"""`Thresholds.rate` in float64: four times the rounding of numbers of six digits, 5e-6. The frames of a part with an idle
+"""`Thresholds.rate` in float64: four times the rounding of numbers of six digits, 5e-6. Frames of a part with an idle
 motion (a leg that slides along its line) may stay rounded so, since its loops move without exact alignment."""
 DOUBLE = Thresholds(RESIDUAL_TOLERANCE, RANK_TOLERANCE, RATE_TOLERANCE)
 """Thresholds for mechanisms in float64."""
@@ -66,7 +66,11 @@ Columns = Sequence[tuple[int, int]]
 def loop_jacobian(
     loops: Sequence[Sequence[tuple[int, int]]], columns: Sequence[tuple[int, int]], screws: Screws
 ) -> Float[np.ndarray, "equations columns"]:
-    """Six rows a loop of (joint, sign): the sum of its joints' twists, each in its direction of travel, is zero."""
+    """Assemble the closure Jacobian: for each loop six rows that say that the twists of its joints add up to zero.
+
+    `loops` are (joint, sign) in order of travel, `columns` are (joint, coordinate), and `screws` (6, columns) are the
+    unit twists of the coordinates, angular velocity first. A joint that is travelled backwards counts with sign -1.
+    """
     rows = np.zeros((len(loops), 6, len(columns)))
     of_joint: dict[int, list[int]] = {}
     for column, (joint, _) in enumerate(columns):
@@ -94,17 +98,17 @@ def null_space(
 def without(
     motions: Float[np.ndarray, "n columns"], resting: Sequence[int], thresholds: Thresholds
 ) -> Float[np.ndarray, "m columns"]:
-    """A basis of those motions in which some columns rest."""
+    """Return a basis of those combinations of motions in which the columns `resting` have a rate of zero."""
     values, mixes = _right(motions[:, list(resting)].T)
     return mixes[int((values > thresholds.rate).sum()) :] @ motions
 
 
 def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], thresholds: Thresholds) -> int:
-    """How many of the rates of these columns the motions allow independently of each other."""
+    """Count the rates of these columns that the motions allow independently of each other."""
     return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > thresholds.rate).sum())
 
 
 def _right(matrix: Float[np.ndarray, "rows columns"]) -> tuple[np.ndarray, Float[np.ndarray, "columns columns"]]:
-    """Singular values, and all right singular vectors; the left ones, which may be far more, are not worked out."""
+    """Compute singular values and all right singular vectors, one a row; the left ones may be many more."""
     _, values, directions = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
     return values, directions
