@@ -93,8 +93,7 @@ class ContractedGraph:
         return around
 
     def lightest(self, weights: Mapping[int, int]) -> set[frozenset[int]]:
-        """Find the circuit of least weight through each joint: the joint alone if both its ends are one
-        representative."""
+        """Find the circuit of least weight through each joint: the joint alone if its ends have one representative."""
         around = self._around(weights)
         return {self._lightest(around, weights, joint) for joint in weights}
 

@@ -54,8 +54,7 @@ class Linkage:
         return Linkage(tuple(joints), structure, classes)
 
     def with_joints(self, joints: Sequence[Joint], ideal: Sequence[Joint] = ()) -> Linkage:
-        """Replace the joints in the same structure; loop classes are found anew, or kept where JAX traces the
-        joints."""
+        """Replace the joints in the same structure, and find loop classes anew; traced joints keep the classes."""
         classes = loop_classes(ideal or joints, self.structure) or self.classes
         return replace(self, joints=tuple(joints), ideal=tuple(ideal), classes=classes)
 

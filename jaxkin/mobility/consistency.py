@@ -22,8 +22,8 @@ The longest shows a misfit best, and loops that cannot move so far are tried nea
 STILL = 0.1
 """Distance from the assembled pose, over the displacement, below which loops have not moved: closing them led back."""
 _ITERATIONS = 25
-"""Largest number of Gauss-Newton steps from a pose to the nearest pose of least residual: twice what convergence takes
-even where it is linear."""
+"""Largest number of Gauss-Newton steps from a pose to the nearest pose of least residual: convergence is quadratic, so
+loops that close need fewer."""
 _FAR = 0.03
 """Residual over the displacement above which the pose is too far away: noise leaves misfits that are smaller."""
 
@@ -33,8 +33,7 @@ class Beside(NamedTuple):
 
     coordinates: Row
     residual: Rows
-    """The misfits of the loops, six rows each (`Travel.residual`), that only directions due to the noise could
-    reduce."""
+    """Misfits of the loops (`Travel.residual`, six rows a loop) that only directions due to noise could reduce."""
     moved: float
     """Largest change of a coordinate from the assembled pose, over the displacement that was tried (`STEPS`)."""
 
