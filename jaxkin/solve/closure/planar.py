@@ -92,8 +92,7 @@ def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Floa
 
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
-    """Compute the constants in the plane from the constants in space; the normal is the axis of the first turning
-    joint."""
+    """Compute the constants in the plane from those in space; the normal is the axis of the first rotation."""
     table, kept = chain_tables(system), _kept(system)
     loops = np.arange(len(system.loops))
 
