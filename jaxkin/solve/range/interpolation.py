@@ -19,7 +19,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.closure.joint_coordinates import remove_passive_spin
+from jaxkin.solve.closure.joint_coordinates import remove_idle_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.step import input_slopes
@@ -135,7 +135,7 @@ def _solved_segments(
     inverses = inverse_jacobian(middles, damping_floor(values.dtype), equation_blocks(system))
 
     slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
-    state_and_slope = jax.jvp(partial(remove_passive_spin, system, problem.geometry), (state,), (slope,))
+    state_and_slope = jax.jvp(partial(remove_idle_spin, system, problem.geometry), (state,), (slope,))
     polynomials = jax.tree.map(partial(_coefficients, half_width), *state_and_slope)
     status = prediction.status.reshape(-1, len(NODES))
     near = difference(state, prediction.state) <= MAX_NODE_CORRECTION

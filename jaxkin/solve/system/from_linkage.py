@@ -60,7 +60,7 @@ def solved_coordinates(
     return SolvedCoordinates(tuple(inside), tuple(movements), planar, tuple(outside))
 
 
-def block_system(
+def group_system(
     linkage: Linkage,
     loop_group: LoopGroup,
     driven: Columns,
@@ -88,7 +88,7 @@ def block_system(
     return LoopSystem(movements, loops, given, loop_class, order), columns
 
 
-def block_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
+def group_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
     """Frames and pitches of the loop group's joints, of all joints of the mechanism."""
     inside = [joints[joint] for joint in loop_group.joints]
     return Joints(*(tuple(getattr(joint, leaf) for joint in inside) for leaf in Joints._fields))
