@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 """Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
 plates that are bolted together do not move."""
+TOLD = "inferred beside exact contacts"
+"""How the note begins that counts inferences."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -134,4 +136,4 @@ def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism
     if not kinds:
         return mechanism
     told = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
-    return replace(mechanism, history=(f"inferred beside exact contacts: {told}", *mechanism.history))
+    return replace(mechanism, history=(f"{TOLD}: {told}", *mechanism.history))

@@ -91,6 +91,7 @@ class JointTable(_Table):
     state: str | None = None
     frames: list[Frame] | None = None
     region: Annotated[str, BeforeValidator(partial(_one_of, ("circle",)))] | None = None
+    off: bool = False
 
     @model_validator(mode="after")
     def _keys_of_the_kind(self) -> JointTable:
@@ -107,7 +108,7 @@ class JointTable(_Table):
 
     def arguments(self) -> dict[str, Any]:
         """What was said beside the kind and the parts."""
-        said = self.model_dump(exclude_none=True, exclude={"kind", "parts"})
+        said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "off"})
         return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
 
 
@@ -134,6 +135,16 @@ class RangeTable(_Table):
         return Range(np.linspace(self.first or 0.0, self.last or 0.0, self.poses or 1), self.unit)
 
 
+Drive = dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]]
+
+
+class InsteadTable(_Table):
+    """What is taken in place of the fixed parts, or of the drive, or of both, that stand elsewhere in the study."""
+
+    fixed: Annotated[list[str], Field(min_length=1)] | None = None
+    drive: Drive | None = None
+
+
 class StudyFile(_Table):
     """The keys of a study."""
 
@@ -151,7 +162,8 @@ class StudyFile(_Table):
     align: Annotated[Number, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
-    drive: dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]] = {}
+    drive: Drive = {}
+    instead: InsteadTable = InsteadTable()
 
     @model_validator(mode="after")
     def _solids_or_joints(self) -> StudyFile:
@@ -164,9 +176,11 @@ class StudyFile(_Table):
         return self
 
     def made_joints(self, file: str) -> tuple[Joint, ...]:
-        """The joints by hand; ValueError for an axis that is none, and the like."""
+        """The joints by hand that are not off; ValueError for an axis that is none, and the like."""
         made = []
         for name, table in self.joints.items():
+            if table.off:
+                continue
             try:
                 made.append(JOINT_FUNCTIONS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
             except ValueError as error:
@@ -175,7 +189,8 @@ class StudyFile(_Table):
 
     def ranges(self) -> dict[str, Range]:
         """The drive as it was written."""
-        return {name: table.range() for name, table in self.drive.items()}
+        drive = self.drive if self.instead.drive is None else self.instead.drive
+        return {name: table.range() for name, table in drive.items()}
 
 
 _KEYS = {
@@ -183,6 +198,8 @@ _KEYS = {
     ("tolerance",): tuple(ToleranceTable.model_fields),
     ("joints", "*"): tuple(JointTable.model_fields),
     ("drive", "*"): ("from", "to", "poses", "values", "unit"),
+    ("instead",): tuple(InsteadTable.model_fields),
+    ("instead", "drive", "*"): ("from", "to", "poses", "values", "unit"),
 }
 
 

@@ -17,7 +17,7 @@ def write(motion, folder, **options):
     """The text of the page, and the data in it."""
     page(motion, folder / "motion.html", **options)
     text = (folder / "motion.html").read_text("utf-8")
-    (data,) = re.findall(r'<script id="motion" type="application/json">(.*?)</script>', text, re.DOTALL)
+    (data,) = re.findall(r'<script id="scene" type="application/json">(.*?)</script>', text, re.DOTALL)
     return text, json.loads(data)
 
 

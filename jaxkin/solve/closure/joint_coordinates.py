@@ -103,7 +103,7 @@ def as_state(system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordina
     return State(x, jnp.stack(turns) if turns else jnp.zeros((0, 4, x.shape[1]), x.dtype))
 
 
-def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tuple[Array, Rotations]:
+def _line(between: Float[Array, "3 4"], line: Rotations, ball: Rotations) -> tuple[Array, Rotations]:
     """Compute theta and phi of the line of centres of (p), and the rotation of the ball behind the line.
 
     `between` is the pose of the ball's frame relative to that of the line. The spin of the line about itself is moved
@@ -124,7 +124,7 @@ def _line(between: Float[Array, "4 4"], line: Rotations, ball: Rotations) -> tup
     return jnp.stack([theta, phi]), rotation
 
 
-def _on_plane(between: Float[Array, "4 4"], ball: Rotations) -> tuple[Array, Float[Array, "2 poses"]]:
+def _on_plane(between: Float[Array, "3 4"], ball: Rotations) -> tuple[Array, Float[Array, "2 poses"]]:
     """Compute theta, phi and psi about the normal of (d), and the change of its displacements x and y by psi.
 
     `between` is the pose of the ball's frame relative to that of the plane.
@@ -154,7 +154,7 @@ def _direction(sin: Array, cos: Array, undefined: Array) -> Array:
     return jnp.where(undefined, 0.0, angle)
 
 
-def _rotated_origin(angle: Float[Array, " poses"], between: Float[Array, "4 4"]) -> Float[Array, "2 poses"]:
+def _rotated_origin(angle: Float[Array, " poses"], between: Float[Array, "3 4"]) -> Float[Array, "2 poses"]:
     """Rotate the origin of the second frame of a pair about z of the first one, and return its x and y."""
     cos, sin, (x, y) = jnp.cos(angle), jnp.sin(angle), between[:2, 3]
     return jnp.stack([cos * x - sin * y, sin * x + cos * y])
@@ -162,8 +162,8 @@ def _rotated_origin(angle: Float[Array, " poses"], between: Float[Array, "4 4"])
 
 def _between(
     frames_1: Float[Array, "frames 4 4"], frames_2: Float[Array, "frames 4 4"], frame: int
-) -> Float[Array, "4 4"]:
+) -> Float[Array, "3 4"]:
     """Compute the pose of the next frame of a chain relative to this one."""
     here, there = jnp.asarray(frames_2[frame], float), jnp.asarray(frames_1[frame + 1], float)
     inverse = here[:3, :3].T
-    return there.at[:3, :3].set(inverse @ there[:3, :3]).at[:3, 3].set(inverse @ (there[:3, 3] - here[:3, 3]))
+    return jnp.concatenate([inverse @ there[:3, :3], (inverse @ (there[:3, 3] - here[:3, 3]))[:, None]], axis=1)

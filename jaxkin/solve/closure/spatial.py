@@ -252,7 +252,11 @@ def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Ar
 
 
 def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
-    """Invert rigid poses."""
+    """Invert rigid poses.
+
+    Joined from blocks: XLA on a CPU (jaxlib 0.10.2) gets blocks written into a product of matrices wrong where `vmap`
+    gives all of them a leading axis of one.
+    """
     turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
     moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
-    return poses.at[..., :3, :3].set(turned).at[..., :3, 3].set(moved)
+    return jnp.concatenate([jnp.concatenate([turned, moved[..., None]], axis=-1), poses[..., 3:, :]], axis=-2)

@@ -83,20 +83,8 @@ def _mapped(batch: _Batch) -> Callable:
     return run
 
 
-def _one_design(batch: _Batch, leaves: tuple[Array, ...]):
-    """Solve a batch of one design as that design alone.
-
-    Not only because it is cheaper: the algebraic simplifier of XLA (jaxlib 0.10.2, on a CPU) makes a program of a
-    batch of one, with two loop groups or more, whose poses are wrong.
-    """
-    alone = (array[0] if each else array for array, each in zip(leaves, batch.is_mapped, strict=True))
-    return jax.tree.map(lambda array: array[None], batch.function(True, *alone))
-
-
 def _in_groups(batch: _Batch, leaves: tuple[Array, ...]):
     """Solve all designs in groups of equal length, and then again, with limits, the designs that are not done."""
-    if batch.size == 1:
-        return _one_design(batch, leaves)
     groups = -(-batch.size // DESIGN_GROUP)
     length = -(-batch.size // groups)
     group_of = in_lockstep(batch.function, (None, *(0 if each else None for each in batch.is_mapped)))

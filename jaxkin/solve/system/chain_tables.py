@@ -42,7 +42,8 @@ class ChainRow(NamedTuple):
     ball: int
     """Number of the ball that rotates; the number of balls if none does."""
     side: int
-    """+1 if the columns of the ball rotate it about axes of part 1, -1 about axes that rotate with it (line of centres)."""
+    """+1 if the columns of the ball rotate it about axes of part 1, -1 about axes that rotate with it (line of
+    centres)."""
     axis: int
     """Number of the axis of the frame that is the z axis of the elementary motion."""
     enter: int
