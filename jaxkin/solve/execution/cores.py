@@ -26,8 +26,7 @@ from jaxkin.solve.system.state import turning
 
 
 def shard_count(system: LoopSystem, poses: int, options: SolverOptions) -> int:
-    """Return the number of shards for a range of `poses`: one on other devices than the CPU, or if nothing is
-    driven."""
+    """Return the number of shards for a range of `poses`: one if the device is no CPU or nothing is driven."""
     device = getattr(jax.config, "jax_default_device", None) or jax.default_backend()
     if not system.driven or getattr(device, "platform", device) != "cpu":
         return 1

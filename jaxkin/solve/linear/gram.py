@@ -7,8 +7,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 MIN_MATMUL_ROWS = 9
-"""Number of rows from which on J J^T is computed by matrix products, pose by pose, in a third of the time of sums over
-poses."""
+"""Number of rows from which on J J^T is a matrix product at each pose, in a third of the time of sums over poses."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
