@@ -169,7 +169,7 @@ class Assembly:
         return {}
 
     @cached_property
-    def measured(self) -> Measured:
+    def _measured(self) -> Measured:
         """What is measured of the solids for inferences."""
         return Measured(self.parts)
 

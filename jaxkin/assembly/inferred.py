@@ -101,7 +101,7 @@ def _with_seats(
 
     def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
         rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly.measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
         found = [*seats, *found]
         return from_words(assembly, contacts, said, found), found, stopped
 
