@@ -152,7 +152,8 @@ class Assembly:
         return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive)
 
     def without(self, names: Collection[str]) -> Assembly:
-        """The assembly without some parts. ValueError for names that are not there."""
+        """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        names = _in_full([*names], self.parts, "exclude")
         for name in names:
             if name not in self.names:
                 raise ValueError(f"exclude names the unknown part {name!r}{nearest(name, self.names)}")
