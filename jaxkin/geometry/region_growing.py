@@ -63,7 +63,7 @@ Small triangles of the next face may lie by chance within the tolerance of the s
 _FLAT_FACE_RATIO = 4.0
 """A remaining facet larger than this many times its largest remaining neighbour is a flat face of its own.
 
-The facets of one free-form face differ less from each other."""
+Neighbouring facets of one free-form face are taken to differ less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -220,7 +220,7 @@ class RegionGrowing:
         A flat face between two fillets lies on a cylinder with one facet of each fillet, but spans most of its arc.
         """
         half_arcs = np.array([arcs(self.mesh, surface, self._triangles([k])).max() for k in seed])
-        # of three facets each counts; among more, the median passes over a few narrow facets at a rim
+        # in a strip, of three facets, each counts; in a star a few narrow facets do not
         usual = half_arcs.min() if len(half_arcs) == 3 else np.median(half_arcs)
         return bool(half_arcs.max() <= MAX_WIDTH_RATIO * usual)
 

@@ -157,8 +157,7 @@ class Structure:
 
     @cached_property
     def _circuits(self) -> tuple[tuple[Circuit, ...], ...]:
-        """For each element of `_nodes` its loops, an empty tuple where it has none; ValueError for unsuitable chords."""
-        """For each element of `_nodes` its loops, an empty tuple where it has none; ValueError for unsuitable chords."""
+        """The loops of each element of `_nodes`, none for a part in no loop; ValueError for unsuitable chords."""
         chords = None if self.chords is None else [self.joints.index(chord) for chord in self.chords]
         return loop_data(self._graph, self._nodes, chords)
 
