@@ -10,7 +10,7 @@ Damped or truncated Gauss-Newton iterations stand in five places, since each nee
 | `correctors.least_residual` | cutoff at the play | loops do not close: a damped step would follow the play |
 | `mobility.host_closure` | as `levenberg_marquardt` | numpy, one pose: analyses before a sweep compile nothing |
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
-| `dimensions.rearrange` | its own | unknowns are positions of features, not coordinates of joints |
+| `dimensions.placement` | its own | unknowns are positions of features, not coordinates of joints |
 | `design.least_squares` | Nielsen's rule, within bounds | unknowns are dimensions; a residual is a whole sweep |
 
 The host versions are kept apart because compiling a corrector takes longer than all host analyses of a mechanism.
