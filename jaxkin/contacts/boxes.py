@@ -20,8 +20,8 @@ _MAX_COMPARED = 4_000_000
 """Number of pairs of boxes compared at once: bounds the memory to a few hundred megabytes."""
 
 _LEAST_SIZE = 1e-9
-"""Smallest size that a box counts as, relative to the extent of all boxes: a point has size zero, for
-which there is no grid."""
+"""Smallest size that a box counts as, relative to the extent of all boxes: a point has size zero, for which
+there is no grid."""
 
 
 def overlapping(boxes: Boxes, margin: float) -> Pairs:
