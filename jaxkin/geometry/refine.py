@@ -50,7 +50,7 @@ def refined(surface: Round, points: Points) -> Round:
             break
         columns, moved = _CHANGES[type(surface)](surface, points)
         step = np.linalg.lstsq(columns, -distance, rcond=1e-13)[0]
-        # of the tilt only: the apex of a cone that is nearly a cylinder may have to move far
+        # limited by the tilt alone: the apex of a cone that is nearly a cylinder may have to move far
         step = step * min(1.0, _MAX_TILT / max(float(np.abs(step[:2]).max()), 1e-300))
         surface = moved(step)
     return best

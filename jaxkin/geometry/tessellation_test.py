@@ -86,7 +86,7 @@ def tangent(mesh: Facets, surface: Surface | Torus, rows: Rows, angle: float) ->
 
 
 def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray, "_"]:
-    """Measure the largest angle (radians) of each triangle to a surface at its corners: half the arc it spans."""
+    """Measure half the arc that each triangle spans: its largest angle (radians) to the surface at its corners."""
     corners = mesh.points[mesh.triangles[rows]]
     along = np.sum(surface.normals(corners) * mesh.normals[rows][:, None], axis=-1)
     if isinstance(surface, Torus):  # a torus does not say on which side of it the material is
