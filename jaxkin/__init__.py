@@ -26,6 +26,7 @@ from jaxkin.io.load import load as load
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.io.study_writer import write_study as write_study
+from jaxkin.joints.evidence import Bond as Bond
 from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any, Protocol
 
-_LISTED = 8
+_MAX_KNOWN = 8
 """Known names that a message lists at most: more are not read."""
 
 
@@ -75,8 +75,8 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
 def listed(words: Sequence[str]) -> str:
     """Names with commas, the first few of many: "A, B, C and 40 more"."""
-    more = f" and {len(words) - _LISTED} more" if len(words) > _LISTED else ""
-    return ", ".join(words[:_LISTED]) + more
+    more = f" and {len(words) - _MAX_KNOWN} more" if len(words) > _MAX_KNOWN else ""
+    return ", ".join(words[:_MAX_KNOWN]) + more
 
 
 def closest(name: object, known: Iterable[str]) -> str:

@@ -12,7 +12,9 @@ from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inferred import inferred
+from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
 from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
@@ -119,12 +121,39 @@ class Assembly:
         check_said(self.names, said)
         return (inferred if infer and combine else from_words)(self, contacts, said)
 
+    def of_joints(
+        self,
+        *,
+        fixed: Sequence[str],
+        rigid: Sequence[Sequence[str]] = (),
+        joints: Sequence[Joint] = (),
+        align: float | int | None = None,
+        exclude: Sequence[str] = (),
+    ) -> Mechanism:
+        """The mechanism that rigid groups and joints by hand make alone, without contacts and inferences.
+
+        What they tie to nothing is left at rest, and a note names it. Joints of parts that are left out go with them.
+        Otherwise as `mechanism`.
+        """
+        left = {*_in_full(exclude, self.parts, "exclude")}
+        groups = [[part for part in group if part not in left] for group in _groups(rigid, self.parts)]
+        said = Said(
+            [part for part in _in_full(fixed, self.parts, "fixed") if part not in left],
+            [group for group in groups if len(group) > 1],
+            joints=[each for each in joints if left.isdisjoint(each.parts)],
+            align=align,
+        )
+        kept = self.without(left)
+        check_said(kept.names, said)
+        return from_words(kept, Contacts(()), said, left_loose(kept.names, said))
+
     def proposals(self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None) -> tuple[Proposal, ...]:
         """Try which parts to fix and what to drive, the best first: see `jaxkin.assembly.proposals.proposals`."""
         return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive)
 
     def without(self, names: Collection[str]) -> Assembly:
-        """The assembly without some parts. ValueError for names that are not there."""
+        """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        names = _in_full([*names], self.parts, "exclude")
         for name in names:
             if name not in self.names:
                 raise ValueError(f"exclude names the unknown part {name!r}{nearest(name, self.names)}")
@@ -139,6 +168,11 @@ class Assembly:
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
         return {}
+
+    @cached_property
+    def _measured(self) -> Measured:
+        """What is measured of the solids for inferences."""
+        return Measured(self.parts)
 
     def __str__(self) -> str:
         return self.describe()

@@ -37,8 +37,6 @@ _MOVING_RATIO = 1e-6
 """A part moves if its twist, relative to the largest twist of all parts, is above this."""
 _EXACT_MISFIT = 1e-5
 """Misfit of a contact, relative to the extent of the joints, below which it is exact."""
-_FIT_STATES = ("e", "k", "o")
-"""Contact states in which one surface encloses the other, as in hinges, seats and ball joints: they are meant."""
 
 
 @dataclass(frozen=True)
@@ -163,7 +161,8 @@ class _ContactJudgement(NamedTuple):
             return (1,) * 5
         others = sum(set(joint.parts) == set(first.parts) for joint in self.joints) - len(contacts)
         exact = all(isinstance(each, Contact) and each.misfit < _EXACT_MISFIT * self.size for each in contacts)
-        fits = first.state in _FIT_STATES or first.region == "circle"
+        # one surface encloses the other, as in hinges, seats and ball joints: that is meant
+        fits = first.contact_state.is_fit or first.region == "circle"
         return 0, int(margin >= UNCLEAR_MARGIN), int(fits), int(others > 0), int(exact)
 
     def fewest(self) -> Iterator[list[int]]:

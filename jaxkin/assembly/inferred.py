@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 """Inferences that are not dropped so that something moves: without the first their parts would be tied to nothing, and
 plates that are bolted together do not move."""
+TOLD = "inferred beside exact contacts"
+"""How the note begins that counts inferences."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -53,7 +55,7 @@ def _unlocked(
     """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
-    without which a part would hang on nothing stay, and so do those without which parts only slide about on planes.
+    without which a part would hang on nothing stay.
     """
     movable = None
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
@@ -64,10 +66,9 @@ def _unlocked(
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
         dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
-        guided = any(joint.freedoms and joint.kind is not JointKind.PLANAR for joint in other.all_joints)
-        if guided and useful_freedoms(other):
+        if useful_freedoms(other):
             return other
-        if movable is None and guided:
+        if movable is None and any(joint.freedoms for joint in other.all_joints):
             movable = other
     return movable
 
@@ -100,7 +101,7 @@ def _with_seats(
 
     def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
         rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly.parts, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
         found = [*seats, *found]
         return from_words(assembly, contacts, said, found), found, stopped
 
@@ -134,4 +135,4 @@ def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism
     if not kinds:
         return mechanism
     told = ", ".join(f"{count} by {kind}" for kind, count in kinds.most_common())
-    return replace(mechanism, history=(f"inferred beside exact contacts: {told}", *mechanism.history))
+    return replace(mechanism, history=(f"{TOLD}: {told}", *mechanism.history))

@@ -17,7 +17,7 @@ from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.combine import LOWER_PAIRS
-from jaxkin.joints.evidence import BY_HAND, EvidenceKind
+from jaxkin.joints.evidence import BY_HAND, Bond, EvidenceKind
 from jaxkin.joints.file_noise import noise_of
 from jaxkin.joints.from_contacts import FoundJoints, joints_from_contacts
 from jaxkin.joints.joint import Joint, joint
@@ -95,7 +95,11 @@ def from_words(
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
     told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences), *_told(contacts))
-    return replace(mechanism, history=(*told, *mechanism.history))
+    bonds = (
+        *(Bond(tuple(group)) for group in said.rigid),
+        *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
+    )
+    return replace(mechanism, history=(*told, *mechanism.history), bonds=bonds)
 
 
 def told_of(inferences: Sequence[Inference]) -> list[str]:

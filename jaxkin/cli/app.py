@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -16,6 +17,7 @@ from jaxkin.cli.arguments import (
     Fixed,
     Ignore,
     Out,
+    Page,
     PerContact,
     Picture,
     Rigid,
@@ -27,6 +29,9 @@ from jaxkin.cli.arguments import (
 from jaxkin.cli.errors import one_line_errors
 from jaxkin.cli.options import Options
 from jaxkin.cli.progress import progress
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.proposals import Proposal
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -48,7 +53,7 @@ def demo(out: Out = Path("jaxkin-demo")) -> None:
 
 
 @app.command(
-    epilog="Examples:  jaxkin inspect fourbar.step --fixed ground --png found.png, "
+    epilog="Examples:  jaxkin inspect fourbar.step --fixed ground --page report.html, "
     "jaxkin inspect crank.stl rod.stl frame.stl --unit mm"
 )
 def inspect(
@@ -61,6 +66,7 @@ def inspect(
     no_combine: PerContact = False,
     unit: Unit = None,
     png: Picture = None,
+    page: Page = None,
     study_file: Written = None,
     verbose: Verbose = False,
 ) -> None:
@@ -70,7 +76,7 @@ def inspect(
     Without --fixed it proposes what to fix and to drive, found by trying, and goes on with the best of it.
     """
     with one_line_errors():
-        from jaxkin.cli import report
+        from jaxkin.cli import report, written
 
         with progress(2) as step:
             step(f"reading {run.named(files)}")
@@ -84,12 +90,20 @@ def inspect(
             from jaxkin.view.inspection import draw_inspection
 
             draw_inspection(study.assembly, png, contacts=contacts, mechanism=study.mechanism if study.held else None)
-        if study.assembly and not study.held:
-            study = run.proposed(study, study.assembly)
-        report.print_mechanism(study.mechanism, contacts, verbose)
+        tried: tuple[Proposal, ...] = ()
+        try:
+            if study.assembly and not study.held:
+                study, tried = run.proposed(study, study.assembly)
+            report.print_mechanism(study.mechanism, contacts, verbose)
+        except ValueError as refusal:
+            if page and study.assembly:
+                written.write_refusal(study.assembly, contacts, page, refusal)
+            raise
+        if page:
+            written.write_page(study, tried, page)
+            report.say(f"\nWritten: {page}. Open it in a browser.")
         if study_file:
-            run.write_study(study, files, study_file)
-            report.say(f"\nWritten: {study_file}. Choose what drives in it, then run jaxkin sweep {study_file}")
+            report.say(f"\nWritten: {study_file}. {written.write_study(study, files, tried, study_file)}")
 
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")

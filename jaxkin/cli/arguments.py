@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -81,12 +82,17 @@ Verbose = Annotated[
 ]
 
 
-def _toml(path: Path | None) -> Path | None:
-    if path is not None and path.suffix.lower() != ".toml":
-        raise typer.BadParameter(f"a study is a TOML file: name a file that ends in .toml, got {path}")
-    if path is not None and not path.parent.is_dir():
-        raise typer.BadParameter(f"there is no folder {path.parent} for {path.name}: make it, or name another")
-    return path
+def _ending(suffix: str, what: str) -> Callable[[Path | None], Path | None]:
+    """A check of the name of a file to write: it is refused before hours of work that would end in no file."""
+
+    def check(path: Path | None) -> Path | None:
+        if path is not None and path.suffix.lower() != suffix:
+            raise typer.BadParameter(f"{what}: name a file that ends in {suffix}, got {path}")
+        if path is not None and not path.parent.is_dir():
+            raise typer.BadParameter(f"there is no folder {path.parent} for {path.name}: make it, or name another")
+        return path
+
+    return check
 
 
 Written = Annotated[
@@ -95,25 +101,29 @@ Written = Annotated[
         "--study",
         metavar="FILE",
         dir_okay=False,
-        callback=_toml,
-        help="Write all that was found as a study: bodies, joints with what each is known from, what can drive.",
+        callback=_ending(".toml", "a study is a TOML file"),
+        help="Write all that was found as a study that jaxkin sweep runs: bodies, joints with what each is known from, "
+        "a drive, and as lines to uncomment what else could be fixed, driven, turned off or left out.",
     ),
 ]
 
 
-def _png(path: Path | None) -> Path | None:
-    """Refused before hours of work that would end in no picture."""
-    if path is not None and path.suffix.lower() != ".png":
-        raise typer.BadParameter(f"the picture is a PNG: name a file that ends in .png, got {path}")
-    if path is not None and not path.parent.is_dir():
-        raise typer.BadParameter(f"there is no folder {path.parent} for {path.name}: make it, or name another")
-    return path
-
-
 def _drawn(what: str) -> OptionInfo:
-    return typer.Option("--png", metavar="FILE", dir_okay=False, callback=_png, help=f"Draw {what} into this file.")
+    check = _ending(".png", "the picture is a PNG")
+    return typer.Option("--png", metavar="FILE", dir_okay=False, callback=check, help=f"Draw {what} into this file.")
 
 
+Page = Annotated[
+    Path | None,
+    typer.Option(
+        "--page",
+        metavar="FILE",
+        dir_okay=False,
+        callback=_ending(".html", "the report is a page for the browser"),
+        help="Write a report for the browser: the assembly in 3D, with each body, joint and assumption to click on. "
+        "Also where nothing can move yet: then it says what is missing.",
+    ),
+]
 Picture = Annotated[Path | None, _drawn("the assembly with the regions of its contacts and the axes of its joints")]
 Drawing = Annotated[Path | None, _drawn("the graph of parts and joints with its loops, and their tree,")]
 WorkPicture = Annotated[Path | None, _drawn("time against error")]

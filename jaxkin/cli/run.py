@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -14,6 +13,7 @@ from jaxkin.cli.progress import progress
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
+    from jaxkin.assembly.proposals import Proposal
     from jaxkin.io.study import Study
 
 LONG = 200_000
@@ -80,29 +80,18 @@ def found(files: Sequence[Path], options: Options, step: Callable[[str], None]) 
     return study
 
 
-def write_study(study: Study, files: Sequence[Path], target: Path) -> None:
-    """Write what was found as a study that names its geometry from where it stands."""
-    from jaxkin.io.study_writer import write_study
-
-    if files[0].suffix.lower() == ".toml":
-        raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
-    from_there = [os.path.relpath(file, target.parent).replace(os.sep, "/") for file in files]
-    parts = dict(zip((file.stem for file in files), from_there, strict=True))
-    write_study(study.mechanism, target, geometry=parts if len(files) > 1 else from_there[0])
-
-
-def proposed(study: Study, assembly: Assembly) -> Study:
-    """The study with the parts fixed that do best of those that are tried, after all proposals are printed."""
+def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, ...]]:
+    """The study with the parts fixed that do best of those that are tried; all proposals, which are printed too."""
     from jaxkin.cli import report
 
     with progress(1) as step:
         step("trying what to fix and to drive")
-        found = assembly.proposals()
+        found = assembly.without(study.exclude).proposals()
     report.say("No part is fixed. What was tried, the best first:")
     for each in found:
         report.say(f"  {each}")
     report.say()
-    return replace(study, fixed=found[0].fixed)
+    return replace(study, fixed=found[0].fixed), found
 
 
 def checked(study: Study) -> Study:

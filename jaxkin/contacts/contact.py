@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
-from jaxkin.contacts.states import find_state
+from jaxkin.contacts.states import ContactState, find_state
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Surface
 
@@ -37,10 +37,15 @@ class Contact:
     misfit: float
     """Length by which the faces miss the ideal contact: noise of the file, or the clearance of a fit."""
 
+    @property
+    def contact_state(self) -> ContactState:
+        """The row of Tables 1 and 2 that the contact is an instance of."""
+        return find_state(self.state, self.region)
+
     def __str__(self) -> str:
         return (
             f"({self.state}) {self.parts[0]} {self.faces[0]} - {self.parts[1]} {self.faces[1]}: "
-            f"{find_state(self.state, self.region).name}, {self.region}, misfit {self.misfit:.2g}"
+            f"{self.contact_state.name}, {self.region}, misfit {self.misfit:.2g}"
         )
 
 
@@ -114,7 +119,7 @@ class Contacts(Sequence[Contact]):
         """Write one line for each contact, below a line of headings."""
         rows = [("parts", "faces", "state", "region", "misfit")] if self.contacts else []
         for contact in self.contacts:
-            name = f"({contact.state}) {find_state(contact.state, contact.region).name}"
+            name = f"({contact.state}) {contact.contact_state.name}"
             between = " - ".join(contact.parts)
             rows.append((between, " - ".join(contact.faces), name, contact.region, f"{contact.misfit:.2g}"))
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -122,7 +127,7 @@ class Contacts(Sequence[Contact]):
 
     def _counts(self) -> list[str]:
         """Write how many contacts there are of each state, and of each pair of products (parts of one design)."""
-        states = Counter(f"({each.state}) {find_state(each.state, each.region).name}" for each in self.contacts)
+        states = Counter(f"({each.state}) {each.contact_state.name}" for each in self.contacts)
         products: dict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
         for each in self.contacts:
             products[tuple(sorted(map(product, each.parts)))][f"({each.state})"] += 1

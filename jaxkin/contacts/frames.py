@@ -22,7 +22,7 @@ def contact_frames(
     the contact line. In a fit (e, k, o) the mean of the two axes or centres stands for that of surface 1. Raises
     ValueError for a symbol that Table 1 does not use.
     """
-    fit = state.region == "surface" and state.letter != "a"
+    fit = state.is_fit
     x = touch.direction if state.region == "line" else None
 
     def direction(symbol: str) -> Vector:

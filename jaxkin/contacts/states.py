@@ -57,6 +57,21 @@ class ContactState:
     """Name of the length between each two successive frames of the chain, or None where it cannot be changed: it
     depends on the half-angle of a cone, which the frames do not hold."""
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether the state is a plane on a plane: (a)."""
+        return self.kinds == ("plane", "plane")
+
+    @property
+    def is_fit(self) -> bool:
+        """Whether the state is a fit, a curved surface that fills another one: (e), (k), (o)."""
+        return self.region == "surface" and not self.is_flat
+
+    @property
+    def is_pin(self) -> bool:
+        """Whether the state is a pin that fills its hole: (e)."""
+        return self.is_fit and self.kinds == ("cylinder", "cylinder")
+
 
 # fmt: off
 CONTACT_STATES: tuple[ContactState, ...] = (
@@ -123,7 +138,8 @@ def find_state(letter: str, region: str | None = None) -> ContactState:
     """
     rows: dict[str, ContactState] = {state.region: state for state in CONTACT_STATES if state.letter == letter}
     if not rows:
-        raise ValueError(f"a contact state is a letter from 'a' to 'p', got {letter!r}")
+        letters = sorted(state.letter for state in CONTACT_STATES)
+        raise ValueError(f"a contact state is a letter from {letters[0]!r} to {letters[-1]!r}, got {letter!r}")
     if region is None:
         return rows.get("point") or next(iter(rows.values()))
     if region not in rows:

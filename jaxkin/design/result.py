@@ -27,7 +27,9 @@ POSES, PIECE = 361, 32
 """Of the range, and at least of what is swept at once."""
 STEEP = 100.0
 """Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
-_FORMAT = 1
+SAVED_FORMAT = 1
+"""Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `Structure`,
+`Joint`, `Moves` and `Optimum`. Files of another version are refused."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ class Optimum:
         joints = self.mechanism.all_joints
         structure = self.mechanism.structure
         text = {
-            "format": _FORMAT,
+            "format": SAVED_FORMAT,
             "value": self.value,
             "violation": self.violation,
             "reason": self.reason,
@@ -166,8 +168,8 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         with np.load(path, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         text = json.loads(str(arrays.pop("text")))
-        if text["format"] != _FORMAT:
-            raise ValueError(f"format {text['format']}, and this version reads {_FORMAT}")
+        if text["format"] != SAVED_FORMAT:
+            raise ValueError(f"format {text['format']}, and this version reads {SAVED_FORMAT}")
         joints = tuple(
             Joint(
                 name,

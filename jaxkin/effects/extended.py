@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, ElementaryMotion, displaced_columns
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import LoopGroup
@@ -27,7 +27,9 @@ CHORD_STEPS = 12
 LAST_STEP = 1e-22
 """Step, radians or lengths, below which the pose has converged: far below the rounding of float64."""
 RANK = 1e-9
-"""Singular value over the largest one that counts as zero: an idle freedom."""
+"""Singular value over the largest one that counts as zero: an idle freedom. A hundred times below the rank threshold of
+the solver (`linkage.first_order.RANK_TOLERANCE`), which is that of J J^T: the exact pose is to be found nearer to
+singular poses than the solver gets, and J itself is known to 1e-14."""
 
 Row = Float[np.ndarray, " columns"]
 
@@ -107,21 +109,18 @@ class Extended:
             movement = MOVEMENTS[name]
             pose = pose * self._matrix(joint.frames_1[frame])
             for element in movement.elements:
-                pose = pose * self._elementary(element, q[first + element.coordinate], float(joint.pitch))
+                pose = self._displaced(pose, element, q[first + element.coordinate], float(joint.pitch))
             pose = pose * self._inverse(self._matrix(joint.frames_2[frame]))
             first += len(movement.coordinates)
         return pose
 
-    def _elementary(self, element, value, pitch: float) -> Any:
-        pose, axis = self.mp.eye(4), element.axis
-        if element.kind in ("rotate", "screw"):
-            i, j = (axis + 1) % 3, (axis + 2) % 3
-            cos, sin = self.mp.cos(value), self.mp.sin(value)
-            pose[i, i], pose[i, j], pose[j, i], pose[j, j] = cos, -sin, sin, cos
-        if element.kind == "translate":
-            pose[axis, 3] = value
-        elif element.kind == "screw":
-            pose[axis, 3] = self.mp.mpf(pitch) * value / (2 * self.mp.pi)
+    def _displaced(self, pose: Any, element: ElementaryMotion, value: Any, pitch: float) -> Any:
+        advance = None
+        if element.kind != "rotate":
+            advance = value if element.kind == "translate" else self.mp.mpf(pitch) * value / (2 * self.mp.pi)
+        turn = None if element.kind == "translate" else (self.mp.cos(value), self.mp.sin(value))
+        for number, column in enumerate(displaced_columns([pose[:, k] for k in range(4)], element.axis, advance, turn)):
+            pose[:, number] = column
         return pose
 
     def _matrix(self, pose) -> Any:

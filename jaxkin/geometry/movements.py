@@ -10,8 +10,9 @@ are not in the paper.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
@@ -72,6 +73,9 @@ class Movement:
     a quaternion in their place."""
     pair: str | None = None
     """Value of the `JointKind` of the lower pair with this movement; None where no lower pair has it."""
+    letter: str | None = None
+    """Letter of the pair in the names of loops, such as RSSR; None where the letters of the elementary motions are
+    written: R for a rotation, P for a translation, H for a screw."""
     feature: InvariantFeature | None = None
     """The feature that the movement leaves in place on both parts; None for the identity."""
     features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
@@ -148,6 +152,7 @@ MOVEMENTS: dict[str, Movement] = {
         coordinates=("z", "phi"),
         elements=(_translate(2, 0), _rotate(2, 1)),
         pair="cylindrical",
+        letter="C",
         feature=InvariantFeature("axis"),
         surface="cylinder",
         aligned=frozenset({"axis", "direction"}),
@@ -158,6 +163,7 @@ MOVEMENTS: dict[str, Movement] = {
         coordinates=("x", "y", "phi"),
         elements=(_translate(0, 0), _translate(1, 1), _rotate(2, 2)),
         pair="planar",
+        letter="E",
         feature=InvariantFeature("plane"),
         surface="plane",
         aligned=frozenset({"direction"}),
@@ -167,6 +173,7 @@ MOVEMENTS: dict[str, Movement] = {
     "T_theta_phi": Movement(
         coordinates=("theta", "phi"),
         elements=(_rotate(1, 1), _rotate(0, 0)),
+        letter="U",
         feature=InvariantFeature("point"),
         # Ry(phi) Rx(theta), the universal joint: part 1 holds the y axis of the cross, part 2 its x axis
         features_alone=(InvariantFeature("axis", 1, marked=True), InvariantFeature("axis", 0, marked=True)),
@@ -179,6 +186,7 @@ MOVEMENTS: dict[str, Movement] = {
         elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
         ball=True,
         pair="spherical",
+        letter="S",
         feature=InvariantFeature("point"),
         surface="sphere",
         aligned=frozenset({"centre"}),
@@ -217,11 +225,26 @@ def _displaced(
     frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
 ) -> Rigid:
     """Multiply frames by one elementary motion from the right; arguments as in `displaced`."""
-    i, j, k = element.axis, (element.axis + 1) % 3, (element.axis + 2) % 3
-    columns = [frame[:, column] for column in range(4)]
+    advance = None
     if element.kind != "rotate":
-        columns[3] = columns[3] + columns[i] * (q if element.kind == "translate" else q * pitch / (2 * jnp.pi))
-    if element.kind != "translate":
-        cos, sin = cos_sin(q)
-        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+        advance = q if element.kind == "translate" else q * pitch / (2 * jnp.pi)
+    turn = None if element.kind == "translate" else tuple(cos_sin(q))
+    columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, advance, turn)
     return jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
+
+
+def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
+    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
+
+    `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
+    axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
+    them means no translation, or no rotation.
+    """
+    i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
+    columns = list(columns)
+    if advance is not None:
+        columns[3] = columns[3] + columns[i] * advance
+    if turn is not None:
+        cos, sin = turn
+        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+    return columns

@@ -15,7 +15,7 @@ from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.step import read_step
 from jaxkin.io.units import METRES
 
-STEP = (".step", ".stp")
+STEP_SUFFIXES = (".step", ".stp")
 
 EXPORT = ".xml"
 """The suffix of exports for Simscape Multibody."""
@@ -76,9 +76,9 @@ def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[t
         raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
     if suffix in MESHES:
         return read_mesh(path, name, seconds)
-    if suffix not in STEP:
+    if suffix not in STEP_SUFFIXES:
         raise ValueError(
-            f"{path}: load reads STEP files ({', '.join(STEP)}) and meshes ({', '.join(MESHES)}); got "
+            f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}) and meshes ({', '.join(MESHES)}); got "
             f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
         )
     parts, unit = read_step(path, seconds)

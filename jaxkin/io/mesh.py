@@ -15,7 +15,7 @@ from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
-from jaxkin.io.mesh_check import PARTS
+from jaxkin.io.mesh_check import MAX_MESH_NODES
 from jaxkin.io.mesh_nodes import Node, read_nodes
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.time_limit import TimeLimit
@@ -62,8 +62,8 @@ def _bodies(node: Node, path: Path) -> list[Node]:
     welded = weld(node.corners, 2 * node.tolerance)
     corners = welded.points[welded.triangles]
     closed = shells(welded) if len(corners) else []
-    if len(closed) > PARTS:
-        raise ValueError(f"{path.name} holds {len(closed)} bodies, more than {PARTS}: export it part by part")
+    if len(closed) > MAX_MESH_NODES:
+        raise ValueError(f"{path.name} holds {len(closed)} bodies, more than {MAX_MESH_NODES}: export it part by part")
     found = bodies(corners, closed) if closed else []
     if len(found) < 2 or len(welded.open_edges):
         return [Node(path.stem, node.color, node.corners, node.vertex_resolution)]

@@ -9,14 +9,14 @@ import re
 import zipfile
 from pathlib import Path
 
-MOST = 1_000_000
+MAX_TRIANGLES = 1_000_000
 """Triangles of a file; a large assembly has some hundred thousand."""
 
-PARTS = 5_000
+MAX_MESH_NODES = 5_000
 """Nodes, or bodies, of a file: each takes some hundredths of a second."""
 
-LARGEST = 500_000_000
-"""Bytes of a file, or of what is packed in it: what `MOST` triangles take as text."""
+MAX_MESH_BYTES = 500_000_000
+"""Bytes of a file, or of what is packed in it: what `MAX_TRIANGLES` triangles take as text."""
 
 UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "inch": "in", "foot": "ft"}
 """Of 3MF, and what they are called here."""
@@ -33,8 +33,8 @@ def check(path: Path) -> str | None:
         raise ValueError(f"{path.name} is empty: expected a mesh in {kind.upper()} format")
     with path.open("rb") as file:
         head = file.read(20_000)
-    if size > LARGEST and kind != "stl":
-        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser")
+    if size > MAX_MESH_BYTES and kind != "stl":
+        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser")
     return {"stl": _stl, "obj": _obj, "ply": _ply, "3mf": _3mf, "glb": _glb}[kind](path, head, size)
 
 
@@ -46,14 +46,16 @@ def is_binary_stl(path: Path) -> bool:
 
 
 def too_many(name: str, count: int) -> ValueError:
-    return ValueError(f"{name} holds {count} triangles, more than {MOST}: export it coarser, or part by part")
+    return ValueError(f"{name} holds {count} triangles, more than {MAX_TRIANGLES}: export it coarser, or part by part")
 
 
 def _stl(path: Path, head: bytes, size: int) -> None:
     count = int.from_bytes(head[80:84], "little")
     if size != 84 + 50 * count and re.match(rb"\s*solid\b", head) and (b"facet" in head or b"endsolid" in head):
-        if size > LARGEST:
-            raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser")
+        if size > MAX_MESH_BYTES:
+            raise ValueError(
+                f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser"
+            )
         with path.open("rb") as file:
             file.seek(max(0, size - 1000))
             tail = file.read()
@@ -69,7 +71,7 @@ def _stl(path: Path, head: bytes, size: int) -> None:
         )
     if count == 0:
         raise ValueError(f"{path.name} holds no triangles: export the part as a solid")
-    if count > MOST:
+    if count > MAX_TRIANGLES:
         raise too_many(path.name, count)
 
 
@@ -90,7 +92,7 @@ def _ply(path: Path, head: bytes, size: int) -> None:
                 f"{path.name} is damaged or cut off: its header announces {int(count)} of {element.decode()}, but "
                 f"{size - end.end()} bytes follow; copy or export it again"
             )
-        if element == b"face" and int(count) > MOST:
+        if element == b"face" and int(count) > MAX_TRIANGLES:
             raise too_many(path.name, int(count))
 
 
@@ -100,9 +102,9 @@ def _3mf(path: Path, head: bytes, size: int) -> str:
     except Exception as error:  # the unpackers raise whatever a damaged archive makes them stumble over
         why = " ".join(str(error).split())[:200] or type(error).__name__
         raise ValueError(f"{path.name} is damaged or no 3MF file: {why}; copy or export it again") from None
-    if unpacked > LARGEST:
+    if unpacked > MAX_MESH_BYTES:
         raise ValueError(
-            f"{path.name} unpacks to {unpacked / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it coarser"
+            f"{path.name} unpacks to {unpacked / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser"
         )
     if start is None:
         raise ValueError(f"{path.name} is no 3MF file: there is no 3D/3dmodel.model in it")

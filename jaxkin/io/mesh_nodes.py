@@ -14,12 +14,12 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
-from jaxkin.io.mesh_check import MOST, PARTS, check, is_binary_stl, too_many
+from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES, check, is_binary_stl, too_many
 from jaxkin.io.sandbox import run_apart
 from jaxkin.io.time_limit import TimeLimit
 
-MEMORY = 8 << 30
-"""Bytes of address space for the reader, most of it never used: `MOST` triangles as text take two."""
+MESH_MEMORY = 8 << 30
+"""Bytes of address space for the reader, most of it never used: `MAX_TRIANGLES` triangles as text take two."""
 
 _LEAST, _GREATEST = 1e-15, 1e15
 """Sizes of parts, from what is a micrometre in thousands of kilometres to the other way round."""
@@ -51,7 +51,7 @@ def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
     nodes = _binary_stl(path) if is_binary_stl(path) else _by_trimesh(path, limit)
     if not nodes:
         raise ValueError(f"{path.name} holds no triangles: export the parts as solids")
-    if (count := sum(len(node.corners) for node in nodes)) > MOST:
+    if (count := sum(len(node.corners) for node in nodes)) > MAX_TRIANGLES:
         raise too_many(path.name, count)
     return nodes, unit or ""
 
@@ -70,7 +70,15 @@ def _by_trimesh(path: Path, limit: TimeLimit) -> list[Node]:
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "nodes.npz"
         status, said = run_apart(
-            "mesh_worker.py", kind, MOST, PARTS, target, path.resolve(), folder=folder, limit=limit, memory=MEMORY
+            "mesh_worker.py",
+            kind,
+            MAX_TRIANGLES,
+            MAX_MESH_NODES,
+            target,
+            path.resolve(),
+            folder=folder,
+            limit=limit,
+            memory=MESH_MEMORY,
         )
         if status:
             why = (said.strip().splitlines() or ["the reader crashed on it"])[-1]

@@ -1,4 +1,4 @@
-"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE MOST PARTS TARGET FILE`.
+"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE TRIANGLES NODES TARGET FILE`.
 
 What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
 so that it starts at once. TARGET becomes a .npz of the triangles of every node, and their names.

@@ -6,7 +6,7 @@ import unicodedata
 from collections.abc import Iterable
 from itertools import count
 
-LONGEST = 60
+MAX_NAME_LETTERS = 60
 """Letters of a name; exporters chain the names of files into longer ones, which no table or message has room for."""
 
 _END = 16
@@ -17,7 +17,7 @@ _DAMAGED = {"Cc", "Cn", "Co", "Cs"}
 
 
 def cleaned(name: str) -> str:
-    """Make a name fit for messages and studies: one line, no letters that cannot be typed, `LONGEST` letters at most.
+    """Make a name fit for messages and studies: one line, only letters that can be typed, `MAX_NAME_LETTERS` at most.
 
     White space of any kind becomes one blank; damaged letters become "_", invisible ones are left out. A name that is
     clean stays as it is.
@@ -25,7 +25,7 @@ def cleaned(name: str) -> str:
     typed = "".join(" " if letter.isspace() else "_" if _damaged(letter) else letter for letter in name)
     visible = "".join(letter for letter in typed if unicodedata.category(letter) != "Cf")
     line = " ".join(visible.split())
-    return line if len(line) <= LONGEST else f"{line[: LONGEST - _END - 3]}...{line[-_END:]}"
+    return line if len(line) <= MAX_NAME_LETTERS else f"{line[: MAX_NAME_LETTERS - _END - 3]}...{line[-_END:]}"
 
 
 def is_damaged(name: str) -> bool:

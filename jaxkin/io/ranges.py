@@ -18,7 +18,7 @@ Values = Float[np.ndarray, " poses"]
 
 FORM = "START:STOP:COUNT, as in 0:360:361, or VALUE,VALUE,..."
 """What a range looks like."""
-MOST = 10_000_000
+MAX_POSES = 10_000_000
 """Poses of a range at most: a slip of the finger must not fill the memory."""
 RADIANS = {"deg": np.pi / 180, "rad": 1.0, "turn": 2 * np.pi}
 
@@ -40,8 +40,8 @@ def read_range(text: str) -> Values:
         start, stop, count = float(start), float(stop), int(count)
     except ValueError:
         raise ValueError(f"cannot read {text!r} as a range; write {FORM}") from None
-    if not 1 <= count <= MOST:
-        raise ValueError(f"COUNT must be a number from 1 to {MOST}, got {count}; write {FORM}")
+    if not 1 <= count <= MAX_POSES:
+        raise ValueError(f"COUNT must be a number from 1 to {MAX_POSES}, got {count}; write {FORM}")
     return np.linspace(start, stop, count)
 
 

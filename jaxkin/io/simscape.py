@@ -11,7 +11,7 @@ import numpy as np
 
 from jaxkin.io.xml_tree import read_xml
 
-METRES = {
+METRES_BY_NAME = {
     "meter": 1.0, "m": 1.0, "centimeter": 0.01, "cm": 0.01, "millimeter": 0.001, "mm": 0.001,
     "inch": 0.0254, "in": 0.0254, "foot": 0.3048, "ft": 0.3048,
 }  # fmt: skip
@@ -19,6 +19,10 @@ METRES = {
 
 KILOGRAMS = {"kilogram": 1.0, "kg": 1.0, "gram": 0.001, "g": 0.001, "lbm": 0.45359237, "tonne": 1000.0}
 """Kilograms in one unit of mass."""
+
+
+ORTHOGONAL = 1e-6
+"""Largest entry by which rows of a rotation are not orthogonal unit vectors: exporters write nine digits or more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +122,7 @@ class _Reader:
     def __init__(self, file: str, root: Element) -> None:
         self.file, self.notes = file, []
         units = root.find("DataUnits")
-        self.metres = self._unit(units, "length", "meter", METRES)
+        self.metres = self._unit(units, "length", "meter", METRES_BY_NAME)
         self.kilograms = self._unit(units, "mass", "kilogram", KILOGRAMS)
         self.part_of = {part.get("uid"): part for part in root.iterfind("Parts/Part")}
         self.assembly_of = {one.get("uid"): one for one in root.iterfind("Assemblies/Assembly")}
@@ -156,6 +160,10 @@ class _Reader:
             inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
             group = one.get("rigidGroup")
             own = body or ((*path, f"group {group}") if group else inner if _true(one, "rigid") else None)
+            if inner in self.placed:
+                self.notes.append(
+                    f"{'/'.join(called)}: another instance has its identifier {inner[-1]!r}; taken for one body"
+                )
             self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
             yield inner, called, one, held, own
             yield from self._instances(one, inner, called, self.placed[inner], held, own)
@@ -201,7 +209,13 @@ class _Reader:
         """Read a (4, 4) transform, metres; rotations are written row by row. The identity where there is none."""
         transform = np.eye(4)
         if at is not None:
-            transform[:3, :3] = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
+            rotation = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
+            if np.abs(rotation @ rotation.T - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(rotation) < 0:
+                raise ValueError(
+                    f"{self.file}: {name!r}: expected a rotation, nine numbers row by row, got {rotation.tolist()}; "
+                    "parts that are mirrored or scaled have to be exported as parts of their own"
+                )
+            transform[:3, :3] = rotation
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
 

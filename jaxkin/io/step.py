@@ -17,15 +17,15 @@ from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_solid import Solid, make_solid, solid_key
 from jaxkin.io.step_tree import placed_parts
-from jaxkin.io.step_unit import length_unit
+from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
 
-_TOLD = 3
-"""Doubts about a file that its warning tells."""
+_TOLD_DEFECTS = 3
+"""Defects of a file that its warning tells."""
 
-LARGEST = 500_000_000
+MAX_STEP_BYTES = 500_000_000
 """Bytes of a file; a large assembly has some fifty million."""
 
 _PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator.*")
@@ -49,23 +49,26 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
     limit = TimeLimit.start(path, seconds)
     text = data.decode("latin-1")
     unit_name, metres = length_unit(text, path.name)
+    off = uncertainty(text)
     placed = placed_parts(text, path.name)
-    found, doubts = _instances(data, limit)
-    doubts += missing(text, placed, found)
+    found, defects = _instances(data, limit)
+    defects += missing(text, placed, found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
     parts = []
     for name, instance in zip(names, found, strict=True):
         limit.remaining()
         if (key := solid_key(instance)) not in solids:
-            solids[key] = make_solid(instance, metres)
+            solids[key] = make_solid(instance, metres, off)
         pose = instance.pose.copy()
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
         parts.append(replace(part, path=instance.path, original_name=next(iter(_given(instance)), "")))
-        doubts += [f"{name!r}: {damage}" for damage in damages]
-    if doubts:
-        told = "; ".join(doubts[:_TOLD]) + (f"; and {len(doubts) - _TOLD} more" if len(doubts) > _TOLD else "")
+        defects += [f"{name!r}: {damage}" for damage in damages]
+    if defects:
+        told = "; ".join(defects[:_TOLD_DEFECTS]) + (
+            f"; and {len(defects) - _TOLD_DEFECTS} more" if len(defects) > _TOLD_DEFECTS else ""
+        )
         warnings.warn(
             f"{path.name} is damaged or incomplete ({told}): parts or faces may be missing or wrong; export it again",
             stacklevel=2,
@@ -95,8 +98,10 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
 
 def _checked(path: Path) -> bytes:
     """The content of the file, if it can be a STEP file with solids."""
-    if (size := check_file(path, "STEP file")) > LARGEST:
-        raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {LARGEST / 1e6:.0f}: export it part by part")
+    if (size := check_file(path, "STEP file")) > MAX_STEP_BYTES:
+        raise ValueError(
+            f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_STEP_BYTES / 1e6:.0f}: export it part by part"
+        )
     data = path.read_bytes()
     if not data.strip():
         raise ValueError(f"{path.name} is empty: expected a STEP file")

@@ -14,7 +14,7 @@ from jaxkin.geometry.weld import weld
 from jaxkin.io.step_glb import Instance
 from jaxkin.io.step_side import Triangles, areas
 
-_SAMPLES = 24
+_CUT_SAMPLES = 24
 """Triangles of a part at which it is looked whether it cuts itself."""
 
 _OUTER = re.compile(r"\b(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*'(?:[^']|'')*'\s*,\s*#(\d+)")
@@ -23,7 +23,7 @@ _SHELL = re.compile(r"#(\d+)\s*=\s*CLOSED_SHELL\s*\(\s*'(?:[^']|'')*'\s*,\s*\(([
 
 
 @dataclass(frozen=True)
-class Doubt:
+class Defect:
     """Something amiss in a solid, at a place in the frame of its mesh."""
 
     what: str
@@ -33,23 +33,23 @@ class Doubt:
     """Whether no sound file comes so."""
 
     def note(self, pose: Pose) -> str:
-        """The doubt in words, the place in the world; `pose` is that of the mesh."""
+        """The defect in words, the place in the world; `pose` is that of the mesh."""
         near = ", ".join(f"{x:.4g}" for x in apply(pose, self.place))
         return f"{self.what}, near ({near}): {self.remedy}"
 
 
-def unsound(triangles: Triangles, tolerance: float) -> list[Doubt]:
+def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
     """What is amiss in the triangles of a solid: holes, no volume, or that it cuts itself; the first of these."""
     welded = weld(triangles, 2 * tolerance)
     if holes := open_loops(welded, tolerance):
-        return [Doubt("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
+        return [Defect("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
     if volume(triangles) <= tolerance * np.linalg.norm(areas(triangles), axis=-1).sum() / 2:
         middle = triangles.mean(axis=(0, 1))
-        return [Doubt("it holds no volume, or is inside out", middle, "a face is missing or wrong", True)]
+        return [Defect("it holds no volume, or is inside out", middle, "a face is missing or wrong", True)]
     # no damage: its faces are known exactly, and overlapping bodies are common in real assemblies
-    if (place := wrong_side(triangles, tolerance, _SAMPLES)) is not None:
+    if (place := wrong_side(triangles, tolerance, _CUT_SAMPLES)) is not None:
         what = "it cuts itself, or bodies touch or overlap in it"
-        return [Doubt(what, place, "unite them if they move apart", False)]
+        return [Defect(what, place, "unite them if they move apart", False)]
     return []
 
 

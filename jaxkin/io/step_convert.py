@@ -13,13 +13,13 @@ from jaxkin.io.time_limit import TimeLimit
 TESSELLATION = {"tol_linear": 0.01, "tol_relative": True, "tol_angular": 0.2}
 """Sag over edge length, radians a chord. Surfaces are exact, only the outlines of faces follow the triangles."""
 
-MEMORY = 4 << 30
+STEP_MEMORY = 4 << 30
 """Bytes of address space for the reader of every file, most of it never used: 0.4 GB, and 8 MB for each core."""
 
 MEMORY_PER_BYTE = 200
 """Bytes more for each byte of the file; real assemblies take 30 to 80."""
 
-_TOLD = 3
+_TOLD_DAMAGES = 3
 """Damages of a file that are told."""
 
 
@@ -28,7 +28,7 @@ def convert(data: bytes, limit: TimeLimit) -> tuple[bytes, list[str]]:
 
     Raises ValueError with what the reader said if it cannot be read within the limit.
     """
-    name, memory = limit.name, MEMORY + MEMORY_PER_BYTE * len(data)
+    name, memory = limit.name, STEP_MEMORY + MEMORY_PER_BYTE * len(data)
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder) / "in.step", Path(folder) / "out.glb"
         source.write_bytes(data)
@@ -43,7 +43,7 @@ def convert(data: bytes, limit: TimeLimit) -> tuple[bytes, list[str]]:
             f"{memory / 2**30:.3g} GB of memory; export it again, or part by part"
         )
     found = list(dict.fromkeys(re.findall(r"\*+ ERR \w+ : ([^*\n]*)", said)))
-    damages = [" ".join(text.split()) for text in found[:_TOLD]] + ["and more"] * (len(found) > _TOLD)
+    damages = [" ".join(text.split()) for text in found[:_TOLD_DAMAGES]] + ["and more"] * (len(found) > _TOLD_DAMAGES)
     if not glb:
         raise ValueError(f"{name} cannot be read as STEP: {'; '.join(damages) or 'no shapes in it'}; export it again")
     return glb, damages

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-PARTS = 20_000
+MAX_STEP_PARTS = 20_000
 """Parts of a file; each takes some thousandths of a second."""
 
 
@@ -12,7 +12,7 @@ def placed_parts(text: str, name: str) -> int:
     """How many parts the assemblies of a file place; 0 where it has none.
 
     `name` is what messages call the file. Each occurrence (NEXT_ASSEMBLY_USAGE_OCCURRENCE) names the assembly and what
-    is placed in it. Raises ValueError for more than `PARTS`, and where an assembly holds itself.
+    is placed in it. Raises ValueError for more than `MAX_STEP_PARTS`, and where an assembly holds itself.
     """
     import networkx as nx
 
@@ -26,7 +26,7 @@ def placed_parts(text: str, name: str) -> int:
     times: dict[str, int] = {}
     for each in nx.topological_sort(tree):
         above = sum(times[assembly] for assembly, _ in tree.in_edges(each))
-        times[each] = min(above or 1, PARTS + 1)  # enough to know
-    if (parts := sum(times[each] for each in tree if tree.out_degree(each) == 0)) > PARTS:
-        raise ValueError(f"{name} holds more than {PARTS} parts: export it part by part")
+        times[each] = min(above or 1, MAX_STEP_PARTS + 1)  # enough to know
+    if (parts := sum(times[each] for each in tree if tree.out_degree(each) == 0)) > MAX_STEP_PARTS:
+        raise ValueError(f"{name} holds more than {MAX_STEP_PARTS} parts: export it part by part")
     return parts

@@ -38,7 +38,7 @@ class Study:
     infer: bool = True
     """Whether what solids imply beside exact contacts is taken: see `Assembly.mechanism`."""
     detect: bool = True
-    """Whether contacts are looked for; otherwise the joints by hand are all there are."""
+    """Whether contacts are looked for; otherwise the joints by hand are all there are: see `Assembly.of_joints`."""
     clearance: float | None = None
     """The largest clearance of a pin that is inferred: see `Assembly.mechanism`."""
     align: float | None = None
@@ -75,6 +75,10 @@ class Study:
             return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
         if not self.held:
             raise ValueError(f"no part is fixed; the parts are {', '.join(self.assembly.names)}")
+        if not self.detect:
+            return self.assembly.of_joints(
+                fixed=self.fixed, rigid=self.rigid, joints=self.joints, align=self.align, exclude=self.exclude
+            )
         return self.assembly.mechanism(
             fixed=self.fixed,
             rigid=self.rigid,
@@ -84,7 +88,7 @@ class Study:
             contacts=None if self.by_export else self.contacts,
             align=self.align,
             exclude=self.exclude,
-            infer=self.infer and self.detect,
+            infer=self.infer,
             clearance=self.clearance,
         )
 
@@ -120,7 +124,12 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     path = Path(path)
     said = read_study_file(path)
     joints = said.made_joints(path.name)
-    common = {"fixed": said.fixed, "rigid": said.rigid, "ignore": said.ignore, "exclude": said.exclude}
+    common = {
+        "fixed": said.instead.fixed or said.fixed,
+        "rigid": said.rigid,
+        "ignore": said.ignore,
+        "exclude": said.exclude,
+    }
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
     common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
     common |= {"clearance": said.clearance}

@@ -10,9 +10,9 @@ from jaxkin._names import nearest
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
-_LISTED = 5
+_MAX_MISTAKES = 5
 """Mistakes that a message lists at most."""
-_LONGEST = 60
+_MAX_SHOWN_LETTERS = 60
 """Letters of what arrived that are shown."""
 
 _EXPECTED = {
@@ -34,8 +34,8 @@ _EXPECTED = {
 def messages(error: ValidationError, file: str, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
     """All mistakes that pydantic found, a line each. `keys` are those that the tables know; "*" is any name."""
     found = error.errors(include_url=False)
-    lines = [f"{file}: {_said(one, keys)}" for one in found[:_LISTED]]
-    more = [f"{file}: and {len(found) - _LISTED} more mistakes"] if len(found) > _LISTED else []
+    lines = [f"{file}: {_said(one, keys)}" for one in found[:_MAX_MISTAKES]]
+    more = [f"{file}: and {len(found) - _MAX_MISTAKES} more mistakes"] if len(found) > _MAX_MISTAKES else []
     return "\n".join(lines + more)
 
 
@@ -87,4 +87,4 @@ def _path(loc: Sequence[str | int]) -> str:
 
 def _shown(value: object) -> str:
     text = repr(value)
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+    return text if len(text) <= _MAX_SHOWN_LETTERS else f"{text[: _MAX_SHOWN_LETTERS - 1]}…"

@@ -14,27 +14,19 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from jaxkin._files import check_file
 from jaxkin._names import closest
-from jaxkin.io.ranges import FORM, MOST, RADIANS, Range, read_range
+from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
-from jaxkin.mobility.alignment import PLAY
+from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS
 
-KINDS = {
-    "revolute": pairs.revolute,
-    "prismatic": pairs.prismatic,
-    "cylindrical": pairs.cylindrical,
-    "planar": pairs.planar,
-    "spherical": pairs.spherical,
-    "universal": pairs.universal,
-    "screw": pairs.screw,
-    "fixed": pairs.fixed,
-    "contact": pairs.contact_joint,
+JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAND.items()} | {
+    "contact": pairs.contact_joint
 }
 """Kinds of joints by hand; the keys that each takes are the arguments of its function."""
 
-LARGEST = 1_000_000
+MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
 Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -88,7 +80,7 @@ class ToleranceTable(_Table):
 class JointTable(_Table):
     """A joint by hand: its kind, its two parts, and what the function of that kind takes."""
 
-    kind: Annotated[str, BeforeValidator(partial(_one_of, KINDS))]
+    kind: Annotated[str, BeforeValidator(partial(_one_of, JOINT_FUNCTIONS))]
     parts: Pair
     point: Triple | None = None
     axis: Triple | None = None
@@ -99,10 +91,13 @@ class JointTable(_Table):
     state: str | None = None
     frames: list[Frame] | None = None
     region: Annotated[str, BeforeValidator(partial(_one_of, ("circle",)))] | None = None
+    off: bool = False
 
     @model_validator(mode="after")
     def _keys_of_the_kind(self) -> JointTable:
-        needed = {name: p for name, p in signature(KINDS[self.kind]).parameters.items() if p.kind is p.KEYWORD_ONLY}
+        needed = {
+            name: p for name, p in signature(JOINT_FUNCTIONS[self.kind]).parameters.items() if p.kind is p.KEYWORD_ONLY
+        }
         missing = [name for name, p in needed.items() if p.default is p.empty and getattr(self, name) is None]
         if missing:
             raise ValueError(f"a joint of kind {self.kind!r} needs {' and '.join(missing)}")
@@ -113,7 +108,7 @@ class JointTable(_Table):
 
     def arguments(self) -> dict[str, Any]:
         """What was said beside the kind and the parts."""
-        said = self.model_dump(exclude_none=True, exclude={"kind", "parts"})
+        said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "off"})
         return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
 
 
@@ -122,7 +117,7 @@ class RangeTable(_Table):
 
     first: Number | None = Field(None, alias="from")
     last: Number | None = Field(None, alias="to")
-    poses: Annotated[int, Field(ge=1, le=MOST)] | None = None
+    poses: Annotated[int, Field(ge=1, le=MAX_POSES)] | None = None
     values: list[Number] | None = None
     unit: Annotated[str, BeforeValidator(partial(_one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
 
@@ -140,6 +135,16 @@ class RangeTable(_Table):
         return Range(np.linspace(self.first or 0.0, self.last or 0.0, self.poses or 1), self.unit)
 
 
+Drive = dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]]
+
+
+class InsteadTable(_Table):
+    """What is taken in place of the fixed parts, or of the drive, or of both, that stand elsewhere in the study."""
+
+    fixed: Annotated[list[str], Field(min_length=1)] | None = None
+    drive: Drive | None = None
+
+
 class StudyFile(_Table):
     """The keys of a study."""
 
@@ -154,10 +159,11 @@ class StudyFile(_Table):
     infer: bool = True
     clearance: Annotated[Number, Field(ge=0)] | None = None
     combine: bool = True
-    align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
+    align: Annotated[Number, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
-    drive: dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]] = {}
+    drive: Drive = {}
+    instead: InsteadTable = InsteadTable()
 
     @model_validator(mode="after")
     def _solids_or_joints(self) -> StudyFile:
@@ -170,18 +176,21 @@ class StudyFile(_Table):
         return self
 
     def made_joints(self, file: str) -> tuple[Joint, ...]:
-        """The joints by hand; ValueError for an axis that is none, and the like."""
+        """The joints by hand that are not off; ValueError for an axis that is none, and the like."""
         made = []
         for name, table in self.joints.items():
+            if table.off:
+                continue
             try:
-                made.append(KINDS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
+                made.append(JOINT_FUNCTIONS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
             except ValueError as error:
                 raise ValueError(f"{file}: {error}") from None
         return tuple(made)
 
     def ranges(self) -> dict[str, Range]:
         """The drive as it was written."""
-        return {name: table.range() for name, table in self.drive.items()}
+        drive = self.drive if self.instead.drive is None else self.instead.drive
+        return {name: table.range() for name, table in drive.items()}
 
 
 _KEYS = {
@@ -189,13 +198,15 @@ _KEYS = {
     ("tolerance",): tuple(ToleranceTable.model_fields),
     ("joints", "*"): tuple(JointTable.model_fields),
     ("drive", "*"): ("from", "to", "poses", "values", "unit"),
+    ("instead",): tuple(InsteadTable.model_fields),
+    ("instead", "drive", "*"): ("from", "to", "poses", "values", "unit"),
 }
 
 
 def read_study_file(path: Path) -> StudyFile:
     """The file as it is written, validated; ValueError, FileNotFoundError otherwise."""
-    if (size := check_file(path, "TOML file of a study")) > LARGEST:
-        raise ValueError(f"{path.name} has {size} bytes: a study has {LARGEST} at most")
+    if (size := check_file(path, "TOML file of a study")) > MAX_STUDY_BYTES:
+        raise ValueError(f"{path.name} has {size} bytes: a study has {MAX_STUDY_BYTES} at most")
     try:
         said = tomllib.loads(path.read_bytes().decode())
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
+from inspect import signature
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,14 +12,24 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
 from jaxkin._traced import traced
+from jaxkin.assembly.inference.inference import INFERRED
+from jaxkin.assembly.inferred import TOLD
 from jaxkin.geometry.pose import Pose, frame
+from jaxkin.io.study_bodies import Bodies
+from jaxkin.io.study_choices import NONE, Choices, find_choices
+from jaxkin.io.toml_text import comment, toml, toml_key
+from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import JOINTS_BY_HAND
+from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
+    from jaxkin.assembly.proposals import Proposal
     from jaxkin.mechanism.mechanism import Mechanism
 
-_COMMENT = "# "
+_BESIDE = (INFERRED, TOLD)
+"""How notes begin that need not stand at the top: each inference stands beside its joint or its body."""
 _SAME = 1e-12
 """Poses that differ by no more say the same: rounding of a frame that is made anew from its axis."""
 _AS_CONTACT = {JointKind.PLANAR: "a", JointKind.SPHERICAL: "o"}
@@ -33,6 +43,8 @@ def write_study(
     geometry: str | Mapping[str, str] | None = None,
     drive: Mapping[str, str] | None = None,
     assumptions: Sequence[str] = (),
+    exclude: Sequence[str] = (),
+    proposals: Sequence[Proposal] | None = None,
 ) -> None:
     """Write a TOML file that says all of a mechanism, so that `load_study` makes the same one without inference.
 
@@ -41,6 +53,10 @@ def write_study(
     - `drive`: ranges by coordinate as studies have them, `{"A.phi": "0:360:361"}`; without it the coordinates that can
       drive are written as comments to choose from.
     - `assumptions`: lines to add as comments at the top.
+    - `exclude`: parts of the file that the mechanism leaves out.
+    - `proposals`: what else may be fixed, as of `Assembly.proposals`, or none of it, `()`. With them what is open is
+      listed as lines to uncomment: other parts to fix, other coordinates to drive, inferred joints to turn off, parts
+      to leave out. Each has been tried: the study can be swept with it. For mechanisms with solids only.
 
     What each joint is known from stands above it. The file appears whole or not at all. Raises ValueError for traced
     numbers, for a mechanism whose lengths were changed, and where `geometry` is missing.
@@ -49,9 +65,16 @@ def write_study(
         raise ValueError('the mechanism has solids: say where they are from, as in geometry="arm.step"')
     for joint in mechanism.all_joints:
         _check(joint)
-    text = "\n".join([*_head(mechanism, geometry, assumptions), *_joints(mechanism), *_drive(mechanism, drive), ""])
+    bodies = Bodies.of(mechanism)
+    choices = NONE if proposals is None or not mechanism.solids else find_choices(mechanism, bodies, drive, proposals)
+    lines = [
+        *_head(mechanism, geometry, assumptions),
+        *_bodies(mechanism, bodies, exclude, choices),
+        *_joints(mechanism, choices),
+        *_drive(mechanism, drive),
+    ]
     with whole(Path(path)) as draft:
-        draft.write_text(text, "utf-8")
+        draft.write_text("\n".join([*lines, ""]), "utf-8")
 
 
 def _check(joint: Joint) -> None:
@@ -65,32 +88,46 @@ def _check(joint: Joint) -> None:
 
 
 def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assumptions: Sequence[str]) -> list[str]:
-    bodies = mechanism.bodies
     moving = sum(joint.freedoms > 0 for joint in mechanism.all_joints)
-    lines = [f"# {len(mechanism.parts)} parts, {len(bodies)} bodies, {moving} joints that move; angles in degrees"]
-    notes = grouped((kind_of(note), note) for note in (*assumptions, *mechanism.notes))
-    lines += [_COMMENT + line for note in notes for line in note.splitlines()]
-    if mechanism.solids:
-        lines += ["", f"geometry = {_text(geometry)}", "contacts = false  # the joints below are all there are"]
-    elif mechanism.unit:
-        lines += ["", f"unit = {_text(mechanism.unit)}"]
-    lines += ["", f"fixed = {_names(mechanism.fixed)}"]
-    if mechanism.solids:
-        groups = [parts for name, parts in bodies.items() if len(parts) > 1 and name not in mechanism.fixed]
-        lines += ["", "rigid = [", *(f"  {_names(parts)}," for parts in groups), "]"] if groups else []
+    parts = f"{len(mechanism.parts)} parts, {len(mechanism.bodies)} bodies"
+    lines = [f"# {parts}, {moving} joints that move; angles in degrees"]
+    of_faces = {f"{part.name}: {note}" for part in mechanism.solids for note in part.notes}
+    notes = [note for note in mechanism.notes if note not in of_faces and not note.startswith(_BESIDE)]
+    for note in grouped((kind_of(note.rpartition(": ")[2]), note) for note in (*assumptions, *notes)):
+        lines += comment(note)
+    lines += ["", f"geometry = {toml(geometry)}"] if mechanism.solids else []
+    lines += ["contacts = false  # the joints below are all there are"] if mechanism.solids else []
+    return lines + ["", f"unit = {toml(mechanism.unit)}"] if mechanism.unit else lines
+
+
+def _bodies(mechanism: Mechanism, bodies: Bodies, exclude: Sequence[str], choices: Choices) -> list[str]:
+    lines = ["", f"fixed = {toml(bodies.fixed)}"]
+    if choices.instead:
+        lines += ["# Or instead of these, or of the drive at the end of this file, one of:", *choices.instead]
+    if exclude or choices.exclude:
+        lines += ["", "exclude = [  # parts to leave out", *(f"  {toml(part)}," for part in exclude)]
+        lines += [*choices.exclude, "]"]
+    if bodies.groups:
+        lines += ["", "rigid = [  # what moves as one; without a line its parts come apart"]
+        lines += [f"  {toml(group)},{_after(evidence)}" for group, evidence in bodies.groups] + ["]"]
     return lines
 
 
-def _joints(mechanism: Mechanism) -> list[str]:
+def _after(evidence: Evidence | None) -> str:
+    """What something is known from, as the end of a line."""
+    return f"  # {' '.join(str(evidence).split())}" if evidence and evidence != BY_HAND else ""
+
+
+def _joints(mechanism: Mechanism, choices: Choices) -> list[str]:
     lines = []
     for joint in mechanism.all_joints:
         if joint.kind is JointKind.FIXED and mechanism.solids:
             continue  # a body of `rigid`
-        lines += ["", f"[joints.{_text(joint.name)}]"]
-        lines += [_COMMENT + line for line in str(joint.evidence or "").splitlines()]
+        lines += ["", f"[joints.{toml(joint.name)}]", *comment(str(joint.evidence or ""))]
+        lines += [choices.off[joint.name]] if joint.name in choices.off else []
         kind, keys = _keys(joint)
-        lines += [f"kind = {_text(kind)}", f"parts = {_names(joint.parts)}"]
-        lines += [f"{key} = {_text(value)}" for key, value in keys.items()]
+        lines += [f"kind = {toml(kind)}", f"parts = {toml(joint.parts)}"]
+        lines += [f"{key} = {toml(value)}" for key, value in keys.items()]
     return lines
 
 
@@ -98,8 +135,9 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     """The kind of a joint as a study names it, and its arguments."""
     pose = np.asarray(joint.frames_1, float)[0]
     usual = np.allclose(pose, frame(pose[:3, 3], pose[:3, 2]), atol=_SAME)
-    if joint.kind in _LOWER_PAIRS and (usual or joint.kind not in _AS_CONTACT):
-        return str(joint.kind), _LOWER_PAIRS[joint.kind](joint, pose)
+    if joint.kind in JOINTS_BY_HAND and (usual or joint.kind not in _AS_CONTACT):
+        takes = signature(JOINTS_BY_HAND[joint.kind]).parameters
+        return str(joint.kind), {key: said(joint, pose) for key, said in WRITTEN_ARGUMENTS.items() if key in takes}
     if joint.kind in _AS_CONTACT:
         letter, region = _AS_CONTACT[joint.kind], None
     elif state := joint.contact_state:
@@ -110,48 +148,25 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     return "contact", keys | ({"region": "circle"} if region == "circle" else {})
 
 
-def _place(joint: Joint, pose: Pose) -> dict[str, object]:
-    return {"point": pose[:3, 3].tolist(), "axis": pose[:3, 2].tolist()}
-
-
-_LOWER_PAIRS: dict[JointKind, Callable[[Joint, Pose], dict[str, object]]] = {
-    JointKind.REVOLUTE: _place,
-    JointKind.PRISMATIC: _place,
-    JointKind.CYLINDRICAL: _place,
-    JointKind.SCREW: lambda joint, pose: _place(joint, pose) | {"pitch": float(joint.pitch)},
-    JointKind.PLANAR: lambda _, pose: {"point": pose[:3, 3].tolist(), "normal": pose[:3, 2].tolist()},
-    JointKind.SPHERICAL: lambda _, pose: {"point": pose[:3, 3].tolist()},
-    JointKind.UNIVERSAL: lambda _, pose: {
-        "point": pose[:3, 3].tolist(),
-        "axis1": pose[:3, 1].tolist(),
-        "axis2": pose[:3, 0].tolist(),
-    },
-    JointKind.FIXED: lambda *_: {},
+WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
+    "point": lambda _, pose: pose[:3, 3].tolist(),
+    "axis": lambda _, pose: pose[:3, 2].tolist(),
+    "normal": lambda _, pose: pose[:3, 2].tolist(),
+    "axis1": lambda _, pose: pose[:3, 1].tolist(),
+    "axis2": lambda _, pose: pose[:3, 0].tolist(),
+    "pitch": lambda joint, _: float(joint.pitch),
 }
-"""What the function of each kind in `jaxkin.joints.pairs` takes, from a joint and its frame."""
+"""Keyword argument of the functions in `jaxkin.joints.pairs` -> what it was, from a joint and its frame."""
 
 
 def _drive(mechanism: Mechanism, drive: Mapping[str, str] | None) -> list[str]:
     if drive:
-        return ["", "[drive]", *(f"{_key(name)} = {_text(values)}" for name, values in drive.items())]
+        return ["", "[drive]", *(f"{toml_key(name)} = {toml(values)}" for name, values in drive.items())]
+    if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
+        return ["", *comment(f"nothing can drive: not closed in this pose: {gap}")]
     found = mechanism.mobility()
     if not found.drivable:
-        return ["", f"# nothing can drive: {found}"]
+        return ["", *comment(f"nothing can drive: {found}")]
     needed = "one range for each of these" if len(found.drivable) > 1 else "a range for this"
-    choices = [f'# {_key(each)} = "0:10:11"' for each in found.drivable]
+    choices = [f'# {toml_key(each)} = "0:10:11"' for each in found.drivable]
     return ["", f"# To drive it, give {needed}, START:STOP:COUNT:", "# [drive]", *choices]
-
-
-def _key(name: str) -> str:
-    return name if name.replace("-", "").replace("_", "").isalnum() and name.isascii() else _text(name)
-
-
-def _names(names: Sequence[str]) -> str:
-    return f"[{', '.join(map(_text, names))}]"
-
-
-def _text(value: object) -> str:
-    """A value as TOML: JSON's texts, lists and numbers are TOML's too, its tables are not."""
-    if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{_text(key)} = {_text(each)}' for key, each in value.items())} }}"
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

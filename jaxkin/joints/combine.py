@@ -12,7 +12,7 @@ its translation separately.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -20,20 +20,35 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, Movement
 from jaxkin.geometry.pose import Pose, Vector, frame
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise, movements
 from jaxkin.joints.screws import Screws, complement, freedoms, misfit
 from jaxkin.joints.screws import chain as displace
 
-LOWER_PAIRS = {
-    movement.turns_and_slides: (JointKind(movement.pair), name)
-    for name, movement in MOVEMENTS.items()
-    if movement.pair and not movement.has_pitch
-}
-"""Kind of each lower pair but the helical one, and its key in `MOVEMENTS`, by (rotations, translations), the numbers of
-its freedoms; no two of these pairs have the same numbers."""
+
+def lower_pairs(movements: Mapping[str, Movement]) -> dict[tuple[int, int], tuple[JointKind, str]]:
+    """Tabulate the lower pairs among some movements: number of rotations and of translations -> kind, key.
+
+    Raises ValueError where two of them share these numbers: contacts that are combined could not tell them apart.
+    """
+    found: dict[tuple[int, int], tuple[JointKind, str]] = {}
+    for name, movement in movements.items():
+        if movement.pair and not movement.has_pitch:
+            kind, other = found.setdefault(movement.turns_and_slides, (JointKind(movement.pair), name))
+            if other != name:
+                turns, slides = movement.turns_and_slides
+                raise ValueError(
+                    f"movement {name!r} is said to be the pair {movement.pair!r}, with {turns} rotations and {slides} "
+                    f"translations, as {other!r} is already ({kind}): contacts can be combined to one of them only, "
+                    "leave the `pair` of the other out"
+                )
+    return found
+
+
+LOWER_PAIRS = lower_pairs(MOVEMENTS)
+"""Number of rotations and of translations, which no two lower pairs share -> kind and movement of the pair."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -49,3 +49,11 @@ class Evidence:
 
 BY_HAND = Evidence(EvidenceKind.USER)
 """Of joints that users write."""
+
+
+@dataclass(frozen=True)
+class Bond:
+    """Parts that move as one, and what that is known from."""
+
+    parts: tuple[str, ...]
+    evidence: Evidence = BY_HAND

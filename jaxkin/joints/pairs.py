@@ -6,7 +6,7 @@ along the given axis and about it by the right-hand rule.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import jax
@@ -118,6 +118,20 @@ def contact_joint(
                 f"vectors, right-handed, its last row 0, 0, 0, 1; got {np.asarray(pose).tolist()}"
             )
     return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
+
+
+JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
+    JointKind.REVOLUTE: revolute,
+    JointKind.PRISMATIC: prismatic,
+    JointKind.CYLINDRICAL: cylindrical,
+    JointKind.PLANAR: planar,
+    JointKind.SPHERICAL: spherical,
+    JointKind.UNIVERSAL: universal,
+    JointKind.SCREW: screw,
+    JointKind.FIXED: fixed,
+}
+"""Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
+keyword arguments of the function are keys of the joint in the file."""
 
 
 def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:

@@ -15,7 +15,6 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.states import find_state
 from jaxkin.geometry.movements import MOVEMENTS, symmetry_of
 from jaxkin.geometry.pose import frame
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
@@ -99,7 +98,7 @@ def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
 
 def movements(contact: Contact) -> tuple[str, ...]:
     """Look up the movement of each frame of a contact (Table 2)."""
-    return find_state(contact.state, contact.region).movements
+    return contact.contact_state.movements
 
 
 def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frames, float, float]:

@@ -11,9 +11,14 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
 from jaxkin.geometry.pose import Pose, inverse, rotation
 from jaxkin.joints.joint import Joint
+
+DEPENDENT = 1e-9
+"""Singular value of the screws of a joint, lengths scaled to the size of the mechanism, at which they are dependent.
+Screws of one joint are unit twists at a few lever arms and dependent exactly or not at all: 1e-9 is above their
+rounding, 1e-14, and a hundred times below the rank threshold of whole loops (`linkage.first_order.RANK_TOLERANCE`)."""
 
 Frames = Float[np.ndarray, "frames 4 4"]
 Screws = Float[np.ndarray, "6 freedoms"]
@@ -60,14 +65,11 @@ def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
         for element in MOVEMENTS[movement].elements:
             value = q[:, first + element.coordinate]
-            columns = [found[:, column] for column in range(4)]
-            i, j, k = (np.arange(3) + element.axis) % 3
+            advance = None
             if element.kind != "rotate":
-                advance = 1.0 if element.kind == "translate" else float(joint.pitch) / (2 * np.pi)
-                columns[3] = columns[3] + advance * value * columns[i]
-            if element.kind != "translate":
-                cos, sin = np.cos(value), np.sin(value)
-                columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+                advance = value if element.kind == "translate" else float(joint.pitch) / (2 * np.pi) * value
+            turn = None if element.kind == "translate" else (np.cos(value), np.sin(value))
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
         found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
         first += len(MOVEMENTS[movement].coordinates)
@@ -83,10 +85,10 @@ def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 po
 def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
     """Find an orthonormal basis of the constraints: rows that vanish on all given screws.
 
-    Singular values of the screws below 1e-9 count as zero.
+    Singular values of the screws up to `DEPENDENT` count as zero.
     """
     basis, strengths, _ = np.linalg.svd(screws, full_matrices=True)
-    return basis[:, int(np.sum(strengths > 1e-9)) :].T
+    return basis[:, int(np.sum(strengths > DEPENDENT)) :].T
 
 
 def moved(pose: Pose, screws: Screws) -> Screws:

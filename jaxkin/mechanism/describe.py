@@ -32,10 +32,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     lines += _joints(joints)
     loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
-    if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
-        lines += ["", f"Not closed in this pose: {gap}; mechanism.close() closes it"]
-    else:
-        lines += ["", *_mobility(mechanism, moving)]
+    lines += ["", *describe_mobility(mechanism)]
     if mechanism.notes:
         notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
         lines += ["", "Notes:", *(f"  {note}" for note in notes)]
@@ -62,9 +59,13 @@ def _joints(joints: Sequence[Joint]) -> list[str]:
     return ["  " + "  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
 
 
-def _mobility(mechanism: Mechanism, moving: int) -> list[str]:
+def describe_mobility(mechanism: Mechanism) -> list[str]:
+    """Tell the freedoms of a mechanism in lines; where nothing can move, why not, and where it is open, by how much."""
+    if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
+        return [f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     mobility = mechanism.mobility()
     lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
+    moving = len(mechanism.parts) > len(mechanism.fixed)
     return lines if mobility.useful or not moving else [*lines, *_why_it_cannot_move(mechanism, mobility.freedoms)]
 
 

@@ -22,7 +22,7 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
-from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
+from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
@@ -130,12 +130,12 @@ def _element(
     else:
         groups = ranked_groups(linkage, loop_group, driven, loop_class, freedoms)
     loops = [group.loops for group in groups]
-    system, columns = block_system(on_host or linkage, loop_group, driven, loop_class, loops)
+    system, columns = group_system(on_host or linkage, loop_group, driven, loop_class, loops)
     given = None
     if linkage.ideal:
-        every = block_system(linkage, loop_group, driven, LoopClass())
-        given = GivenLoops(*every, block_joints(linkage.joints, loop_group))
-    joints = block_joints(linkage.solved_joints, loop_group)
+        every = group_system(linkage, loop_group, driven, LoopClass())
+        given = GivenLoops(*every, group_joints(linkage.joints, loop_group))
+    joints = group_joints(linkage.solved_joints, loop_group)
     return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, given)
 
 

@@ -15,9 +15,9 @@ from jaxkin.mechanism.lost_contacts import LostContact
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-LISTED = 8
+MAX_REPORTED_JOINTS = 8
 """Joints that a report names at most: more are a sign of one cause."""
-FEW = 3
+MAX_REPORTED_PER_JOINT = 3
 """Contacts, inputs and ranges of poses of one joint that a report names at most."""
 
 
@@ -30,10 +30,12 @@ def lost_contact_report(
         if each.loose.any():
             loose[each.joint].append(each)
     lines = []
-    for name, contacts in list(loose.items())[:LISTED]:
+    for name, contacts in list(loose.items())[:MAX_REPORTED_JOINTS]:
         lines += _of_joint(name, contacts, mechanism, inputs)
-    if len(loose) > LISTED:
-        lines.append(f"lost contact: {len(loose) - LISTED} more joints leave their faces: see motion.lost_contacts")
+    if len(loose) > MAX_REPORTED_JOINTS:
+        lines.append(
+            f"lost contact: {len(loose) - MAX_REPORTED_JOINTS} more joints leave their faces: see motion.lost_contacts"
+        )
     if spare := [each for each in lost if not each.loose.any()]:
         faces = _listed([_apart(each, mechanism.unit) for each in spare], ", ")
         lines.append(f"lost where other contacts of the same joint still make it what it is: {faces}")
@@ -82,5 +84,5 @@ def _apart(lost: LostContact, unit: str) -> str:
 
 
 def _listed(texts: Sequence[str], comma: str) -> str:
-    more = f" and {len(texts) - FEW} more" if len(texts) > FEW else ""
-    return comma.join(texts[:FEW]) + more
+    more = f" and {len(texts) - MAX_REPORTED_PER_JOINT} more" if len(texts) > MAX_REPORTED_PER_JOINT else ""
+    return comma.join(texts[:MAX_REPORTED_PER_JOINT]) + more

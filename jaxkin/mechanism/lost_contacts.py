@@ -18,7 +18,6 @@ from jaxtyping import Bool, Float
 
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
-from jaxkin.contacts.states import find_state
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Face
 from jaxkin.joints.combine import combine
@@ -148,7 +147,7 @@ def _left(contacts: Sequence[Contact], noise: Noise) -> str:
 def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: _Setting) -> Gaps:
     """How far the faces of a contact are apart, and all that continue them; negative infinity where nobody looks."""
     gaps = np.full(moved.shape[2], -np.inf)
-    of_faces = find_state(contact.state, contact.region).gaps
+    of_faces = contact.contact_state.gaps
     sides = [setting.body[part] for part in contact.parts]
     ends = [setting.body[part] for part in joint.parts]
     if of_faces is None or sides not in (ends, ends[::-1]) or ends[0] == ends[1]:

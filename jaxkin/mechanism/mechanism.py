@@ -13,6 +13,7 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import Bond
 from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
@@ -53,6 +54,8 @@ class Mechanism:
     """The contacts that a joint stands for, by its name; none for joints by hand."""
     contacts_at_rest: tuple[Contact, ...] = field(default=())
     """Contacts of parts that only spin and are left at rest, which no joint stands for."""
+    bonds: tuple[Bond, ...] = field(default=())
+    """Which parts were taken as one, those of the fixed body too, each with what that is known from."""
 
     @staticmethod
     def build(
@@ -64,8 +67,7 @@ class Mechanism:
         moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
         `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
 
-        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is no
-        such number.
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is wrong.
         """
         noise = asked_noise(align)
         check_joints(joints)
@@ -249,10 +251,7 @@ class Mechanism:
         return replace(self, linkage=linkage, alignment=notes)
 
     def plan(self, drive: Iterable[str]) -> Plan:
-        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`.
-
-        Raises ValueError where the given pose is open.
-        """
+        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
         from jaxkin.mechanism.plan import plan
 
         return plan(self, drive)

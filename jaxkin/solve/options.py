@@ -1,6 +1,8 @@
-"""What a user may ask of the solver: one object, handed unchanged from the sweep to the loops that read it.
+"""What a user may ask of the solver: one object, passed from the sweep down to the correctors.
 
-To add an option: a field here, with its docstring and its check, and the line of the solver that reads it.
+To add an option: a field here, with its docstring; a whole number, 1 or more, is checked already. All that runs in the
+compiled program has the options at hand: correctors and continuation as `problem.options`
+(`jaxkin.solve.correctors.problem`), `range.solve_range` as `options`, so that no signature changes.
 """
 
 from __future__ import annotations
@@ -38,7 +40,9 @@ class SolverOptions:
     max_steps: int | None = None
     """Steps of the continuation to either side of the assembled pose, at most; poses that they do not reach are
     STALLED. None: 1024, or 2 a pose (12 with several inputs) of at most 1024 poses, whichever is more."""
-    corrector_steps: int = 8
+    newton_iterations: int = 4
+    """Iterations of Newton's method, at most: each squares the residual of a prediction (1e-2, 1e-4, 1e-8, 1e-16)."""
+    damped_steps: int = 8
     """Steps of the damped corrector, at most, for one step of the continuation that Newton's method did not close. More
     would only come from a prediction that is too far away: a shorter step of the continuation costs less."""
     limit_steps: int = 16

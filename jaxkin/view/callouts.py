@@ -25,7 +25,7 @@ COLORS = {
 }
 CHAIN = {"color": INK, "linewidth": 1.3, "linestyle": (0, (9, 2, 1.5, 2))}
 """The line of an axis."""
-MOST = 24
+MAX_CALLOUTS = 24
 """Labels at most: more hide what they name."""
 
 
@@ -55,14 +55,14 @@ def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) ->
         sheet.axes.plot(*ends.T, color="white", linewidth=3.0, zorder=5)
         sheet.axes.plot(*ends.T, zorder=6, **CHAIN)
         sheet.axes.plot(*ends.mean(axis=0), "o", color=INK, markersize=3.5, zorder=6)
-        if index < MOST:
+        if index < MAX_CALLOUTS:
             _label(sheet, ends[1] if ends[1][1] < ends[0][1] else ends[0], f"{joint.name}  {joint.kind}", taken)
 
 
 def draw_states(sheet: Sheet, contacts: Sequence[Contact], corner: Place) -> None:
     """The letter of each contact state, in the middle of its region."""
     taken: list[np.ndarray] = []
-    for contact in contacts[:MOST]:
+    for contact in contacts[:MAX_CALLOUTS]:
         place = _pixels(sheet, contact.centre[None], corner)[0]
         _label(sheet, place, f"({contact.state})", taken)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import cycle
 from typing import TYPE_CHECKING
@@ -12,8 +12,9 @@ from jaxkin.view.sticks import stick_parts
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
+    from jaxkin.view.sheet import Color
 
-GREY = (0.62, 0.64, 0.66)
+FIXED_COLOR = (0.62, 0.64, 0.66)
 """Fixed bodies."""
 
 PALETTE = (
@@ -27,6 +28,9 @@ PALETTE = (
 )
 """Moving bodies in turn: the colours of Okabe and Ito, which colour-blind people can tell apart as well."""
 
+SHADES = ((1.0, 1.0), (0.55, 1.0), (1.0, 0.6))
+"""Share of colour in white, and of light, each time the palette is gone through: three of one colour differ enough."""
+
 
 def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """The parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in 0..1.
@@ -39,8 +43,17 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     colors, of_part = cycle(PALETTE), {}
     for parts in mechanism.bodies.values():
         if not painted.issuperset(parts):
-            of_part |= dict.fromkeys(parts, GREY if parts[0] in mechanism.fixed else next(colors))
+            of_part |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in mechanism.fixed else next(colors))
     return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
+
+
+def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> dict[str, Color]:
+    """The colour of each part by its body alone: the palette in turn, then paler and darker; fixed bodies are grey."""
+    shades = [tuple(1 - pale + pale * dark * value for value in color) for pale, dark in SHADES for color in PALETTE]
+    colors, found = cycle(shades), {}
+    for parts in bodies.values():
+        found |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in fixed else next(colors))
+    return found
 
 
 def body_label(name: str, parts: Sequence[str]) -> str:

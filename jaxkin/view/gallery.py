@@ -11,7 +11,6 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
-from jaxkin.contacts.states import find_state
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.part import Part
 from jaxkin.view.callouts import COLORS, draw_contacts
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
 
 PANEL = 340
 """Pixels of a side of a panel."""
-COLUMNS = 4
+GALLERY_COLUMNS = 4
 
 
 def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Contact] | None = None) -> None:
@@ -43,7 +42,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
     parts = {part.name: part for part in assembly.parts}
     tolerance = default_length(assembly.parts)
     entries = legend_of_regions(contacts)
-    columns = min(COLUMNS, len(contacts))
+    columns = min(GALLERY_COLUMNS, len(contacts))
     pairs = [[parts[name] for name in contact.parts] for contact in contacts]
     canvases = [_square(canvas_of(pair, (), PANEL)) for pair in pairs]
     sheet = make_sheet(canvases[0], columns, -(-len(contacts) // columns), entries)
@@ -54,7 +53,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
         image = _image(canvas, pair, region)
         sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - PANEL)
         draw_contacts(sheet._replace(canvas=canvas), [(region, contact)], (left, top + CAPTION))
-        state = find_state(contact.state, contact.region)
+        state = contact.contact_state
         sheet.write((left, top + 6), f"({contact.state})  {state.name}", 9, INK, weight="bold")
         freedoms = f"{state.freedoms} freedom{'' if state.freedoms == 1 else 's'}"
         sheet.write((left, top + 29), f"{contact.region}, {freedoms}", 7, GREY)

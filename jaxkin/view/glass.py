@@ -11,13 +11,13 @@ from jaxtyping import Float, UInt8
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import frame
 from jaxkin.view.camera import THUMBNAIL, View, choose_view
-from jaxkin.view.illustration import FINE, Canvas, draw
+from jaxkin.view.illustration import SUPERSAMPLING, Canvas, draw
 from jaxkin.view.raster import rasterise
 from jaxkin.view.sheet import Color
 
 WIDTH = 1300
 """Pixels of the longer side of the drawing."""
-AIR = 0.06
+GLASS_MARGIN = 0.06
 """Around the parts, over the larger side: axes reach beyond them."""
 PALE = 0.62
 """Share of white in the parts, so that what is in them is seen."""
@@ -36,7 +36,7 @@ def canvas_of(parts: Sequence[Part], fixed: Sequence[str], longer: int = WIDTH) 
     view = _view(parts, fixed)
     points = view.project(np.concatenate([part.triangles.reshape(-1, 3) for part in parts]))
     low, high = points.min(axis=0), points.max(axis=0)
-    margin = AIR * (high - low)[:2].max()
+    margin = GLASS_MARGIN * (high - low)[:2].max()
     extent, centre = (high - low)[:2] + 2 * margin, (low + high) / 2
     scale = longer / extent.max()
     width, height = (int(np.ceil(side * scale)) for side in extent)
@@ -66,12 +66,12 @@ def see_through(
             image[hidden] *= 0.8
     if areas:
         layer = draw(canvas, areas, [color] * len(areas))
-        front = layer.depth >= solid.depth - 1e-3 * canvas.width * FINE
+        front = layer.depth >= solid.depth - 1e-3 * canvas.width * SUPERSAMPLING
         strength = np.where(front, 0.8, 0.42)[..., None]
         image = np.where(layer.present[..., None], (1 - strength) * image + strength * layer.color, image)
         rim = layer.outline & ~layer.present
         image[rim] = 0.4 * image[rim] + 0.6 * np.array(color)
-    return np.asarray(Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8)).reduce(FINE))
+    return np.asarray(Image.fromarray((255 * np.clip(image, 0, 1) + 0.5).astype(np.uint8)).reduce(SUPERSAMPLING))
 
 
 def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:

@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from jaxkin.topology.structure import Structure
 
-LETTERS = 14
+MAX_LETTERS = 14
 """Letters of a name that are drawn."""
-MANY = 600
+MAX_DRAWN_PARTS = 600
 """Parts up to which they are drawn."""
 SMALL = 40
 """Parts from which on names are small and joints have none."""
@@ -50,8 +50,10 @@ def places(structure: Structure, width: float) -> dict[str, np.ndarray]:
 
     Raises ValueError for more parts than a drawing can show.
     """
-    if len(structure.parts) > MANY:
-        raise ValueError(f"a drawing shows up to {MANY} parts, this structure has {len(structure.parts)}; print it")
+    if len(structure.parts) > MAX_DRAWN_PARTS:
+        raise ValueError(
+            f"a drawing shows up to {MAX_DRAWN_PARTS} parts, this structure has {len(structure.parts)}; print it"
+        )
     pairs = [(structure.row_of[part1], structure.row_of[part2]) for part1, part2 in structure.joint_parts]
     return {part: width * place for part, place in layout(structure.parts, pairs).items()}
 
@@ -86,7 +88,7 @@ def draw_graph(
         write(axes, place, part, size=5 if small else 8.5, bbox=box, zorder=5)
 
 
-def write(axes: Axes, at: Place | np.ndarray, text: str, letters: int = LETTERS, **style: Any) -> None:
+def write(axes: Axes, at: Place | np.ndarray, text: str, letters: int = MAX_LETTERS, **style: Any) -> None:
     """A name in the middle of a place, cut off where it is long; a dollar sign is one."""
     style = {"color": INK, "ha": "center", "va": "center", "parse_math": False} | style
     axes.text(float(at[0]), float(at[1]), clip(text, letters), **style)
@@ -103,7 +105,7 @@ def _names(
     taken = [parts]
     for joint, line in lines.items():
         name = structure.joints[joint]
-        half = np.array([0.02 + 0.033 * min(len(name), LETTERS), 0.07])
+        half = np.array([0.02 + 0.033 * min(len(name), MAX_LETTERS), 0.07])
         aside = _aside(line)
         aside = aside * (0.03 + LANE * len(through[joint]) / 2 + np.abs(aside) @ half)[:, None]
         spots = np.concatenate([(line + side * aside)[len(line) * 3 // 10 : len(line) * 7 // 10] for side in (1, -1)])

@@ -11,15 +11,15 @@ from jaxtyping import Bool, Float, UInt8
 from jaxkin.view.camera import View
 from jaxkin.view.raster import Raster, normals, rasterise
 
-FINE = 3  # pixels drawn along one pixel of the picture, for smooth edges
+SUPERSAMPLING = 3  # pixels drawn along one pixel of the picture, for smooth edges
 PAPER, INK, FAINT_INK = (1.0, 1.0, 1.0), (0.13, 0.15, 0.18), (0.58, 0.60, 0.63)
 HATCH = (5, 1)  # distance between the hatching lines of fixed parts and their width, in pixels along x
 HATCHED = 0.93  # brightness of a hatching line
 LIGHT = np.array([-0.35, -0.55, 0.76], np.float32)  # in pixels, y downwards: from the upper left
 CONTRAST = 0.45
-CREASE = float(np.cos(np.deg2rad(38)))  # more than a tessellated round face turns from one triangle to the next
-STEP = 2.0  # depth between neighbours, in pixels drawn and over the slope, that no plane has: a step
-SHADOW, REACH = 0.26, 7.0  # darkest shadow; how far it reaches and how deep a layer lies to be in it, in pixels
+CREASE_COSINE = float(np.cos(np.deg2rad(38)))  # more than a tessellated round face turns from one triangle to the next
+DEPTH_STEP = 2.0  # depth between neighbours, in pixels drawn and over the slope, that no plane has: a step
+SHADOW, SHADOW_REACH = 0.26, 7.0  # darkest shadow; how far it reaches and how deep a layer lies to be in it, in pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ class Canvas:
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """Some of the parts, drawn at FINE times the size of the picture."""
+    """Some of the parts, drawn at `SUPERSAMPLING` times the size of the picture."""
 
     present: Bool[np.ndarray, "height width"]
     depth: Float[np.ndarray, "height width"]
@@ -55,8 +55,8 @@ class Layer:
 
 def draw(canvas: Canvas, parts: Sequence[Float[np.ndarray, "_ 3 3"]], colors: Sequence[Sequence[float]]) -> Layer:
     """Draw parts given by their triangles in world coordinates; a face that faces the viewer keeps its colour."""
-    points = canvas.pixels(np.concatenate([*parts, np.zeros((0, 3, 3))])) * FINE
-    raster = rasterise(points, canvas.height * FINE, canvas.width * FINE)
+    points = canvas.pixels(np.concatenate([*parts, np.zeros((0, 3, 3))])) * SUPERSAMPLING
+    raster = rasterise(points, canvas.height * SUPERSAMPLING, canvas.width * SUPERSAMPLING)
     # One row a triangle, and a last one for index -1, where there is none.
     owners = np.append(np.repeat(np.arange(len(parts)), [len(triangles) for triangles in parts]), -1)
     normal = np.vstack([normals(points), [0.0, 0.0, 1.0]]).astype(np.float32)
@@ -75,7 +75,7 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
 
     image = fixed.color.copy()
     rows, columns = np.arange(image.shape[0])[:, None], np.arange(image.shape[1])
-    image[fixed.present & ((rows + columns) % (HATCH[0] * FINE) < HATCH[1] * FINE)] *= HATCHED
+    image[fixed.present & ((rows + columns) % (HATCH[0] * SUPERSAMPLING) < HATCH[1] * SUPERSAMPLING)] *= HATCHED
     _ink(image, fixed.crease, FAINT_INK, 0.8)
     _ink(image, fixed.outline, FAINT_INK, 1.0)
     _ink(image, ghost.outline, INK, 0.22)
@@ -88,7 +88,7 @@ def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "hei
     _ink(image, moving.crease & front, INK, 0.45)
     _ink(image, moving.outline & ~covered, INK, 0.9)
     _ink(image, moving.outline & covered, INK, 0.25)
-    return np.asarray(Image.fromarray((255 * image + 0.5).astype(np.uint8)).reduce(FINE))
+    return np.asarray(Image.fromarray((255 * image + 0.5).astype(np.uint8)).reduce(SUPERSAMPLING))
 
 
 def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -105,7 +105,9 @@ def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.n
         one, other = one[~border], other[~border]
         first, second = normal[face[one]], normal[face[other]]
         level = np.minimum(first[:, 2], second[:, 2])
-        inner = ((first * second).sum(axis=1) < CREASE) | (np.abs(depth[one] - depth[other]) * level > STEP)
+        inner = ((first * second).sum(axis=1) < CREASE_COSINE) | (
+            np.abs(depth[one] - depth[other]) * level > DEPTH_STEP
+        )
         crease[one] |= inner
         crease[other] |= inner
     return outline.reshape(places.shape), crease.reshape(places.shape)
@@ -129,9 +131,9 @@ def _shadow(depth: Float[np.ndarray, "height width"]) -> Float[np.ndarray, "heig
     """How much darker a pixel is for lying deeper than its surroundings (the depth buffer through an unsharp mask)."""
     from scipy.ndimage import gaussian_filter
 
-    coarse = depth[FINE // 2 :: FINE, FINE // 2 :: FINE] / FINE
+    coarse = depth[SUPERSAMPLING // 2 :: SUPERSAMPLING, SUPERSAMPLING // 2 :: SUPERSAMPLING] / SUPERSAMPLING
     solid = np.isfinite(coarse)
-    weight = gaussian_filter(solid.astype(np.float32), REACH)
-    around = gaussian_filter(np.where(solid, coarse, 0), REACH) / np.maximum(weight, 1e-6)
+    weight = gaussian_filter(solid.astype(np.float32), SHADOW_REACH)
+    around = gaussian_filter(np.where(solid, coarse, 0), SHADOW_REACH) / np.maximum(weight, 1e-6)
     deeper = np.where(solid, np.maximum(around - np.where(solid, coarse, 0), 0), 0)
-    return np.kron(SHADOW * (1 - np.exp(-deeper / REACH)), np.ones((FINE, FINE), np.float32))
+    return np.kron(SHADOW * (1 - np.exp(-deeper / SHADOW_REACH)), np.ones((SUPERSAMPLING, SUPERSAMPLING), np.float32))

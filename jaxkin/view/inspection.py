@@ -11,9 +11,8 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
-from jaxkin.view.callouts import CHAIN, COLORS, MOST, draw_axes, draw_contacts, draw_states
-from jaxkin.view.drawing import GREY as STILL
-from jaxkin.view.drawing import PALETTE
+from jaxkin.view.callouts import CHAIN, COLORS, MAX_CALLOUTS, draw_axes, draw_contacts, draw_states
+from jaxkin.view.drawing import FIXED_COLOR, PALETTE
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of
@@ -43,7 +42,8 @@ def draw_inspection(
     fixed = mechanism.fixed if mechanism else ()
     moving = [part.name for part in assembly.parts if part.name not in fixed]
     colors = {
-        part.name: part.color or (STILL if part.name in fixed else PALETTE[moving.index(part.name) % len(PALETTE)])
+        part.name: part.color
+        or (FIXED_COLOR if part.name in fixed else PALETTE[moving.index(part.name) % len(PALETTE)])
         for part in assembly.parts
     }
     canvas = canvas_of(assembly.parts, fixed, width)
@@ -92,7 +92,7 @@ def _legend(
     from matplotlib.patches import Patch
 
     entries: list[tuple[Artist, str]] = []
-    for name, color in list(colors.items())[:MOST]:
+    for name, color in list(colors.items())[:MAX_CALLOUTS]:
         fixed = " (fixed)" if mechanism is not None and name in mechanism.fixed else ""
         entries.append((Patch(facecolor=pale(color), edgecolor=INK, linewidth=0.8), clip(name, 40) + fixed))
     entries += legend_of_regions(contacts)

@@ -14,7 +14,7 @@ from jaxkin.solve.status import Status
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-LISTED = 3  # driven displacements that are told; there may be many, and no place for them
+MAX_TOLD_INPUTS = 3  # driven displacements that are told; there may be many, and no place for them
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,8 +66,8 @@ def headline(motion: Motion) -> tuple[str, str]:
 
 
 def _some(texts: list[str], comma: str) -> str:
-    more = len(texts) - LISTED
-    return comma.join(texts) if more <= 0 else f"{comma.join(texts[:LISTED])} and {more} more"
+    more = len(texts) - MAX_TOLD_INPUTS
+    return comma.join(texts) if more <= 0 else f"{comma.join(texts[:MAX_TOLD_INPUTS])} and {more} more"
 
 
 def _range(entry: Input) -> str:

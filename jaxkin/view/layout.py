@@ -11,13 +11,13 @@ from jaxtyping import Float, Int
 if TYPE_CHECKING:
     from networkx import Graph
 
-FEW = 40
+MAX_IMPROVED_NODES = 40
 """Nodes up to which a layout is improved node by node."""
-ROUNDS, TRIALS = 40, 16
+IMPROVEMENT_ROUNDS, TRIALS = 40, 16
 """Of the improvement, and places that are tried for a node in each."""
-STARTS, KEPT = 3, 2
+RANDOM_STARTS, IMPROVED_STARTS = 3, 2
 """Random layouts to begin with, beside those of the graph's distances, and how many of all are improved."""
-CROSSING, NEAR, REACH = 3.0, 0.15, 0.35
+CROSSING_WEIGHT, NEAR_WEIGHT, NEAR_DISTANCE = 3.0, 0.15, 0.35
 """The weights of a crossing and of a node near a line, and how near that is, in lengths of a line (Davidson, Harel)."""
 
 N = TypeVar("N", bound=Hashable)
@@ -47,16 +47,16 @@ def _best(graph: Graph) -> Points:
         return nx.spring_layout(graph, seed=seed, iterations=100)
 
     edges = np.array(graph.edges, int).reshape(-1, 2)
-    if len(graph) > FEW:
+    if len(graph) > MAX_IMPROVED_NODES:
         return _scaled(spring(0), edges)
     starts = [nx.kamada_kawai_layout(graph)]
     starts += [nx.kamada_kawai_layout(graph, pos=nx.planar_layout(graph))] if nx.is_planar(graph) else []
-    starts += [spring(seed) for seed in range(STARTS)]
+    starts += [spring(seed) for seed in range(RANDOM_STARTS)]
 
     def cost(points: Points) -> float:
         return sum(_cost(points, edges, k, points[k][None])[0] for k in graph)
 
-    chosen = sorted((_scaled(start, edges) for start in starts), key=cost)[:KEPT]
+    chosen = sorted((_scaled(start, edges) for start in starts), key=cost)[:IMPROVED_STARTS]
     return min((_improved(points, edges) for points in chosen), key=cost)
 
 
@@ -71,7 +71,7 @@ def _improved(points: Points, edges: Int[np.ndarray, "edges 2"]) -> Points:
     """Each node in turn goes to the best of some places around it, in rounds that reach less and less far."""
     random = np.random.default_rng(0)
     points = points.copy()
-    for reach in np.geomspace(1.5, 0.02, ROUNDS):
+    for reach in np.geomspace(1.5, 0.02, IMPROVEMENT_ROUNDS):
         for node in range(len(points)):
             trials = points[node] + np.vstack([np.zeros(2), reach * random.standard_normal((TRIALS, 2))])
             points[node] = trials[np.argmin(_cost(points, edges, node, trials))]
@@ -90,12 +90,12 @@ def _cost(
     cost = (1.0 / np.maximum(gaps, 1e-4)).sum(axis=1)
     cost += ((trials[:, None] - points[ends]) ** 2).sum(axis=(1, 2))
     starts, stops = points[rest[:, 0]], points[rest[:, 1]]
-    cost += NEAR * _nearness(trials[:, None], starts, stops).sum(axis=1)
+    cost += NEAR_WEIGHT * _nearness(trials[:, None], starts, stops).sum(axis=1)
     to = points[ends][:, None]
     near = _nearness(points[others], trials[:, None, None], to)
-    cost += NEAR * (near * (others != ends[:, None])).sum(axis=(1, 2))
+    cost += NEAR_WEIGHT * (near * (others != ends[:, None])).sum(axis=(1, 2))
     cross = _cross(trials[:, None, None], to, starts, stops) & ~(rest == ends[:, None, None]).any(axis=-1)
-    return cost + CROSSING * cross.sum(axis=(1, 2))
+    return cost + CROSSING_WEIGHT * cross.sum(axis=(1, 2))
 
 
 def _nearness(points: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.ndarray:
@@ -103,7 +103,7 @@ def _nearness(points: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.n
     along = stops - starts
     share = ((points - starts) * along).sum(axis=-1) / np.maximum((along**2).sum(axis=-1), 1e-12)
     gaps = ((points - starts - np.clip(share, 0.0, 1.0)[..., None] * along) ** 2).sum(axis=-1)
-    return np.maximum(1.0 / np.maximum(gaps, 1e-4) - 1.0 / REACH**2, 0.0)
+    return np.maximum(1.0 / np.maximum(gaps, 1e-4) - 1.0 / NEAR_DISTANCE**2, 0.0)
 
 
 def _cross(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:

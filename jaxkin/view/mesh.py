@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-CREASE = np.deg2rad(35)  # more than a tessellated round face turns from one triangle to the next
-MANY = 80_000
+PAGE_CREASE = np.deg2rad(35)  # more than a tessellated round face turns from one triangle to the next
+MAX_PAGE_TRIANGLES = 80_000
 """Triangles of a page at most: some 4 MB, which open within seconds without a graphics card, too."""
 FINEST = 1.0 / 4000
 """The first cells that are tried, over half the size of all: less than a pixel."""
@@ -35,8 +35,8 @@ def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
     from trimesh.grouping import group_rows
 
     mesh = Trimesh(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3), process=True)
-    smooth = smooth_shade(mesh, angle=CREASE)
-    turned = mesh.face_adjacency_edges[mesh.face_adjacency_angles > CREASE]
+    smooth = smooth_shade(mesh, angle=PAGE_CREASE)
+    turned = mesh.face_adjacency_edges[mesh.face_adjacency_angles > PAGE_CREASE]
     rims = mesh.edges_sorted[group_rows(mesh.edges_sorted, require_count=1)]
     ends = np.concatenate([turned, rims])
     return Mesh(
@@ -44,7 +44,9 @@ def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
     )
 
 
-def lightened(solids: Sequence[Float[np.ndarray, "_ 3 3"]], most: int = MANY) -> list[Float[np.ndarray, "_ 3 3"]]:
+def lightened(
+    solids: Sequence[Float[np.ndarray, "_ 3 3"]], most: int = MAX_PAGE_TRIANGLES
+) -> list[Float[np.ndarray, "_ 3 3"]]:
     """Merge near corners of solids of about unit size until no more than `most` triangles are left in all.
 
     Corners within one cell of a grid become their mean, and triangles without area go. The cells are as small as they

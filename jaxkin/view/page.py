@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from collections.abc import Mapping
-from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from jaxkin.solve.status import Status
-from jaxkin.view.drawing import body_label
+from jaxkin.view.drawing import FIXED_COLOR, body_label
 from jaxkin.view.labels import headline, inputs, named
 from jaxkin.view.lost_marks import told
-from jaxkin.view.mesh import lightened, shaded_mesh
 from jaxkin.view.scene import Scene, make_scene
+from jaxkin.view.viewer import encoded, part_entries, rounded, write_page
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
+    from jaxkin.view.sheet import Color
 
-MOST = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
+MAX_PAGE_POSES = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
 TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
 RISE = 0.52  # pitch that one in space is first seen from
 
@@ -30,25 +28,19 @@ def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None =
     """Write a page that shows the motion in 3D, with a slider over its range; works from a file, without a network.
 
     `points[part]`: (x, y, z) in the assembled pose, or several of them, whose paths are drawn; by default the same as
-    in `storyboard`. At most MOST poses are kept, evenly in order of the input. Failed poses are told, not drawn;
-    at poses where joints leave their faces, these are told and marked.
+    in `storyboard`. At most `MAX_PAGE_POSES` poses are kept, evenly in order of the input. Failed poses are told, not
+    drawn; at poses where joints leave their faces, these are told and marked.
 
     Raises ValueError for an unknown part and for points that are not such.
     """
-    data = json.dumps(_content(motion, make_scene(motion, points)), ensure_ascii=False, separators=(",", ":"))
-    text = _read("page.html").replace("{{viewer}}", _read("viewer.js")).replace("{{controls}}", _read("page.js"))
-    Path(path).write_text(text.replace("{{motion}}", data.replace("<", "\\u003c")), "utf-8")  # no name ends the script
-
-
-def _read(name: str) -> str:
-    return resources.files("jaxkin.view").joinpath(name).read_text("utf-8")
+    write_page(path, "page", _content(motion, make_scene(motion, points)))
 
 
 def _content(motion: Motion, scene: Scene) -> dict:
     """What `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
     low, high = scene.bounds
     centre, scale = scene.view.axes.T @ (low + high) / 2, float(np.linalg.norm(high - low) / 2)
-    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MOST)).astype(int))]
+    shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MAX_PAGE_POSES)).astype(int))]
     axes, yaw, pitch = scene.view.axes, *TILT
     if not scene.view.planar:  # the turntable stands upright in the world
         up = np.array([0.0, 0.0, 1.0])
@@ -56,7 +48,7 @@ def _content(motion: Motion, scene: Scene) -> dict:
     corners = np.stack(np.meshgrid(*(scene.bounds - (low + high) / 2).T), axis=-1).reshape(-1, 3) @ scene.view.axes
     first, second = headline(motion)
     status, entries = np.asarray(motion.status), inputs(motion)
-    colors = {part.name: [round(value, 4) for value in part.color or (0.6, 0.6, 0.6)] for part in scene.parts}
+    colors = {part.name: part.color or FIXED_COLOR for part in scene.parts}
     return {
         "title": first,
         "subtitle": second,
@@ -72,12 +64,16 @@ def _content(motion: Motion, scene: Scene) -> dict:
         "yaw": yaw,
         "pitch": pitch,
         "bodies": [_body(name, scene, shown, centre, scale, colors[name]) for name in scene.bodies],
-        "parts": _parts(scene, centre, scale, colors),
+        "parts": part_entries(scene.parts, [*scene.bodies.values()], colors, centre, scale),
         "paths": [
-            {"part": trace.part, "color": colors[trace.part], "points": _base64((trace.path[shown] - centre) / scale)}
+            {
+                "part": trace.part,
+                "color": rounded(colors[trace.part]),
+                "points": encoded((trace.path[shown] - centre) / scale),
+            }
             for trace in scene.traces
         ],
-        "marks": [[_base64((end[shown] - centre) / scale) for end in mark.ends] for mark in scene.lost],
+        "marks": [[encoded((end[shown] - centre) / scale) for end in mark.ends] for mark in scene.lost],
     }
 
 
@@ -85,7 +81,7 @@ def _problem(status: Status) -> str:
     return "" if status is Status.CLOSED else f"{status.name.lower()}: {status.message}"
 
 
-def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: list[float]) -> dict:
+def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale: float, color: Color) -> dict:
     """Parts that move as one: one row of the legend, and one displacement a pose."""
     poses = scene.displacements[name][shown, :3, :].copy()
     poses[..., 3] += poses[..., :3] @ centre - centre
@@ -93,32 +89,6 @@ def _body(name: str, scene: Scene, shown: np.ndarray, centre: np.ndarray, scale:
     return {
         "name": body_label(name, scene.bodies[name]),
         "fixed": name in scene.fixed,
-        "color": color,
-        "poses": "" if name in scene.fixed else _base64(poses),
+        "color": rounded(color),
+        "poses": "" if name in scene.fixed else encoded(poses),
     }
-
-
-def _parts(scene: Scene, centre: np.ndarray, scale: float, colors: dict[str, list[float]]) -> list[dict]:
-    """Meshes of all parts, lightened together, each with the index of its body."""
-    owner = {part: index for index, parts in enumerate(scene.bodies.values()) for part in parts}
-    solids = lightened([(part.triangles - centre) / scale for part in scene.parts])
-    return [
-        {"name": part.name, "body": owner[part.name], "color": colors[part.name], **_mesh(triangles)}
-        for part, triangles in zip(scene.parts, solids, strict=True)
-    ]
-
-
-def _mesh(triangles: np.ndarray) -> dict[str, str]:
-    mesh = shaded_mesh(triangles)
-    normals = np.zeros((len(mesh.normals), 4))  # four bytes a corner, as graphics cards want them
-    normals[:, :3] = 127 * mesh.normals
-    return {
-        "points": _base64(mesh.points),
-        "normals": _base64(np.rint(normals), "i1"),
-        "triangles": _base64(mesh.triangles, "<u4"),
-        "edges": _base64(mesh.edges),
-    }
-
-
-def _base64(array: np.ndarray, kind: str = "<f4") -> str:
-    return b64encode(np.ascontiguousarray(array, dtype=kind).tobytes()).decode("ascii")

@@ -10,7 +10,6 @@ from jaxtyping import Float
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.overlap import flat, shared_triangles
 from jaxkin.contacts.region import contact_region
-from jaxkin.contacts.states import find_state
 from jaxkin.contacts.touch import Touch
 from jaxkin.contacts.unrolled import turned, unrolled
 from jaxkin.geometry.part import Face
@@ -30,7 +29,7 @@ class Region(NamedTuple):
 def region_of(contact: Contact, face1: Face, face2: Face, tolerance: float) -> Region:
     """The region of a contact between two faces; `tolerance` is the length of the detection."""
     s1, s2 = contact.surfaces
-    touch = find_state(contact.state, contact.region).touch(s1, s2, contact.centre)
+    touch = contact.contact_state.touch(s1, s2, contact.centre)
     if touch is None:  # the detection found one here
         return Region(np.zeros((0, 3, 3)), contact.centre[None])
     match contact.region:

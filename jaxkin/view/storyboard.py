@@ -21,15 +21,15 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 PANELS = 6
-COLUMNS = {0: 1, 1: 1, 2: 2, 4: 2}
+PANEL_COLUMNS = {0: 1, 1: 1, 2: 2, 4: 2}
 """Panels in a row by their number, three for all others."""
 WIDTHS = {1: 1000, 2: 760, 3: 544}
 """Width of a panel in pixels by the number in a row; a panel is at most as high as it is wide."""
-AIR = 0.03  # around the mechanism, over the larger side of what it sweeps
-LONGEST = 40  # letters of a name in the legend
-LISTED = 24  # moving bodies in the legend; more hide the picture
+SWEEP_MARGIN = 0.03  # around the mechanism, over the larger side of what it sweeps
+MAX_LEGEND_LETTERS = 40  # letters of a name in the legend
+MAX_LEGEND_BODIES = 24  # moving bodies in the legend; more hide the picture
 FIXED = (0.90, 0.905, 0.915)
-LOST = {
+LOST_STYLE = {
     "color": WARNING,
     "linewidth": 1.6,
     "linestyle": (0, (1.2, 1.2)),
@@ -57,7 +57,7 @@ def storyboard(
     """
     scene = make_scene(motion, points)
     shown = _choose(scene) if poses is None else _check(poses, scene, len(motion))
-    columns = COLUMNS.get(len(shown), 3)
+    columns = PANEL_COLUMNS.get(len(shown), 3)
     entries = _legend(scene)
     sheet = make_sheet(_canvas(scene, WIDTHS[columns]), columns, -(-len(shown) // columns) or 1, entries)
     _panels(sheet, scene, inputs(motion), shown)
@@ -98,7 +98,7 @@ def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> list[
 def _canvas(scene: Scene, width: int) -> Canvas:
     """The canvas that every pose and all paths fit in, with some air, no higher than wide."""
     low, high = scene.bounds[:, :2]
-    margin = AIR * (high - low).max()
+    margin = SWEEP_MARGIN * (high - low).max()
     extent, centre = high - low + 2 * margin, (low + high) / 2
     scale = width / extent.max()
     height = int(np.ceil(extent[1] * scale))
@@ -149,8 +149,8 @@ def _lost(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
     for mark in scene.lost:
         if mark.shown[pose]:
             x, y = sheet.canvas.pixels(mark.ends[:, pose])[:, :2].T + np.array([[left], [top]])
-            sheet.axes.plot(x, y, zorder=6, **LOST | {"color": "white", "linewidth": 4.0, "markeredgewidth": 4.0})
-            sheet.axes.plot(x, y, zorder=7, **LOST)
+            sheet.axes.plot(x, y, zorder=6, **LOST_STYLE | {"color": "white", "linewidth": 4.0, "markeredgewidth": 4.0})
+            sheet.axes.plot(x, y, zorder=7, **LOST_STYLE)
 
 
 def _legend(scene: Scene) -> list[tuple[Artist, str]]:
@@ -161,18 +161,20 @@ def _legend(scene: Scene) -> list[tuple[Artist, str]]:
     entries: list[tuple[Artist, str]] = []
     if still := [part.name for part in scene.parts if part.name in scene.fixed]:
         patch = Patch(facecolor=FIXED, edgecolor=FAINT_INK, hatch="/////", hatch_linewidth=0.4)
-        entries.append((patch, f"{clip(', '.join(still), LONGEST)} (fixed)"))
+        entries.append((patch, f"{clip(', '.join(still), MAX_LEGEND_LETTERS)} (fixed)"))
     colors = {part.name: part.color or GREY for part in scene.parts}
     moving = {name: parts for name, parts in scene.bodies.items() if name not in scene.fixed}
-    for name, parts in list(moving.items())[:LISTED]:
+    for name, parts in list(moving.items())[:MAX_LEGEND_BODIES]:
         patch = Patch(facecolor=colors[name], edgecolor=INK, linewidth=0.8)
-        entries.append((patch, clip(body_label(name, parts), LONGEST)))
-    if len(moving) > LISTED:
-        entries.append((Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{len(moving) - LISTED} more bodies"))
+        entries.append((patch, clip(body_label(name, parts), MAX_LEGEND_LETTERS)))
+    if len(moving) > MAX_LEGEND_BODIES:
+        entries.append(
+            (Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{len(moving) - MAX_LEGEND_BODIES} more bodies")
+        )
     if scene.traces:
         style = {"color": GREY, "linewidth": 1.1, "marker": "o", "markersize": 5, "markeredgecolor": "white"}
         entries.append((Line2D([], [], **style), "path of a point"))
     if scene.lost:
-        names = clip(", ".join(mark.joint for mark in scene.lost), LONGEST)
-        entries.append((Line2D([], [], **LOST), f"where the faces of a lost contact touched: {names}"))
+        names = clip(", ".join(mark.joint for mark in scene.lost), MAX_LEGEND_LETTERS)
+        entries.append((Line2D([], [], **LOST_STYLE), f"where the faces of a lost contact touched: {names}"))
     return [*entries, (Line2D([], [], color=INK, alpha=0.3, linewidth=1.0), "assembled pose")]

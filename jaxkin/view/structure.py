@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
 LEGEND = 12
 """Loops that the legend lists at most."""
-LETTERS = 16
+LETTERS_PER_INCH = 16
 """Of the legend, on an inch."""
-AROUND, HEAD, LINE = 0.45, 0.5, 0.19
+AROUND, TITLE_HEIGHT, LEGEND_LINE = 0.45, 0.5, 0.19
 """In inches: around the drawings, for the title, and a line of the legend."""
 
 
@@ -53,8 +53,8 @@ def plot_structure(structure: Structure) -> Figure:
     across = [np.ptp(points[:, 0]) + 2 * AROUND, (right - left if drawn else 1.5) + 2 * AROUND]
     high = max(np.ptp(points[:, 1]), -bottom if drawn else 0.0, 1.0) + 2 * AROUND
     listed = min(len(structure.loops), LEGEND) + (len(structure.loops) > LEGEND)
-    foot = 0.1 + LINE * listed
-    width, height = sum(across), HEAD + high + foot
+    foot = 0.1 + LEGEND_LINE * listed
+    width, height = sum(across), TITLE_HEIGHT + high + foot
     figure = Figure(figsize=(width, height), dpi=DPI, facecolor="white")
 
     def drawing(x: float, wide: float, centre: Place) -> Axes:
@@ -77,9 +77,15 @@ def plot_structure(structure: Structure) -> Figure:
     loops = f"{len(structure.loops)} loop{'' if len(structure.loops) == 1 else 's'}"
     write(0.2, height - 0.3, f"{len(structure.parts)} parts, {len(structure.joints)} joints, {loops}", 11, INK, "bold")
     if not drawn:
-        write(across[0], HEAD + high / 2, f"a tree of {len(tree)} elements:\nprint the structure", 7, GREY)
+        write(across[0], TITLE_HEIGHT + high / 2, f"a tree of {len(tree)} elements:\nprint the structure", 7, GREY)
     for k in range(listed):
         more = k == LEGEND
         text = f"and {len(structure.loops) - LEGEND} more" if more else f"l{k + 1}   {structure.loops[k]}"
-        write(0.2, foot - LINE * (k + 0.5), clip(text, int(LETTERS * width)), 7, GREY if more else palette[k])
+        write(
+            0.2,
+            foot - LEGEND_LINE * (k + 0.5),
+            clip(text, int(LETTERS_PER_INCH * width)),
+            7,
+            GREY if more else palette[k],
+        )
     return figure

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 Marks = list[tuple[str, Vector]]
 """Points of parts: the part, and where the point is in the assembled pose, in world coordinates."""
 
-NEAR = 0.15  # a corner so near to a joint, over the size of its part, would only double the path of the joint
-SAME = 1e-3  # paths so near to each other, over the size of the mechanism, are one path; one so short is a dot
-MOST = 8  # more paths than these hide the mechanism: the longest are kept
+NEAR_JOINT = 0.15  # a corner so near to a joint, over the size of its part, would only double the path of the joint
+SAME_PATH = 1e-3  # paths so near to each other, over the size of the mechanism, are one path; one so short is a dot
+MAX_PATHS = 8  # more paths than these hide the mechanism: the longest are kept
 
 
 def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
@@ -58,11 +58,11 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
         for part, point in points.items():
             ends[part].append(point)
         one, other = (move(displacements, part, point) @ flat for part, point in points.items())
-        if _gap(one, other) > SAME * size or _extent(one) < SAME * size:
+        if _gap(one, other) > SAME_PATH * size or _extent(one) < SAME_PATH * size:
             continue
         part = next((name for name in points if name not in covered), joint.parts[0])
         covered |= {*points}
-        if all(_gap(one, path) > SAME * size for path in paths):
+        if all(_gap(one, path) > SAME_PATH * size for path in paths):
             marks.append((part, points[part]))
             paths.append(one)
     held = {name for joint in mechanism.joints.values() if {*joint.parts} & {*mechanism.fixed} for name in joint.parts}
@@ -71,11 +71,11 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
             continue
         point, distance = _farthest(part, np.array(ends[part.name]).reshape(-1, 3), flat)
         path = move(displacements, part.name, point) @ flat
-        if distance > NEAR * np.linalg.norm(np.ptp(part.box, axis=0)) and _extent(path) > SAME * size:
+        if distance > NEAR_JOINT * np.linalg.norm(np.ptp(part.box, axis=0)) and _extent(path) > SAME_PATH * size:
             marks.append((part.name, point))
             paths.append(path)
     longest = np.argsort([-np.linalg.norm(np.diff(path, axis=0), axis=1).sum() for path in paths], kind="stable")
-    return [marks[index] for index in sorted(longest[:MOST])]
+    return [marks[index] for index in sorted(longest[:MAX_PATHS])]
 
 
 def _farthest(part: Part, joints: Float[np.ndarray, "joints 3"], flat: np.ndarray) -> tuple[Vector, float]:

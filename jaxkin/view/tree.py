@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jaxkin.topology.elements import StructureElement
-from jaxkin.view.graph import LETTERS, STILL, write
+from jaxkin.view.graph import MAX_LETTERS, STILL, write
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import GREY, Color, Place
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from jaxkin.topology.structure import Structure
 
-HIGH, BESIDE, BETWEEN = 0.22, 0.36, 0.62
+HIGH, BESIDE, LEVEL_DISTANCE = 0.22, 0.36, 0.62
 """In inches: a name in its long circle, between elements of a level, and between levels."""
 LOOPS = 8
 """Loops that an element names at most."""
@@ -56,7 +56,7 @@ def boxes(structure: Structure) -> tuple[Box, ...]:
         span[number] = max(own, sum(span[child] for child in below[number]))
     middle, top = [0.0] * len(elements), [0.0] * (max(level) + 2)
     for number, depth in enumerate(level):
-        top[depth + 1] = min(top[depth + 1], top[depth] - heights[number] - BETWEEN)
+        top[depth + 1] = min(top[depth + 1], top[depth] - heights[number] - LEVEL_DISTANCE)
     for number, children in enumerate(below):
         left = middle[number] - sum(span[child] for child in children) / 2
         for child in children:
@@ -84,7 +84,7 @@ def _holder(structure: Structure, element: StructureElement) -> str:
 
 
 def _name_width(name: str) -> float:
-    return 0.2 + 0.075 * min(len(name), LETTERS)
+    return 0.2 + 0.075 * min(len(name), MAX_LETTERS)
 
 
 def _width(element: StructureElement) -> float:
@@ -128,7 +128,7 @@ def _element(axes: Axes, box: Box, number: int, element: StructureElement, palet
     _frame(axes, (box.x, box.y - box.height / 2), box.width, box.height, 0.16, "white", 1.2)
     _pill(axes, (box.x, box.y - 0.07 - HIGH / 2), element.upper, root)
     line = box.y - 0.07 - HIGH - 0.12
-    write(axes, (box.x, line), element.kind, LETTERS, size=7, color=GREY, zorder=4)
+    write(axes, (box.x, line), element.kind, MAX_LETTERS, size=7, color=GREY, zorder=4)
     shown = element.loops[:LOOPS]
     for k, loop in enumerate(shown):
         more = k == LOOPS - 1 and len(element.loops) > LOOPS

@@ -164,6 +164,27 @@ def test_inspect_draws_what_it_found(tmp_path):
 
 
 @pytest.mark.long
+def test_inspect_writes_a_page_and_a_study_that_sweeps(tmp_path):
+    page, study = tmp_path / "report.html", tmp_path / "study.toml"
+    done = invoke("inspect", FOURBAR, "--page", page, "--study", study)
+    assert done.exit_code == 0, done.output
+    text = page.read_text("utf-8")
+    assert "To move it, give a range for this: ground-crank.phi" in text and "The best of 3 choices" in text
+    done = invoke("sweep", study, "--out", tmp_path / "motion")
+    assert done.exit_code == 0 and "21  CLOSED" in done.output, done.output
+
+
+def test_inspect_writes_the_page_of_what_is_refused_too(tmp_path):
+    """The four-bar with its rocker placed a metre away, where nothing may be inferred."""
+    text = Path(FOURBAR).read_text().replace("(106.25950699647,", "(1106.25950699647,")
+    (tmp_path / "apart.step").write_text(text)
+    page = tmp_path / "report.html"
+    done = invoke("inspect", tmp_path / "apart.step", "--fixed", "ground", "--exact-only", "--page", page)
+    assert done.exit_code == 2 and "'rocker' touches no other part" in done.stderr
+    assert "There is no mechanism yet. apart.step: 'rocker' touches no other part" in page.read_text("utf-8")
+
+
+@pytest.mark.long
 def test_loops_prints_and_draws_the_structure(tmp_path):
     done = invoke("loops", FOURBAR, "--fixed", "ground", "--png", tmp_path / "loops.png")
     assert done.exit_code == 0, done.output
@@ -249,6 +270,15 @@ def test_a_picture_that_cannot_be_written_is_refused_before_all_work(command, pi
     assert done.exit_code == 2 and "'--png'" in done.stderr
     assert said in " ".join(done.stderr.replace("│", " ").split())  # in a box, some words a line
     assert "missing.step" not in done.stderr
+
+
+@pytest.mark.parametrize(("option", "suffix"), [("--page", ".html"), ("--study", ".toml")])
+def test_a_report_that_cannot_be_written_is_refused_before_all_work(option, suffix, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, said in (("found.txt", f"ends in {suffix}, got found.txt"), (f"none/found{suffix}", "no folder none")):
+        done = invoke("inspect", "missing.step", option, name)
+        assert done.exit_code == 2 and f"'{option}'" in done.stderr
+        assert said in " ".join(done.stderr.replace("│", " ").split())
 
 
 @pytest.mark.long

@@ -1,6 +1,7 @@
 """`optimize` on problems whose answer is known, its result on disk, and what it refuses."""
 
 import warnings
+from dataclasses import fields
 
 import jax.numpy as jnp
 import numpy as np
@@ -8,6 +9,9 @@ import pytest
 
 import jaxkin as jk
 from jaxkin import design
+from jaxkin.design import result
+from jaxkin.joints.joint import Joint
+from jaxkin.topology.structure import Structure
 from reference.mechanisms import planar_fourbar
 
 TURN = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
@@ -151,3 +155,24 @@ def test_losses_that_are_none(loss, said):
     with warnings.catch_warnings(), pytest.raises(ValueError, match=said):
         warnings.simplefilter("ignore", RuntimeWarning)
         jk.optimize(loss, START, drive={"A": TURN}, lengths={CRANK: (20, 60)})
+
+
+def test_a_saved_result_of_another_format_is_refused(tmp_path, monkeypatch):
+    nothing = np.zeros(0)
+    found = result.Optimum(
+        TRUTH, 1.0, 0.0, nothing, "", 0.0, {}, {}, {"A": TURN}, nothing, nothing, result.Moves(1, {"CLOSED": 1}, 1.0)
+    )
+    path = found.save(tmp_path / "best.npz")
+    assert design.read_optimum(path).mechanism.lengths == TRUTH.lengths
+    monkeypatch.setattr(result, "SAVED_FORMAT", result.SAVED_FORMAT + 1)
+    with pytest.raises(ValueError, match=r"no saved result of optimize: format 1, and this version reads 2"):
+        design.read_optimum(path)
+
+
+def test_the_format_of_saved_results_changes_with_what_is_saved():
+    """Whoever changes the fields raises `SAVED_FORMAT`, and writes both here."""
+    assert result.SAVED_FORMAT == 1
+    assert [field.name for field in fields(Structure)] == ["part_names", "joints", "joint_parts", "fixed", "chords"]
+    leaves = ["frames_1", "frames_2", "pitch", "evidence"]
+    assert [field.name for field in fields(Joint)] == ["name", "parts", "kind", "movements", *leaves]
+    assert [field.name for field in fields(result.Moves)] == ["poses", "counts", "steepest"]

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.io.gltf import DURATION, KEYFRAMES, keyframes, quaternions
-from jaxkin.view.drawing import GREY, PALETTE, drawn_parts
+from jaxkin.view.drawing import FIXED_COLOR, PALETTE, drawn_parts
 
 EPS32 = float(np.finfo(np.float32).eps)
 COMPONENTS = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -274,7 +274,7 @@ def test_quaternions_do_not_jump(steps, seed):
 def test_colours_are_those_of_the_screen(motion, animation):
     grey, blue = (animation.tree["materials"][index] for index in (0, 1))
     assert (grey["name"], blue["name"]) == ("ground", "upper")
-    for material, color in ((grey, GREY), (blue, PALETTE[0])):
+    for material, color in ((grey, FIXED_COLOR), (blue, PALETTE[0])):
         linear = np.array(material["pbrMetallicRoughness"]["baseColorFactor"][:3])
         # the other way round than the writer: linear light to sRGB (IEC 61966-2-1)
         screen = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)

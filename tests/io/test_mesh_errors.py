@@ -12,7 +12,7 @@ import trimesh
 from jaxkin.examples import path
 from jaxkin.geometry import region_growing
 from jaxkin.io.load import load
-from jaxkin.io.mesh_check import MOST, PARTS
+from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES
 from tessellation import RECORD, write_stl
 
 BOX = trimesh.creation.box((10.0, 20.0, 30.0))
@@ -112,7 +112,7 @@ BROKEN = {
     "bomb.3mf": (threemf(b" " * 600_000_000), "unpacks to 600 MB, more than 500"),
     "unit.3mf": (threemf(model({}, "parsec")), "is in the length unit 'parsec': export it in micron"),
     "itself.3mf": (threemf(model({1: (0, 2), 2: (1,)})), "nested without end"),
-    "doubled.3mf": (threemf(model({k: (k - 1, k - 1) for k in range(1, 40)})), f"more than {PARTS} parts"),
+    "doubled.3mf": (threemf(model({k: (k - 1, k - 1) for k in range(1, 40)})), f"more than {MAX_MESH_NODES} parts"),
     "noise.glb": (NOISE, "does not begin with glTF"),
     "short.glb": (glb([{"mesh": 0}])[:-4], "is damaged or cut off"),
     "claims.glb": (glb([{"mesh": 0}], 2**31), "cannot be read as GLB"),
@@ -143,7 +143,7 @@ def test_ten_million_triangles_are_refused_unread(tmp_path):
     with file.open("wb") as target:
         target.write(bytes(80) + np.uint32(10_000_000).tobytes())
         target.truncate(84 + 50 * 10_000_000)  # a sparse file
-    with pytest.raises(ValueError, match=f"holds 10000000 triangles, more than {MOST}: export it coarser"):
+    with pytest.raises(ValueError, match=f"holds 10000000 triangles, more than {MAX_TRIANGLES}: export it coarser"):
         load(file)
 
 

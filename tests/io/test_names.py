@@ -6,7 +6,7 @@ from typing import NamedTuple
 import pytest
 
 from jaxkin._names import match_parts
-from jaxkin.io.names import LONGEST, cleaned, is_damaged, unique
+from jaxkin.io.names import MAX_NAME_LETTERS, cleaned, is_damaged, unique
 from jaxkin.io.step_glb import instances
 
 
@@ -26,10 +26,10 @@ def test_what_nobody_typed_is_replaced_and_white_space_becomes_one_blank() -> No
 
 def test_long_names_are_shortened_and_stay_apart() -> None:
     names = unique(cleaned("A" * 100 + end) for end in ("left", "right", "left"))
-    assert all(len(name) <= LONGEST + len("#2") for name in names)
+    assert all(len(name) <= MAX_NAME_LETTERS + len("#2") for name in names)
     assert len(set(names)) == 3
     assert names[0].endswith("left") and names[1].endswith("right") and names[2] == names[0] + "#2"
-    assert cleaned("A" * LONGEST) == "A" * LONGEST
+    assert cleaned("A" * MAX_NAME_LETTERS) == "A" * MAX_NAME_LETTERS
 
 
 class Named(NamedTuple):

@@ -13,7 +13,7 @@ from jaxkin.examples import path
 from jaxkin.io import step, step_convert
 from jaxkin.io.load import load
 from jaxkin.io.step import read_step
-from jaxkin.io.step_tree import PARTS
+from jaxkin.io.step_tree import MAX_STEP_PARTS
 
 DATA = Path(__file__).parent / "data"
 CAM = path("cam").read_bytes()
@@ -139,7 +139,7 @@ def with_unit(unit: str, *lines: str) -> str:
 
 CONVERTED = "( CONVERSION_BASED_UNIT('X',#90001) LENGTH_UNIT() NAMED_UNIT(*) );"
 HOSTILE = {
-    "more parts than there are atoms": (doubled(300), f"bad.step holds more than {PARTS} parts"),
+    "more parts than there are atoms": (doubled(300), f"bad.step holds more than {MAX_STEP_PARTS} parts"),
     "a part of itself": (
         with_lines(FILLET, "#90000 = NEXT_ASSEMBLY_USAGE_OCCURRENCE('','','',#90001,#90001,$);"),
         "bad.step is damaged: an assembly in it is a part of itself",

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,12 @@ import pytest
 import jaxkin as jk
 from jaxkin.contacts.states import CONTACT_STATES
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.io.study_file import JointTable
+from jaxkin.io.study_writer import WRITTEN_ARGUMENTS
+from jaxkin.joints.combine import LOWER_PAIRS, lower_pairs
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import JOINTS_BY_HAND
 from jaxkin.view.sticks import stick_parts
 
 PACKAGE = Path(jk.__file__).parent
@@ -37,6 +42,38 @@ def test_every_contact_state_has_a_kind_and_every_pair_a_movement():
     }
     assert {movement.pair for movement in MOVEMENTS.values() if movement.pair} <= set(JointKind)
     assert str(JointKind.REVOLUTE) == "revolute" and f"{JointKind.CONTACT_B}" == "contact b"
+
+
+def test_no_other_file_asks_for_a_contact_state_by_its_letter():
+    """What a state is (flat, a fit, a pin) its row says."""
+    name = re.compile(r"""\bstates? (==|!=|in|not in) [({[]?["'][a-p]+["']|["'][a-p]["'] (not )?in states""")
+    text = {str(path.relative_to(PACKAGE)): path.read_text("utf-8") for path in PACKAGE.rglob("*.py")}
+    assert {path for path, lines in text.items() if name.search(lines)} == set()
+
+
+def test_a_fit_is_where_one_surface_fills_the_other():
+    of = {name: {s.letter for s in CONTACT_STATES if getattr(s, name)} for name in ("is_flat", "is_fit", "is_pin")}
+    assert of == {"is_flat": {"a"}, "is_fit": {"e", "k", "o"}, "is_pin": {"e"}}
+
+
+@pytest.mark.parametrize("kind", [kind for kind in JointKind if not kind.startswith("contact")])
+def test_a_joint_by_hand_is_one_row_for_users_and_studies(kind):
+    """What its function takes can be read from a study, and be written to one from a joint that it made."""
+    function = JOINTS_BY_HAND[kind]
+    takes = {
+        name for name, argument in signature(function).parameters.items() if argument.kind is argument.KEYWORD_ONLY
+    }
+    assert takes <= set(JointTable.model_fields) and takes <= set(WRITTEN_ARGUMENTS)
+    assert getattr(jk, function.__name__) is function
+
+
+def test_two_movements_are_not_the_same_lower_pair():
+    other = replace(MOVEMENTS["T_phi"], pair="screw")
+    with pytest.raises(
+        ValueError, match=r"'T_new'.*'screw', with 1 rotations and 0 translations, as 'T_phi'.*revolute"
+    ):
+        lower_pairs(MOVEMENTS | {"T_new": other})
+    assert lower_pairs(MOVEMENTS) == LOWER_PAIRS and len(LOWER_PAIRS) == 6
 
 
 @pytest.mark.parametrize("state", CONTACT_STATES, ids=lambda state: f"{state.letter}-{state.region}")

@@ -6,7 +6,7 @@ import jax
 import numpy as np
 import pytest
 
-from jaxkin.joints.pairs import cylindrical, fixed, prismatic
+from jaxkin.joints.pairs import cylindrical, fixed, planar, prismatic, revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.plan import plan
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -25,6 +25,15 @@ def random_linkage(name):
     return linkage.build(points[0], axes[0])
 
 
+def plate() -> Mechanism:
+    """A plate that turns about a pin on the table that it lies on: a planar pair has two unknowns beside a drive."""
+    joints = [
+        planar("E", "table", "plate", point=(30, 10, 0), normal=(0, 0, 1)),
+        revolute("pin", "table", "plate", point=(0, 0, 0), axis=(0, 0, 1)),
+    ]
+    return Mechanism.build(fixed=["table"], joints=joints)
+
+
 CASES = {
     "four-bar": (planar_fourbar, ["A"], ["planar dyad RRR"]),
     "with cylindrical pins": (lambda: planar_fourbar(pin=cylindrical), ["A.phi"], ["planar dyad RRR"]),
@@ -32,6 +41,8 @@ CASES = {
     "quick return": (catalogue.quick_return, ["A"], ["planar dyad RPR"]),
     "scotch yoke": (catalogue.scotch_yoke, ["A"], ["planar dyad RPP"]),
     "driven slide": (slider_crank, ["S"], ["planar dyad RRR"]),
+    "plate driven by its angle": (plate, ["E.phi"], ["planar dyad R(PP)"]),
+    "plate driven along x": (plate, ["E.x"], ["planar dyad R(PR)"]),
     "Watt": (catalogue.watt, ["A"], ["planar dyad RRR"] * 2),
     "Stephenson": (catalogue.stephenson, ["G"], ["2 planar loops"]),
     "Jansen": (catalogue.jansen, ["O"], ["planar dyad RRR"] * 3),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.trig import TURN
-from jaxkin.joints.pairs import revolute
+from jaxkin.joints.pairs import prismatic, revolute
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.sweep import sweep
@@ -114,6 +114,35 @@ def test_designs_in_a_batch_are_found_as_each_alone():
         closed = expected_status == Status.CLOSED.value
         np.testing.assert_allclose(displacements[number][closed], expected[closed], atol=1e-12)
     assert 0.1 < np.mean(np.any(status != Status.CLOSED.value, axis=1)) < 0.5
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [1, 2])
+def test_a_small_batch_of_designs_with_several_loop_groups_is_right(size):
+    """A ram that lifts a leg, and the leg a platform: two loop groups, of which a compiler got a batch of one wrong."""
+    foot, ram = np.array([-1.73, 0.0, -1.08]), np.array([-1.0, 0.0, 0.04])
+    along = (ram - foot) / np.linalg.norm(ram - foot)
+    y = (0, 1, 0)
+    joints = [
+        revolute("F", "ground", "leg", point=(-0.5, 0, 0), axis=y),
+        revolute("L", "leg", "pin", point=ram, axis=y),
+        revolute("Q", "pin", "rod", point=ram - 0.08 * along, axis=along),
+        prismatic("P", "rod", "cylinder", axis=along),
+        revolute("B", "cylinder", "ground", point=foot, axis=y),
+        revolute("U", "leg", "platform", point=(-1.5, 0, 0.08), axis=y),
+        revolute("V", "platform", "arm", point=(0.0, 0, 0.08), axis=y),
+        revolute("W", "arm", "ground", point=(1.0, 0, 0), axis=y),
+    ]
+    mechanism = Mechanism.build(fixed=["ground"], joints=joints)
+    inputs = np.linspace(0.0, 0.5, 7)
+    alone = mechanism.sweep({"F": inputs})
+    batch = jax.tree.map(lambda leaf: jnp.stack([jnp.asarray(leaf)] * size), mechanism)
+    status, displacements = jax.vmap(lambda one: (lambda m: (m.status, m.displacements))(one.sweep({"F": inputs})))(
+        batch
+    )
+    assert np.all(alone.closed) and np.all(status == Status.CLOSED)
+    for found, expected in zip(displacements, alone.displacements, strict=True):
+        np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), atol=1e-12)
 
 
 @pytest.mark.long

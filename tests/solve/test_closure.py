@@ -196,3 +196,15 @@ def test_a_ball_turns_half_a_turn_about_any_axis():
     np.testing.assert_allclose(state.turns[0], expected, atol=1e-14)
     identity = multiply(state.turns[0], state.turns[0])
     np.testing.assert_allclose(identity[0], -1.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("size", [1, 2])
+def test_the_geometry_of_a_batch_is_that_of_each_design(loop, size):
+    """Of one design too, which a compiler got wrong while blocks were written into products of matrices."""
+    system, before, after, pitch, _ = loop
+    alone, length = loop_geometry(system, before, after, pitch)
+    batch = jax.tree.map(lambda leaf: jnp.stack([leaf] * size), (before, after, pitch))
+    found, lengths = jax.jit(jax.vmap(lambda *joints: module.loop_geometry(system, *joints)))(*batch)
+    np.testing.assert_allclose(lengths, np.full(size, length), rtol=1e-14)
+    for many, one in zip(jax.tree.leaves(found), jax.tree.leaves(alone), strict=True):
+        np.testing.assert_allclose(many, np.broadcast_to(one, many.shape), atol=1e-14)

@@ -90,7 +90,7 @@ def traced_rocker():
     @partial(jax.jit, **jit_options())
     def trace(geometry, values):
         path = lambda at: (at[None], jnp.ones_like(at)[None])  # noqa: E731
-        return trace_branch(ContinuationProblem(element.system, geometry, path, SolverOptions(max_steps=200)), values)
+        return trace_branch(ContinuationProblem(element.system, geometry, SolverOptions(max_steps=200), path), values)
 
     return trace(geometry, jnp.linspace(0.0, 2 * np.pi, 9))
 

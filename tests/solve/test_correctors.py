@@ -11,13 +11,16 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.solve.closure.closure import closure, free_jacobian, loop_geometry
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, levenberg_marquardt
 from jaxkin.solve.correctors.newton import newton
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import solve_blocks
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 from jaxkin.solve.system.state import assembled, drive, retract
 from reference.mechanisms import planar_fourbar
 
 MAX_STEPS = 60
+DEFAULT = SolverOptions()
 
 
 def problem(mechanism, loop_class=None, driven=("A",)):
@@ -25,8 +28,8 @@ def problem(mechanism, loop_class=None, driven=("A",)):
     (group,), (own,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     names = [joint.name for joint in mechanism.all_joints]
     inputs = tuple((names.index(name), 0) for name in driven)
-    system, _ = block_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
-    joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, group))
+    system, _ = group_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
+    joints = jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, group))
     return system, loop_geometry(system, *joints)[0]
 
 
@@ -36,7 +39,15 @@ def at_inputs(system, inputs):
     return drive(system, assembled(system, inputs.shape[1], inputs.dtype), inputs)
 
 
-damped = jax.jit(partial(levenberg_marquardt, max_steps=MAX_STEPS), static_argnums=0)
+@partial(jax.jit, static_argnums=0)
+def damped(system, geometry, state):
+    return levenberg_marquardt(ClosureProblem(system, geometry, DEFAULT), state, MAX_STEPS)
+
+
+@partial(jax.jit, static_argnames=("system", "options", "extrapolate_residual"))
+def closed_by_newton(system, geometry, state, target_residual, options=DEFAULT, extrapolate_residual=False):
+    problem = ClosureProblem(system, geometry, options)
+    return newton(problem, state, target_residual, extrapolate_residual=extrapolate_residual)
 
 
 def test_newtons_step_squares_the_residual():
@@ -64,12 +75,24 @@ def test_newtons_step_squares_the_residual():
 def test_newton_closes_near_poses_and_extrapolates_no_more_than_it_finds():
     system, geometry = problem(planar_fourbar(1.0))
     state = at_inputs(system, np.linspace(-0.1, 0.1, 5))
-    run = jax.jit(newton, static_argnums=(0,), static_argnames="extrapolate_residual")
-    closed, _, norm = run(system, geometry, state, 1e-12)
+    closed, _, norm = closed_by_newton(system, geometry, state, 1e-12)
     assert np.all(norm <= 1e-12)
-    ahead, _, _ = run(system, geometry, state, 1e-12, extrapolate_residual=True)
+    ahead, _, _ = closed_by_newton(system, geometry, state, 1e-12, extrapolate_residual=True)
     # residuals of 1e-12 over singular values of some 0.1
     np.testing.assert_allclose(ahead.x, closed.x, atol=1e-10)
+
+
+def test_newton_takes_as_many_iterations_as_the_options_say():
+    """A second one begins where the first has ended: one after another reaches what two at once reach."""
+    system, geometry = problem(planar_fourbar(1.0))
+    state = at_inputs(system, [0.2])
+    one, two = (SolverOptions(newton_iterations=count) for count in (1, 2))
+    half, _, far = closed_by_newton(system, geometry, state, 0.0, one)
+    both, _, near = closed_by_newton(system, geometry, state, 0.0, two)
+    twice, _, same = closed_by_newton(system, geometry, half, 0.0, one)
+    assert 1e-6 < near < 0.1 * far  # quadratic, from 1e-2 on
+    np.testing.assert_allclose(twice.x, both.x, atol=1e-14)  # rounding
+    np.testing.assert_allclose(same, near, atol=1e-14)
 
 
 def test_the_damped_corrector_closes_a_rank_deficient_system_by_least_norm():

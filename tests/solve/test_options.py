@@ -36,6 +36,23 @@ def test_options_of_running_compile_nothing():
     assert compilations() == before
 
 
+def test_an_option_at_its_default_compiles_nothing():
+    mechanism = planar_fourbar(1.0)
+    mechanism.sweep({"A": TURN})
+    before = compilations()
+    mechanism.sweep({"A": TURN}, options=jk.SolverOptions(newton_iterations=4))
+    assert compilations() == before
+
+
+def test_poses_do_not_depend_on_the_iterations_of_newtons_method():
+    """What few iterations leave open the damped corrector closes, to the same tolerance."""
+    mechanism = planar_fourbar(1.0)
+    usual, few = (mechanism.sweep({"A": TURN}, options=jk.SolverOptions(newton_iterations=n)) for n in (4, 1))
+    assert np.all(few.status == jk.Status.CLOSED)
+    # residuals of 1e-12 over singular values of some 0.1
+    np.testing.assert_allclose(few.coordinates["D"], usual.coordinates["D"], atol=1e-10)
+
+
 def test_few_steps_leave_poses_stalled():
     """A step is at most 0.3 long: three of them do not pass 0.9 in either direction."""
     wide = np.linspace(-3.0, 3.0, 20)

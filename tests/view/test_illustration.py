@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from jaxkin.view.camera import View
-from jaxkin.view.illustration import FINE, PAPER, Canvas, compose, draw
+from jaxkin.view.illustration import PAPER, SUPERSAMPLING, Canvas, compose, draw
 
 FRONT = View(np.eye(3), planar=True)
 CANVAS = Canvas(FRONT, corner=np.array([0.0, 8.0, 0.0]), scale=10.0, height=80, width=120)  # x in 0..12, y in 0..8
@@ -23,8 +23,8 @@ def at(image, x, y):
 def test_a_plate_is_where_the_canvas_says_and_keeps_its_colour():
     layer = draw(CANVAS, [plate([2, 3], [7, 5], 0)], [RED])
     rows, columns = np.nonzero(layer.present)
-    assert layer.present.sum() == 50 * 20 * FINE**2
-    assert np.allclose([columns.mean() + 0.5, rows.mean() + 0.5], np.array([45, 40]) * FINE)
+    assert layer.present.sum() == 50 * 20 * SUPERSAMPLING**2
+    assert np.allclose([columns.mean() + 0.5, rows.mean() + 0.5], np.array([45, 40]) * SUPERSAMPLING)
     assert np.allclose(layer.color[layer.present], RED) and np.allclose(layer.color[~layer.present], PAPER)
 
 
@@ -35,15 +35,18 @@ def test_lines_run_around_parts_and_along_creases_but_not_between_triangles():
     both = np.concatenate([roof, roof * [1, -1, 1] + [0, 8, 0]])  # and falls again from y = 4
     layer = draw(CANVAS, [both], [RED])
     middle = np.argwhere(layer.crease)[:, 0]
-    assert np.abs(middle + 0.5 - 40 * FINE).max() <= 1  # the ridge
-    assert not layer.outline[25 * FINE : 55 * FINE, 25 * FINE : 55 * FINE].any()
-    assert layer.outline[40 * FINE, 20 * FINE] and layer.outline[40 * FINE, 60 * FINE - 1]
+    assert np.abs(middle + 0.5 - 40 * SUPERSAMPLING).max() <= 1  # the ridge
+    assert not layer.outline[25 * SUPERSAMPLING : 55 * SUPERSAMPLING, 25 * SUPERSAMPLING : 55 * SUPERSAMPLING].any()
+    assert (
+        layer.outline[40 * SUPERSAMPLING, 20 * SUPERSAMPLING]
+        and layer.outline[40 * SUPERSAMPLING, 60 * SUPERSAMPLING - 1]
+    )
 
 
 def test_a_step_within_a_part_is_a_line():
     layer = draw(CANVAS, [np.concatenate([plate([2, 2], [8, 6], 0), plate([4, 2], [6, 6], 1)])], [RED])
     columns = np.unique(np.nonzero(layer.crease)[1])
-    assert {round(column / FINE / 10) for column in columns} == {4, 6}
+    assert {round(column / SUPERSAMPLING / 10) for column in columns} == {4, 6}
 
 
 def test_moving_parts_cover_fixed_ones_and_shine_through_where_they_are_covered():

@@ -83,7 +83,7 @@ def test_a_storyboard_shows_a_lost_contact_between_its_poses(leaving):
 def test_the_page_tells_and_marks_them(leaving, tmp_path):
     page(leaving, tmp_path / "motion.html")
     text = (tmp_path / "motion.html").read_text("utf-8")
-    (content,) = re.findall(r'<script id="motion" type="application/json">(.*?)</script>', text, re.DOTALL)
+    (content,) = re.findall(r'<script id="scene" type="application/json">(.*?)</script>', text, re.DOTALL)
     data = json.loads(content)
     scene = make_scene(leaving)
     lost = np.array([bool(said) for said in data["lost"]])

@@ -9,7 +9,7 @@ import pytest
 from jaxkin.joints.pairs import revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.status import Status
-from jaxkin.view.page import MOST, page
+from jaxkin.view.page import MAX_PAGE_POSES, page
 from view.bars import TURN
 
 
@@ -17,7 +17,7 @@ def write(motion, folder, **options):
     """The text of the page, and the data in it."""
     page(motion, folder / "motion.html", **options)
     text = (folder / "motion.html").read_text("utf-8")
-    (data,) = re.findall(r'<script id="motion" type="application/json">(.*?)</script>', text, re.DOTALL)
+    (data,) = re.findall(r'<script id="scene" type="application/json">(.*?)</script>', text, re.DOTALL)
     return text, json.loads(data)
 
 
@@ -97,7 +97,7 @@ def test_long_motions_are_thinned_and_sorted(tmp_path):
     angles = np.random.default_rng(0).uniform(0, 3, 10_000)
     _, data = write(hinge().sweep({"A": angles}), tmp_path)
     shown = np.array([float(label.removeprefix("A ").removesuffix("°")) for label in data["labels"]])
-    assert len(shown) == MOST and (np.diff(shown) >= 0).all()
+    assert len(shown) == MAX_PAGE_POSES and (np.diff(shown) >= 0).all()
     assert shown[0] == pytest.approx(np.rad2deg(angles.min()), abs=0.06)
     assert shown[-1] == pytest.approx(np.rad2deg(angles.max()), abs=0.06)
     assert data["subtitle"].startswith("10000 poses")

@@ -34,15 +34,15 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
     result = []
     for owners, found in between.items():
         touching = exact.get(owners, [])
-        states = {contact.state for contact in touching}
+        pins = [contact.contact_state.is_pin for contact in touching]
         pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
-        if "e" not in states or (states == {"e"} and all(each.other.on_axis_of(pair.other) for each in found)):
-            faces = [contact.surfaces[0] for contact in touching if contact.state == "a"]
+        if not any(pins) or (all(pins) and all(each.other.on_axis_of(pair.other) for each in found)):
+            faces = [contact.surfaces[0] for contact in touching if contact.contact_state.is_flat]
             planes = [face for face in faces if isinstance(face, Plane)]
             across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
             if not all(across):
                 continue  # faces along the axis keep it from turning: exact contacts say what is left
-            result += [(joint, "e" in states) for joint in _hinge(known, pair, owners, "e" in states, any(across))]
+            result += [(joint, any(pins)) for joint in _hinge(known, pair, owners, any(pins), any(across))]
     return result
 
 

@@ -1,6 +1,7 @@
 """Correct poses near closure to closed ones.
 
-Damped or truncated Gauss-Newton iterations stand in five places, since each needs what the others must not have:
+Newton's method, and Gauss-Newton's with or without damping, is written once for each row, since each needs what the
+others must not have:
 
 | where | damping | why it is not one of the others |
 |---|---|---|
@@ -12,6 +13,10 @@ Damped or truncated Gauss-Newton iterations stand in five places, since each nee
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
 | `dimensions.placement` | its own | unknowns are positions of features, not coordinates of joints |
 | `design.least_squares` | Nielsen's rule, within bounds | unknowns are dimensions; a residual is a whole sweep |
+| `mobility.assembly_modes` | steps are shortened | within the freedoms of closed loops, towards given places |
+| `joints.screws.misfit` | cutoff at 1e-10 | one chain that is to make a given displacement: there is no loop |
+| `effects.extended` | none | fifty digits, with a Jacobian in float64 |
 
-The host versions are kept apart because compiling a corrector takes longer than all host analyses of a mechanism.
+The first three take a `problem.ClosureProblem`: loops, their constants, options. The host versions are kept apart
+because compiling a corrector takes longer than all host analyses of a mechanism.
 """

@@ -12,12 +12,12 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closure.closure import Geometry, closure
+from jaxkin.solve.closure.closure import closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
 POSES_PER_INVERSE = 32
@@ -28,13 +28,12 @@ MAX_CHORD_STEPS = 6
 """Chord steps at most: each leaves about a thousandth of the residual."""
 
 
-def chord_newton(
-    system: LoopSystem, geometry: Geometry, state: State, target_residual: float
-) -> tuple[State, Float[Array, " poses"]]:
+def chord_newton(problem: ClosureProblem, state: State, target_residual: float) -> tuple[State, Float[Array, " poses"]]:
     """Take chord steps until the residual norms of all poses are at most `target_residual`, or `MAX_CHORD_STEPS`.
 
     Returns the states and their residual norms (square root of Eq. 12).
     """
+    system, geometry = problem.system, problem.geometry
     poses = state.x.shape[-1]
     groups = -(-poses // POSES_PER_INVERSE)
     middles = np.minimum(np.arange(groups) * POSES_PER_INVERSE + POSES_PER_INVERSE // 2, poses - 1)

@@ -14,7 +14,8 @@ from jax import lax, tree
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
-from jaxkin.solve.closure.closure import Closure, Geometry, closure, free_jacobian
+from jaxkin.solve.closure.closure import Closure, closure, free_jacobian
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.least_norm import solve_least_norm
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import Scalar
@@ -50,8 +51,7 @@ def damping_floor(dtype) -> float:
 
 
 def levenberg_marquardt(
-    system: LoopSystem,
-    geometry: Geometry,
+    problem: ClosureProblem,
     state: State,
     max_steps: Int[Array, " poses"] | int,
     target_residual: Scalar | float = 0.0,
@@ -61,6 +61,7 @@ def levenberg_marquardt(
     Each step is delta = -J^T (J J^T + damping)^-1 r, no longer than `MAX_DAMPED_STEP`; no pose takes more than
     `max_steps`. `target_residual` is compared with the square root of Eq. 12.
     """
+    system, geometry = problem.system, problem.geometry
     dtype = state.x.dtype
     eps = float(jnp.finfo(dtype).eps)
 

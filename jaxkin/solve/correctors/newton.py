@@ -12,18 +12,16 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closure.closure import Closure, Geometry, closure
+from jaxkin.solve.closure.closure import Closure, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
+from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import Scalar
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, retract
 
-MAX_NEWTON_STEPS = 4
-"""Newton steps at most: each squares the residual of a prediction (1e-2, 1e-4, 1e-8, 1e-16)."""
 MAX_QUADRATIC_RATIO = 1e-2
 """Ratio of two residual norms below which convergence counts as quadratic. At a limit of the motion, where the Jacobian
 is singular, convergence is linear and the ratio a quarter at best."""
@@ -39,25 +37,25 @@ class _Iterate(NamedTuple):
 
 
 def newton(
-    system: LoopSystem,
-    geometry: Geometry,
+    problem: ClosureProblem,
     state: State,
     target_residual: Scalar | float,
     *,
     extrapolate_residual: bool = False,
 ) -> tuple[State, Closure, Float[Array, " poses"]]:
-    """Take Newton steps until the residual norms of all poses are at most `target_residual`, or `MAX_NEWTON_STEPS`.
+    """Take `newton_iterations` of the options, or fewer if all residual norms get to at most `target_residual`.
 
     Each step solves J delta = -r (Eq. 10, linearised) block after block. Returns the states, their closure and their
     residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where
     convergence is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
     """
+    system, geometry = problem.system, problem.geometry
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
     costly = any(len(block.rows) > MAX_UNROLLED_ROWS for block in equation_blocks(system))
 
     def running(at: _Iterate) -> Array:
-        return (at.count <= MAX_NEWTON_STEPS) & any_in_lockstep(
+        return (at.count <= problem.options.newton_iterations) & any_in_lockstep(
             (at.closure.residual_norm > target_residual) & (at.extrapolated > target_residual)
         )
 

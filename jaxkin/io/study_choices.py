@@ -1,0 +1,151 @@
+"""What is open in a study: other parts to fix, other coordinates to drive, joints to turn off, parts to leave out."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin._grouped import product
+from jaxkin._names import match_parts
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.geometry.part import Part
+from jaxkin.io.study_bodies import Bodies
+from jaxkin.io.study_drives import can_drive, small_ranges, useful_coordinates
+from jaxkin.io.toml_text import toml
+from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.mobility.open_loops import opening
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.proposals import Proposal
+    from jaxkin.mechanism.mechanism import Mechanism
+
+_DRIVES = 12
+"""Other drives that are listed at most: each is one more line of the same mechanism."""
+_SURE = (EvidenceKind.CONTACT, EvidenceKind.USER, EvidenceKind.EXPORT)
+"""Joints that nobody would turn off: they are not inferred."""
+
+
+@dataclass(frozen=True)
+class Choices:
+    """Lines that may be uncommented, each for itself."""
+
+    instead: tuple[str, ...] = ()
+    exclude: tuple[str, ...] = ()
+    off: Mapping[str, str] = field(default_factory=dict)
+    """By joint."""
+
+
+NONE = Choices()
+
+
+def find_choices(
+    mechanism: Mechanism, bodies: Bodies, drive: Mapping[str, str] | None, proposals: Sequence[Proposal]
+) -> Choices:
+    """Try what the study of a mechanism leaves open, on the joints that it holds; what could not be swept is left out.
+
+    `drive` is the drive of the study, `proposals` are other parts to fix.
+    """
+    tried = _Tried(mechanism, bodies)
+    driven = tuple(drive or ())
+    instead = [*_other_fixed(tried, proposals), *islice(_other_drives(mechanism, driven), _DRIVES)]
+    off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _inferred(joint)}
+    return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off)
+
+
+class _Tried:
+    """The mechanisms of a study with other fixed parts, or without one of its joints."""
+
+    def __init__(self, mechanism: Mechanism, bodies: Bodies) -> None:
+        self.joints = [joint for joint in mechanism.all_joints if joint.freedoms]
+        self.fixed = bodies.fixed
+        self._assembly = Assembly(mechanism.solids, mechanism.unit, "the study")
+        self._rigid = [parts for parts, _ in bodies.groups]
+
+    def with_fixed(self, fixed: Sequence[str]) -> Mechanism:
+        return self._assembly.of_joints(fixed=fixed, rigid=self._rigid, joints=self.joints)
+
+    def without(self, joint: Joint) -> Mechanism:
+        others = [each for each in self.joints if each is not joint]
+        return self._assembly.of_joints(fixed=self.fixed, rigid=self._rigid, joints=others)
+
+
+def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
+    lines = []
+    for each in proposals:
+        if set(each.fixed) == set(tried.fixed):
+            continue
+        try:
+            mechanism = tried.with_fixed(each.fixed)
+        except ValueError:  # both parts of a joint of the study would be fixed
+            continue
+        driven = () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable
+        if driven and can_drive(mechanism, driven):
+            choice = {"fixed": each.fixed, "drive": small_ranges(mechanism, driven)}
+            lines.append(f"# instead = {toml(choice)}  # {_told(mechanism)}")
+    return lines
+
+
+def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> Iterator[str]:
+    """Coordinates that can take the place of one of those that drive."""
+    for name in useful_coordinates(mechanism) if driven else ():
+        places = [tuple(name if each == one else each for each in driven) for one in driven if name not in driven]
+        if found := next((place for place in places if can_drive(mechanism, place)), None):
+            yield f"# instead = {toml({'drive': small_ranges(mechanism, found)})}"
+
+
+def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
+    """The line that turns a joint off, or why there is none."""
+    if any(name.rpartition(".")[0] == joint.name for name in driven):
+        return "# (It is driven: choose another drive before you turn it off.)"
+    mechanism = tried.without(joint)
+    if driven and not can_drive(mechanism, driven):
+        return "# (Without it what is driven could not move.)"
+    return f"# off = true  # without it: {_told(mechanism)}"
+
+
+def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:
+    """Parts that only one group holds, and that no joint needs, by their products: screws, and what touches nothing."""
+    held = Counter(part for parts, _ in bodies.groups for part in parts)
+    jointed = {part for joint in mechanism.all_joints if joint.freedoms for part in joint.parts}
+    evidence = {part: each for parts, each in reversed(bodies.groups) for part in parts}
+    found: dict[tuple[str, str], list[Part]] = {}
+    for part in mechanism.solids:
+        if held[part.name] == 1 and part.name not in jointed and part.name not in bodies.fixed:
+            known = evidence[part.name]
+            found.setdefault((product(part.name), str(known.kind) if known else "rigid"), []).append(part)
+    return [_exclude(name, kind, parts, mechanism.solids) for (name, kind), parts in found.items()]
+
+
+def _exclude(name: str, kind: str, parts: Sequence[Part], solids: Sequence[Part]) -> str:
+    """One line for the parts of one product: their pattern where it stands for them alone, otherwise their names."""
+    names = [part.name for part in parts]
+    patterns = [pattern for pattern in (f"{name}*", f"*/{name}*") if len(names) > 1 and _means(pattern, solids, names)]
+    across = max(float(np.linalg.norm(np.ptp(part.box, axis=0))) for part in parts)
+    shown = ", ".join(map(toml, patterns[:1] or names))
+    return f"  # {shown},  # {len(names)} {'part' if len(names) == 1 else 'parts'}, {across:.3g} across: {kind}"
+
+
+def _means(pattern: str, solids: Sequence[Part], names: Sequence[str]) -> bool:
+    try:
+        return set(match_parts(pattern, solids)) == set(names)
+    except ValueError:
+        return False
+
+
+def _inferred(joint: Joint) -> bool:
+    return joint.evidence is not None and joint.evidence.kind not in _SURE
+
+
+def _told(mechanism: Mechanism) -> str:
+    """What a choice makes of the mechanism."""
+    if opening(mechanism.linkage, mechanism.unit) is not None:
+        return "loops that are open as drawn"
+    found = mechanism.mobility()
+    count = "one freedom" if found.useful == 1 else f"{found.useful} freedoms"
+    return f"{count} of use in {len(mechanism.bodies)} bodies"

@@ -1,0 +1,186 @@
+"""The report of `jaxkin inspect --page`: an assembly in 3D, its bodies, joints and assumptions to click on."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._files import whole
+from jaxkin._grouped import first_of_each, kind_of
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.assembly.inference.inference import INFERRED
+from jaxkin.contacts.contact import Contacts
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.view.drawing import body_colors, body_label
+from jaxkin.view.sticks import stick_parts
+from jaxkin.view.viewer import encoded, part_entries, rounded, write_page
+
+YAW, PITCH = -0.6, 0.5
+"""Where the assembly is first seen from, in radians: obliquely, so that three sides of it show."""
+BEYOND = (0.01, 0.1)
+"""How far the axis of a joint stands out at either end: as far as both of its parts reach along it, but no less and no
+more than this, over half the size of the assembly."""
+AXIS = (0.86, 0.08, 0.24)
+"""Axes of joints: a red that no body has."""
+TRIED = "Tried to be fixed"
+"""The heading of what could be fixed."""
+WIDTH, THROUGH = 3, 0.75
+"""Pixels of an axis, of which the edges of parts have one, and how much of it is seen where parts hide it."""
+
+
+def inspection_page(
+    found: Mechanism | Assembly,
+    path: Path | str,
+    *,
+    source: str,
+    missing: Sequence[str] = (),
+    tried: Sequence[str] = (),
+    contacts: Contacts | None = None,
+) -> None:
+    """Write a page with an assembly in 3D, where each body, joint and assumption can be clicked on and seen.
+
+    `found` is the mechanism, or the assembly where there is none yet; `source` is what it was read from, and `missing`
+    are paragraphs about what it needs to move. `tried` tells what could be fixed, a line a choice. Without a mechanism
+    `contacts` are listed in place of joints. A link to a joint, part, body or note has its name or number after "#", as
+    in `report.html#joint=crank-rod`.
+
+    The page works from a file, without a network. It appears whole or not at all.
+    """
+    with whole(Path(path)) as draft:
+        scene = _scene(found, source)
+        notes = _notes(found, {part["name"]: number for number, part in enumerate(scene["parts"])}, tried, contacts)
+        write_page(draft, "inspection", scene | {"missing": list(missing), "notes": notes})
+
+
+def _scene(found: Mechanism | Assembly, source: str) -> dict:
+    """What `inspection.js` reads, beside what the viewer does. Lengths are over `scale` about `centre`."""
+    mechanism = found if isinstance(found, Mechanism) else None
+    solids = found.parts if isinstance(found, Assembly) else found.solids or stick_parts(found)
+    fixed = mechanism.fixed if mechanism else ()
+    bodies = mechanism.bodies if mechanism else {part.name: (part.name,) for part in solids}
+    corners = np.concatenate([part.box for part in solids])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    centre, scale = (low + high) / 2, float(np.linalg.norm(high - low) / 2) or 1.0
+    colors = body_colors(bodies, fixed)
+    entries = part_entries(solids, [*bodies.values()], colors, centre, scale)
+    index = {part.name: number for number, part in enumerate(solids)}
+    joints = sorted(mechanism.all_joints if mechanism else (), key=lambda joint: not joint.freedoms)
+    boxes = {part.name: (part.box - centre) / scale for part in solids}
+    axes = [(joint, _axis(joint, boxes, centre, scale)) for joint in joints if joint.freedoms]
+    facts = [f"{len(solids)} parts"]
+    facts += [f"{len(bodies)} bodies", f"joints that move: {len(axes)}"] if mechanism else []
+    return {
+        "title": source,
+        "subtitle": "  ·  ".join([*facts, f"lengths in {found.unit or 'no known unit'}"]),
+        "labels": [""],
+        "problems": [""],
+        "lost": [""],
+        "centre": centre.tolist(),
+        "scale": scale,
+        "axes": [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]],  # z is up
+        "corners": (_corners((np.stack([low, high]) - centre) / scale)).tolist(),
+        "yaw": YAW,
+        "pitch": PITCH,
+        "bodies": [
+            {
+                "name": body_label(name, parts),
+                "fixed": parts[0] in fixed,
+                "color": rounded(colors[name]),
+                "poses": "",
+                "parts": [index[part] for part in parts if part in index],
+            }
+            for name, parts in bodies.items()
+        ],
+        "parts": [entry | _told(part, found.unit) for entry, part in zip(entries, solids, strict=True)],
+        "paths": [
+            {"color": list(AXIS), "width": WIDTH, "through": THROUGH, "points": encoded(points)} for _, points in axes
+        ],
+        "marks": [],
+        "joints": [_joint(joint, mechanism, index) for joint in joints if mechanism],
+    }
+
+
+def _axis(
+    joint: Joint, boxes: dict[str, Float[np.ndarray, "2 3"]], centre: Float[np.ndarray, "3"], scale: float
+) -> Float[np.ndarray, "3 3"]:
+    """The place of a joint and the two ends of its axis, which reaches through both of its parts; a ball has none."""
+    pose = np.asarray(joint.frames_1, float)[0]
+    place, axis = (pose[:3, 3] - centre) / scale, pose[:3, 2]
+    if MOVEMENTS[joint.movements[0]].ball:
+        return np.stack([place, place, place])
+    alongs = [(_corners(boxes[part]) - place) @ axis for part in joint.parts]
+    ends = sorted((max(along.min() for along in alongs), min(along.max() for along in alongs)))  # where both parts are
+    beyond = np.clip(ends[1] - ends[0], *BEYOND)
+    return place + np.outer([0.0, ends[0] - beyond, ends[1] + beyond], axis)
+
+
+def _corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
+    return np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
+
+
+def _told(part: Part, unit: str) -> dict:
+    """What the report says of a part: where it is from, its size, and its faces that were not understood."""
+    width, depth, height = (f"{side:.4g}" for side in np.ptp(part.box, axis=0))
+    return {
+        "original": part.original_name if part.original_name != part.name else "",
+        "path": list(part.path),
+        "size": f"{width} x {depth} x {height} {unit}".rstrip(),
+        "notes": first_of_each((kind_of(note), note) for note in part.notes),
+    }
+
+
+def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict:
+    """A joint with its parts, and all that it is known from."""
+    evidence = joint.evidence
+    known = evidence is None or evidence.kind in (EvidenceKind.CONTACT, EvidenceKind.USER, EvidenceKind.EXPORT)
+    contacts = mechanism.contacts.get(joint.name, ())
+    return {
+        "name": joint.name,
+        "kind": str(joint.kind),
+        "coordinates": [f"{joint.name}.{coordinate}" for coordinate in joint.coordinates],
+        "parts": [index[part] for part in joint.parts],
+        "evidence": str(evidence or ""),
+        "sizes": [[name, f"{value:.4g}"] for name, value in (evidence.sizes if evidence else ())],
+        "inferred": not known,
+        "contacts": [str(contact) for contact in contacts],
+    }
+
+
+def _notes(
+    found: Mechanism | Assembly, index: Mapping[str, int], tried: Sequence[str], contacts: Contacts | None
+) -> list[dict]:
+    """Assumptions and remarks by their kind, each with the parts that it names, and the joint where it is of one."""
+    if isinstance(found, Mechanism):
+        texts, joints, solids = found.notes, found.all_joints, found.solids
+    else:
+        texts = () if contacts is None else (*map(str, (*contacts, *contacts.near_misses)), *contacts.notes)
+        joints, solids = (), found.parts
+    of_faces = {f"{part.name}: {note}" for part in solids for note in part.notes}
+    named = {form: (name,) for name in index for form in (repr(name), f"{name} face ")}
+    named |= {repr(joint.name): joint.parts for joint in joints}
+    names = re.compile("|".join(re.escape(name) for name in sorted(named, key=len, reverse=True)))
+    entries = []
+    for text in dict.fromkeys((*(text for text in texts if text not in of_faces), *tried)):  # those are with their part
+        group, said = (TRIED, text) if text in tried else _group(text)
+        parts = dict.fromkeys(index[part] for name in names.findall(text) for part in named[name])
+        joint = next((joint.name for joint in joints if joint.freedoms and repr(joint.name) in text), None)
+        entries.append({"group": group, "text": said, "parts": list(parts), "joint": joint})
+    return entries
+
+
+def _group(text: str) -> tuple[str, str]:
+    """The heading that a note stands under, and what it says there."""
+    if text.startswith(f"{INFERRED} "):
+        kind, _, said = text.removeprefix(f"{INFERRED} ").partition(": ")
+        return f"Inferred from {kind}", said
+    if text.startswith("nearly "):
+        return "Nearly in contact", text
+    return ("Contacts" if text.startswith("(") else "Noted"), text
