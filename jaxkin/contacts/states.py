@@ -59,17 +59,17 @@ class ContactState:
 
     @property
     def is_flat(self) -> bool:
-        """Whether two planes lie on each other: (a)."""
+        """Whether the state is a plane on a plane: (a)."""
         return self.kinds == ("plane", "plane")
 
     @property
     def is_fit(self) -> bool:
-        """Whether one curved surface fills the other: (e), (k), (o)."""
+        """Whether the state is a fit, a curved surface that fills another one: (e), (k), (o)."""
         return self.region == "surface" and not self.is_flat
 
     @property
     def is_pin(self) -> bool:
-        """Whether a pin fills its bore: (e)."""
+        """Whether the state is a pin that fills its hole: (e)."""
         return self.is_fit and self.kinds == ("cylinder", "cylinder")
 
 

@@ -74,8 +74,8 @@ class Movement:
     pair: str | None = None
     """Value of the `JointKind` of the lower pair with this movement; None where no lower pair has it."""
     letter: str | None = None
-    """Letter of the pair in the names of loops (RSSR); None where it is written as those of its elementary
-    motions: R of a rotation, P of a translation, H of a screw."""
+    """Letter of the pair in the names of loops, such as RSSR; None where the letters of the elementary motions are
+    written: R for a rotation, P for a translation, H for a screw."""
     feature: InvariantFeature | None = None
     """The feature that the movement leaves in place on both parts; None for the identity."""
     features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
@@ -234,10 +234,11 @@ def _displaced(
 
 
 def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
-    """Multiply frames F by an elementary motion E about a local axis from the right, F E, in any arithmetic.
+    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
 
-    `columns` are those of F: three axes and the origin. E advances along the axis by `advance` and turns about it by
-    the angle of which `turn` is cosine and sine; None is for no advance, and for no turn.
+    `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
+    axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
+    them means no translation, or no rotation.
     """
     i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
     columns = list(columns)

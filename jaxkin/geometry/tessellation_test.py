@@ -74,8 +74,10 @@ def surface_of(
 
 
 def on(mesh: Facets, surface: Surface | Torus, rows: Rows, tolerance: float, angle: float) -> Bool[np.ndarray, "_"]:
-    """Mark the triangles `rows` with their corners on a surface, within `tolerance` (a length), and tangent to it there,
-    within `angle` (radians)."""
+    """Mark the triangles `rows` that lie on a surface and are tangent to it.
+
+    Their corners are within `tolerance` (a length) of the surface, and the angles there within `angle` (radians).
+    """
     near = np.all(np.abs(surface.distance(mesh.points[mesh.triangles[rows]])) <= tolerance, axis=1)
     return near & tangent(mesh, surface, rows, angle)
 
