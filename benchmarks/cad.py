@@ -1,6 +1,7 @@
 """Joints found in assemblies that others drew, against those of their CAD systems: `python benchmarks/cad.py DIR`.
 
-DIR holds assemblies as NAME.step or NAME.step.xz and, where the CAD system's own joints are known, NAME.joints.json:
+DIR holds assemblies as NAME.step, NAME.step.xz or NAME.xml (an export for Simscape Multibody, its solids beside it or
+in a folder of DIR) and, where the CAD system's own joints are known, NAME.joints.json:
 `instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres). Without
 known joints the part to fix comes from `assembly.proposals`.
 
@@ -17,6 +18,7 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -135,6 +137,8 @@ def judged(data: Mapping[str, Any], found: Mechanism, scale: float) -> list[str]
 
 def read(path: Path) -> Assembly:
     """Read an assembly, packed or not."""
+    if path.suffix == ".xml":
+        return in_labelled_names(jk.load(path))
     if path.suffix != ".xz":
         return jk.load(path)
     with TemporaryDirectory() as folder:
@@ -143,13 +147,21 @@ def read(path: Path) -> Assembly:
         return jk.load(plain)
 
 
+def in_labelled_names(assembly: Assembly) -> Assembly:
+    """Name the parts of an export as labels do: by all sub-assemblies that they are in."""
+    names = {part.name: "/".join((*part.path, part.original_name)) for part in assembly.parts}
+    parts = tuple(replace(part, name=names[part.name]) for part in assembly.parts)
+    return replace(assembly, parts=parts, exported=assembly.exported and assembly.exported.renamed(names))
+
+
 def row(path: Path, verbose: bool) -> str:
     """One line of the table."""
     start = time.perf_counter()
     name, assembly = path.name.split(".")[0], read(path)
     labels = path.with_name(f"{name}.joints.json")
     data = json.loads(labels.read_text()) if labels.exists() else None
-    fixed = grounded(data) if data else assembly.proposals()[0].fixed
+    said = assembly.exported is not None  # then nothing is left to say
+    fixed = () if said else grounded(data) if data else assembly.proposals()[0].fixed
     mechanism = assembly.mechanism(fixed=fixed)
     mobility = mechanism.mobility()
     seconds = time.perf_counter() - start
@@ -162,7 +174,7 @@ def row(path: Path, verbose: bool) -> str:
             for v, each in pairs:
                 print(f"  {v}: {each['type']} {each['a']['part']} - {each['b']['part']}")
     cells = [
-        name,
+        f"{name}{' (export)' if said else ''}",
         len(assembly.parts),
         len(mechanism.bodies),
         *((counts[v] for v in VERDICTS) if data else "----"),
@@ -178,7 +190,7 @@ def main(folder: str, names: Iterable[str]) -> None:
     head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "seconds"]
     print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     chosen = set(names)
-    for path in sorted([*Path(folder).glob("*.step"), *Path(folder).glob("*.step.xz")]):
+    for path in sorted([*Path(folder).glob("*.step"), *Path(folder).glob("*.step.xz"), *Path(folder).glob("*.xml")]):
         if not chosen or path.name.split(".")[0] in chosen:
             print(row(path, verbose=bool(chosen)), flush=True)
 

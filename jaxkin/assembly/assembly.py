@@ -12,6 +12,7 @@ from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match_parts, nearest
 from jaxkin.assembly.exported import Exported
 from jaxkin.assembly.from_export import from_export
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inferred import inferred
 from jaxkin.assembly.left_loose import left_loose
 from jaxkin.assembly.proposals import Proposal, proposals
@@ -151,7 +152,8 @@ class Assembly:
         return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive)
 
     def without(self, names: Collection[str]) -> Assembly:
-        """The assembly without some parts. ValueError for names that are not there."""
+        """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        names = _in_full([*names], self.parts, "exclude")
         for name in names:
             if name not in self.names:
                 raise ValueError(f"exclude names the unknown part {name!r}{nearest(name, self.names)}")
@@ -166,6 +168,11 @@ class Assembly:
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
         return {}
+
+    @cached_property
+    def _measured(self) -> Measured:
+        """What is measured of the solids for inferences."""
+        return Measured(self.parts)
 
     def __str__(self) -> str:
         return self.describe()

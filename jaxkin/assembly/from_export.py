@@ -57,7 +57,7 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
         groups += locked
     joints = _joints(assembly, said, groups, constraints, noise, notes)
     groups += rigid_subassemblies(assembly.parts, said, groups, [each.joint.parts for each in joints if each.joint])
-    known = Known(assembly.parts, Contacts(()), said.fixed, said.rigid, said.joints)
+    known = Known(assembly._measured, Contacts(()), said.fixed, said.rigid, said.joints)
     known.add(groups)
     body = known.body
     known.found += [each for each in joints if body[each.parts[0]] != body[each.parts[1]]]

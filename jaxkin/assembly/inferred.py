@@ -55,7 +55,7 @@ def _unlocked(
     """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
-    without which a part would hang on nothing stay, and so do those without which parts only slide about on planes.
+    without which a part would hang on nothing stay.
     """
     movable = None
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
@@ -66,10 +66,9 @@ def _unlocked(
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
         dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
-        guided = any(joint.freedoms and joint.kind is not JointKind.PLANAR for joint in other.all_joints)
-        if guided and useful_freedoms(other):
+        if useful_freedoms(other):
             return other
-        if movable is None and guided:
+        if movable is None and any(joint.freedoms for joint in other.all_joints):
             movable = other
     return movable
 
@@ -102,7 +101,7 @@ def _with_seats(
 
     def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
         rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly.parts, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
         found = [*seats, *found]
         return from_words(assembly, contacts, said, found), found, stopped
 

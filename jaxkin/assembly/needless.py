@@ -1,8 +1,9 @@
-"""Parts that only spin and that several parts hold: find which of them constrain no other part, as a set.
+"""Find round parts that can spin by themselves and constrain no other part, such as bolts, pins and washers.
 
-Each of six bolts through two flanges is redundant while the other five are there, but without all six the flanges
-slide. So sets of parts are judged: a set is needless if the other parts gain no freedom without all of it. Which set is
-chosen depends on the places of the parts, not on their order or names.
+Parts between two or more neighbours are judged as sets. Each of six bolts through two flanges constrains nothing while
+the other five are there, but with no bolt the flanges slide on each other. So a set of parts is called needless if the
+other parts gain no freedom when the whole set is removed. Several sets may be needless, not all together; which one is
+chosen depends on the positions of the parts, not on their order or names.
 """
 
 from __future__ import annotations
@@ -27,116 +28,137 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 _SORTING_DIGITS = 6
-"""Digits to which the places of parts are rounded when parts are sorted, so that the noise of the file does not decide
-the order."""
+"""Digits, relative to the largest part, to which positions are rounded when parts are sorted.
+
+Fewer than the seven digits of float32, so that the noise of the file does not decide the order."""
 
 Parts = list[str]
 
 
 class Found(NamedTuple):
-    """The parts of a mechanism that only spin."""
+    """The parts of a mechanism that only spin, and those that would if others were not counted as such."""
 
     spins: dict[str, Spin]
-    """Parts that constrain no other part, each with its carrier: those on one neighbour alone, and needless ones."""
+    """Motion and carrier of each part that constrains no other part: parts with a single neighbour, and needless sets
+    of parts with several."""
     needed: tuple[tuple[str, ...], ...]
-    """Groups of touching parts, each needless by itself, but not together with the parts in `spins`."""
+    """Groups of parts joined to each other that are needless by themselves, but not together with those in `spins`."""
 
 
 def found_spinning(mechanism: Mechanism, kept: Sequence[str] = ()) -> Found:
-    """Find the parts that only spin, in the order of the mechanism; of those in `kept` only parts on one neighbour."""
+    """Find the parts of a mechanism that only spin, in the order of its parts.
+
+    Parts named in `kept` are not judged needless; they are still found if they have a single neighbour.
+    """
     alone, held = spins(mechanism)
     held = {part: spin for part, spin in held.items() if part not in kept}
     found, needed = dict(alone), []
     for loop_group in mechanism.structure.loop_groups if held else ():
-        judged = _SpinCandidates.of(mechanism, loop_group, held)
-        if judged is None:
+        candidates = _SpinCandidates.of(mechanism, loop_group, held)
+        if candidates is None:
             continue
-        taken = judged.with_carriers()
-        found |= taken
-        for group in judged.groups:
-            left = tuple(part for part in group if part not in taken)
-            if left and judged.is_needless(group) and not judged.is_needless([*taken, *left]):
-                needed.append(left)
+        chosen = candidates.with_carriers()
+        found |= chosen
+        for group in candidates.groups:
+            remaining = tuple(part for part in group if part not in chosen)
+            if remaining and candidates.is_needless(group) and not candidates.is_needless([*chosen, *remaining]):
+                needed.append(remaining)
     return Found({part: found[part] for part in mechanism.parts if part in found}, tuple(needed))
 
 
 def with_spinning(mechanism: Mechanism) -> Mechanism:
-    """Write the parts that only spin, found by the shape of the solids, into the linkage of the mechanism."""
+    """Return the mechanism with the parts that only spin written into its linkage (`found_spinning`)."""
     found = found_spinning(mechanism).spins
     spinning = tuple(SpinningPart(part, spin.freedoms) for part, spin in found.items())
     return replace(mechanism, linkage=replace(mechanism.linkage, spinning=spinning))
 
 
 class _SpinCandidates(NamedTuple):
-    """The parts within one structure element that only spin, and may be needless."""
+    """The candidates of one loop group: round parts that can spin while all others rest, and may be needless."""
 
     groups: list[Parts]
-    """The parts in groups that touch each other, such as a stack of washers: each group is first tried as a whole."""
+    """The candidates, those joined to each other in one group, such as a stack of washers; sorted by position."""
     spins: Mapping[str, Spin]
+    """The motion of each candidate while all other parts rest."""
     joints: Sequence[Joint]
+    """The joints of the loop group."""
     system: Twists
+    """The constraints of these joints on the twists of all bodies of the loop group but one, which rests."""
     row_of: Mapping[str, str]
+    """For each part the name of its body in `system`; all fixed parts are one body."""
     preference: Callable[[str], tuple]
-    """Sort key of neighbours as carriers: fixed ones first, then larger ones."""
+    """Sort key of neighbours as carriers, the best first: fixed parts, then parts that are no candidates, then larger
+    parts."""
 
     @staticmethod
     def of(mechanism: Mechanism, loop_group: LoopGroup, held: Mapping[str, Spin]) -> _SpinCandidates | None:
-        """Take those of the parts `held` that have all their joints within the element; None where there are none."""
+        """Take the parts of `held` that have all their joints in the loop group; None where no part has.
+
+        `held` maps round parts with several neighbours to their motion. None too where all parts of the loop group are
+        candidates, so that none is left to be at rest.
+        """
         solids = {part.name: part for part in mechanism.solids}
         joints = [mechanism.all_joints[k] for k in loop_group.joints]
-        here = {joint.name for joint in joints}
-        elsewhere = {part for each in mechanism.all_joints if each.name not in here for part in each.parts}
-        ends = dict.fromkeys(part for joint in joints for part in joint.parts)
-        inside = {part: held[part] for part in ends if part in held and part not in elsewhere}
-        still = next((part for part in ends if part not in inside), None)
-        if not inside or still is None:
+        names = {joint.name for joint in joints}
+        outside = {part for each in mechanism.all_joints if each.name not in names for part in each.parts}
+        parts = dict.fromkeys(part for joint in joints for part in joint.parts)
+        candidates = {part: held[part] for part in parts if part in held and part not in outside}
+        at_rest = next((part for part in parts if part not in candidates), None)
+        if not candidates or at_rest is None:
             return None
-        scale = 10.0**-_SORTING_DIGITS * max(float(np.ptp(solids[part].box)) for part in inside)
-        pairs = [joint.parts for joint in joints if set(joint.parts) <= set(inside)]
-        order = {part: _place(solids[part], scale) for part in inside}
-        groups = [sorted(group, key=order.__getitem__) for group in connected(inside, pairs)]
+        scale = 10.0**-_SORTING_DIGITS * max(float(np.ptp(solids[part].box)) for part in candidates)
+        pairs = [joint.parts for joint in joints if set(joint.parts) <= set(candidates)]
+        order = {part: _place(solids[part], scale) for part in candidates}
+        groups = [sorted(group, key=order.__getitem__) for group in connected(candidates, pairs)]
         groups.sort(key=lambda group: order[group[0]])
         row_of = mechanism.structure.row_of
 
         def preference(part: str) -> tuple:
             extents = sorted(-np.ptp(solids[part].box, axis=0)) if part in solids else [0.0]
-            return part not in mechanism.fixed, part in inside, *extents, *order.get(part, ())
+            return part not in mechanism.fixed, part in candidates, *extents, *order.get(part, ())
 
-        return _SpinCandidates(groups, inside, joints, twists(joints, row_of, row_of[still]), row_of, preference)
+        system = twists(joints, row_of, row_of[at_rest])
+        return _SpinCandidates(groups, candidates, joints, system, row_of, preference)
 
     def is_needless(self, parts: Sequence[str]) -> bool:
-        """Whether the other parts gain no freedom without these parts, and these parts can only spin, each by itself,
-        while the others rest."""
+        """Check whether candidates are needless as a set; False for an empty set.
+
+        The set is needless if, first, the freedoms of its parts while all other parts rest are the spins of each by
+        itself; and, second, the other parts gain no freedom when the whole set is removed.
+        """
         if not parts:
             return False
         rows = self.system.rows([k for k, joint in enumerate(self.joints) if set(parts) & set(joint.parts)])
         own = sum(self.spins[part].freedoms for part in parts)
         if self.system.alone(parts, rows) != own:
             return False
-        # without its joints each part gains six freedoms, but for those that it has already
+        # without its joints a part gains six freedoms less those of its spin: more is gained by the other parts
         return len(self.system.freed(rows)) == 6 * len(parts) - own
 
-    def together(self, groups: Sequence[Parts], before: Sequence[str] = ()) -> Parts:
-        """Find parts of these groups that are needless together with the parts `before`, by bisection.
+    def needless_subset(self, groups: Sequence[Parts], chosen: Sequence[str] = ()) -> Parts:
+        """Find, by bisection, parts of some groups that are needless as one set with the parts `chosen` before.
 
-        All groups are tried at once; if they are not needless, one half, then the other half together with what was
-        found in the first, down to the single parts of a group.
+        All groups are tried at once. If they are not needless, the first half is searched, then the second half with
+        the parts found in the first half counted as chosen; a single group is divided into its parts.
         """
         parts = [part for group in groups for part in group]
-        if not parts or self.is_needless([*before, *parts]):
+        if not parts or self.is_needless([*chosen, *parts]):
             return parts
         if len(groups) == 1:
             if len(parts) == 1:
                 return []
             groups = [[part] for part in parts]
         middle = len(groups) // 2
-        first = self.together(groups[:middle], before)
-        return [*first, *self.together(groups[middle:], [*before, *first])]
+        first = self.needless_subset(groups[:middle], chosen)
+        return [*first, *self.needless_subset(groups[middle:], [*chosen, *first])]
 
     def with_carriers(self) -> dict[str, Spin]:
-        """Find parts that are needless together, each with its carrier; parts that stay on none are left out."""
+        """Find a needless set of parts, and the carrier of each; parts without a carrier are not in the set.
+
+        Where some part of a set has no carrier, a new set is searched for among the parts that have one.
+        """
         groups = self.groups
-        while parts := self.together(groups):
+        while parts := self.needless_subset(groups):
             carriers = self.carriers(parts)
             if len(carriers) == len(parts):
                 return {part: replace(self.spins[part], carrier=carriers[part]) for part in parts}
@@ -144,7 +166,11 @@ class _SpinCandidates(NamedTuple):
         return {}
 
     def carriers(self, parts: Sequence[str]) -> dict[str, str]:
-        """Choose the neighbour that each part stays on: one that is not idle, or one whose own carrier is known."""
+        """Choose the carrier of each part of a needless set: the neighbour that the part stays on.
+
+        It is a part outside of the set, or a part of the set that has a carrier itself, so that carriers lead from each
+        part out of the set; of several, the first by `preference`. Parts without such a neighbour are left out.
+        """
         choices = {part: self._stays_on(part, parts) for part in parts}
         found: dict[str, str] = {}
         while True:
@@ -158,30 +184,32 @@ class _SpinCandidates(NamedTuple):
                 return found
             found |= new
 
-    def _stays_on(self, part: str, idle: Sequence[str]) -> Parts:
-        """Find the neighbours relative to which a part only spins, whatever moves.
+    def _stays_on(self, part: str, needless: Sequence[str]) -> Parts:
+        """Find the neighbours relative to which a part of the set `needless` only spins in all motions of the system.
 
-        There are none unless the neighbours that are not idle only turn relative to each other about the axis. A sleeve
-        between a rod and a cylinder that slide along each other may stay on either, which would be a guess.
+        No neighbour is returned unless those outside of the set only rotate relative to each other about the axis of
+        the spin. A sleeve between a rod and a cylinder that slide along each other could stay on either: a guess.
         """
         spin = self.spins[part]
         centre, size = middle(self.joints)
         frames = spin.frame.copy()
         frames[:3, 3] = (frames[:3, 3] - centre) / size
 
-        def only(movement: str, one: str, other: str) -> bool:
+        def allows_only(movement: str, one: str, other: str) -> bool:
+            """Check that `other` moves relative to `one` only by `movement`, in the frame of the spin."""
             forbidden = complement(chain([movement], frames[None], np.zeros(freedoms([movement])))[1])
             relative = self.system.relative(self.row_of[one], self.row_of[other])
             return bool(np.abs(forbidden @ relative).max(initial=0.0) < TWIST_TOLERANCE)
 
         near = dict.fromkeys(p for each in self.joints if part in each.parts for p in each.parts if p != part)
-        used = [neighbour for neighbour in near if neighbour not in idle]
-        if not all(only(LOWER_PAIRS[1, 0][1], used[0], other) for other in used[1:]):
+        outside = [neighbour for neighbour in near if neighbour not in needless]
+        revolute = LOWER_PAIRS[1, 0][1]
+        if not all(allows_only(revolute, outside[0], other) for other in outside[1:]):
             return []
-        return [neighbour for neighbour in near if only(spin.movement, neighbour, part)]
+        return [neighbour for neighbour in near if allows_only(spin.movement, neighbour, part)]
 
 
 def _place(part: Part, scale: float) -> tuple[float, ...]:
-    """Place and size of a part, rounded to `scale`: a sort key that does not depend on names and order."""
+    """Make a sort key of a part: centre and extents of its box, six numbers, in units of `scale`, rounded."""
     numbers = [*part.box.mean(axis=0), *np.ptp(part.box, axis=0)]
     return tuple(float(number) for number in np.round(np.array(numbers) / scale))

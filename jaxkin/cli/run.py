@@ -86,7 +86,7 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
 
     with progress(1) as step:
         step("trying what to fix and to drive")
-        found = assembly.proposals()
+        found = assembly.without(study.exclude).proposals()
     report.say("No part is fixed. What was tried, the best first:")
     for each in found:
         report.say(f"  {each}")

@@ -1,4 +1,4 @@
-"""Broad phase: which axis-aligned boxes overlap, by sorting them into the cells of grids."""
+"""Find the pairs of axis-aligned boxes that overlap or nearly do: the broad phase of contact detection."""
 
 from __future__ import annotations
 
@@ -8,23 +8,33 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.part import Face
 
 Boxes = Float[np.ndarray, "_ 2 d"]
+"""Lowest and highest corner of each box, in d dimensions."""
 Pairs = Int[np.ndarray, "_ 2"]
+"""Indices of the two boxes of each pair."""
 
 _MIXING = np.array([0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9], np.uint64)
-"""Odd numbers without pattern: multiples of them, summed, tell the cells of a grid apart."""
+"""Factors of the integer coordinates of a cell, whose sum is its hash key: large odd numbers without pattern, so that
+few cells share a key."""
+
+_MAX_COMPARED = 4_000_000
+"""Number of pairs of boxes compared at once: bounds the memory to a few hundred megabytes."""
+
+_LEAST_SIZE = 1e-9
+"""Smallest size that a box counts as, relative to the extent of all boxes: a point has size zero, for which
+there is no grid."""
 
 
 def overlapping(boxes: Boxes, margin: float) -> Pairs:
-    """Pairs `i < j` of boxes (lowest and highest corner) no farther apart than `margin` along each axis, in order.
+    """Find all pairs i < j of boxes no farther apart than `margin` (a length) along each axis, in rising order.
 
-    Boxes are sorted into the cells of grids, one grid for each power of two that is the size of a box: on the grid of
-    its own size a box, like any smaller one, lies in two cells along an axis at most. So the work is that of sorting,
-    and of the pairs found, wherever the boxes lie and however their sizes differ.
+    There is one grid for each power of two that is the size of some box, rounded up. A box is compared, on the grid of
+    its own size, with the boxes of this size or smaller in the same cells, of which each of them covers at most two
+    along an axis. So the time is that of sorting and of the pairs found, however the sizes of the boxes differ.
     """
     if len(boxes) < 2:
         return np.zeros((0, 2), int)
     lows, highs = boxes[:, 0] - boxes[:, 0].min(axis=0), boxes[:, 1] - boxes[:, 0].min(axis=0) + margin
-    sizes = np.maximum((highs - lows).max(axis=1), 1e-9 * highs.max())  # points have none
+    sizes = np.maximum((highs - lows).max(axis=1), _LEAST_SIZE * highs.max())
     levels = np.ceil(np.log2(np.where(sizes > 0, sizes, 1.0))).astype(int)
     found = [np.zeros((0, 2), int)]
     for level in np.unique(levels).tolist():
@@ -34,7 +44,10 @@ def overlapping(boxes: Boxes, margin: float) -> Pairs:
 
 
 def _cells(lows: np.ndarray, highs: np.ndarray, level: int, which: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Keys of the cells of a grid that some boxes lie in, sorted, and the box of each; far cells may share a key."""
+    """List the cells of a grid of cell size 2^level that the boxes of the mask `which` lie in.
+
+    Returns the hash keys of the cells, sorted, and for each the index of the box; distant cells may share a key.
+    """
     members = np.flatnonzero(which)
     first, last = (np.floor(ends[members] / 2.0**level).astype(np.int64) for ends in (lows, highs))
     d = lows.shape[1]
@@ -50,10 +63,13 @@ def _cells(lows: np.ndarray, highs: np.ndarray, level: int, which: np.ndarray) -
 def _meeting(
     lows: np.ndarray, highs: np.ndarray, own: tuple[np.ndarray, np.ndarray], other: tuple[np.ndarray, np.ndarray]
 ) -> Pairs:
-    """The pairs of a box of the first cells and one of the others, in the same cell, that overlap."""
+    """Find the pairs of a box of `own` and a box of `other` that share a cell and overlap.
+
+    `own` and `other` are sorted keys of cells with their boxes, as `_cells` returns them.
+    """
     start, stop = (np.searchsorted(own[0], other[0], side=side) for side in ("left", "right"))
     pairs = [np.zeros((0, 2), int)]
-    for some in np.array_split(np.arange(len(start)), 1 + (stop - start).sum() // 4_000_000):  # bounds the memory
+    for some in np.array_split(np.arange(len(start)), 1 + (stop - start).sum() // _MAX_COMPARED):
         counts = (stop - start)[some]
         second = np.repeat(other[1][some], counts)
         within = np.arange(len(second)) - np.repeat(np.cumsum(counts) - counts, counts)
@@ -64,14 +80,14 @@ def _meeting(
 
 
 def crossing(boxes1: Boxes, boxes2: Boxes, margin: float) -> Pairs:
-    """Pairs (i, j) of a box of the first set and one of the second no farther apart than `margin`, in order.
+    """Find all pairs (i, j) of a box of the first set and one of the second no farther apart than `margin` (a length).
 
-    Compares all with all: meant for the faces of two parts and the triangles of two faces, cut down beforehand to
-    those that reach the other set.
+    All boxes that reach the bounding box of the other set are compared with each other. That suits the faces of two
+    parts and the triangles of two faces, most of which do not reach it.
     """
     inside1 = np.flatnonzero(_reaches(boxes1, boxes2, margin))
     inside2 = np.flatnonzero(_reaches(boxes2, boxes1, margin))
-    rows = max(1, 4_000_000 // max(1, len(inside2)))  # bounds the memory of the comparison
+    rows = max(1, _MAX_COMPARED // max(1, len(inside2)))
     found = [np.zeros((0, 2), int)]
     for start in range(0, len(inside1), rows):
         some = inside1[start : start + rows]
@@ -83,25 +99,28 @@ def crossing(boxes1: Boxes, boxes2: Boxes, margin: float) -> Pairs:
 
 
 def face_box(face: Face) -> Float[np.ndarray, "2 3"]:
-    """The box of a face with the bulge of its surface over the triangles."""
+    """Compute a box around the true surface of a face, which bulges over its triangles."""
     height = bulge(face)
     return face.box + np.array([[-height], [height]])
 
 
 def bulge(face: Face) -> float:
-    """How far the surface of a face rises over its triangles."""
+    """Measure the largest distance of the surface of a face from its triangles: a length.
+
+    It is measured at the middles of the triangles and of their edges.
+    """
     corners = face.triangles
     middles = np.concatenate([(corners + np.roll(corners, 1, axis=1)) / 2, corners.mean(axis=1, keepdims=True)], axis=1)
     return float(np.abs(face.surface.distance(middles.reshape(-1, 3))).max())
 
 
 def boxes_of(triangles: Float[np.ndarray, "triangles 3 d"]) -> Float[np.ndarray, "triangles 2 d"]:
-    """The bounding box of each triangle."""
+    """Compute the bounding box of each triangle."""
     return np.stack([triangles.min(axis=1), triangles.max(axis=1)], axis=1)
 
 
 def _reaches(boxes: Boxes, others: Boxes, margin: float) -> np.ndarray:
-    """Which boxes come within `margin` of the box around all others."""
+    """Mark the boxes that come within `margin` of the bounding box of all `others`."""
     if not len(others):
         return np.zeros(len(boxes), bool)
     low, high = others[:, 0].min(axis=0) - margin, others[:, 1].max(axis=0) + margin

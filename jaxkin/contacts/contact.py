@@ -21,8 +21,9 @@ class Contact:
     """Two faces of two parts in one of the sixteen contact states."""
 
     parts: tuple[str, str]
-    """Surface 1 of Table 1 belongs to the first: the plane of (b), the cylinder of (h)."""
+    """Names of the parts; surface 1 of Table 1, such as the plane of (b) or the cylinder of (h), is on the first."""
     faces: tuple[str, str]
+    """Name of the face of each part."""
     state: str
     """Letter of the state, "a" to "p"."""
     region: str
@@ -30,10 +31,11 @@ class Contact:
     frames: Float[np.ndarray, "frames 4 4"]
     """Local frames as Table 1 prescribes, in world coordinates of the assembled pose."""
     surfaces: tuple[Surface, Surface]
+    """The unbounded surfaces of the two faces, in world coordinates of the assembled pose."""
     centre: Vector
-    """Centroid of the contact region; on the axis where the region goes round one."""
+    """Centroid of the contact region; where the region surrounds an axis, the point of the axis at its height."""
     misfit: float
-    """Length by which the faces as they are miss the ideal contact: noise of the file, or the clearance of a fit."""
+    """Length by which the faces miss the ideal contact: noise of the file, or the clearance of a fit."""
 
     @property
     def contact_state(self) -> ContactState:
@@ -49,21 +51,24 @@ class Contact:
 
 @dataclass(frozen=True, eq=False)
 class NearMiss:
-    """Two faces that are nearly in a contact state, but not within the tolerances: no contact, a report."""
+    """Two faces that miss a contact state by little more than the tolerances; reported, but no contact."""
 
     parts: tuple[str, str]
+    """Names of the parts, in the order of `Contact.parts`."""
     faces: tuple[str, str]
+    """Name of the face of each part."""
     state: str
-    """The state that it nearly is."""
+    """Letter of the state that the faces are nearly in, "a" to "p"."""
     region: str
+    """"surface", "line", "point" or "circle"."""
     gap: float
-    """Length between the surfaces: positive apart, negative overlapping."""
+    """Length between the surfaces where they should touch: positive apart, negative overlapping."""
     tilt: float
-    """Radians between directions that should be parallel."""
+    """Angle between directions that should be parallel, radians."""
     rim: bool
     """True where the faces meet only along an edge of one of them."""
     reason: str
-    """What is wrong and what to do, in words."""
+    """Why the faces are not in contact, and what to do about it, in words."""
 
     def __str__(self) -> str:
         return (
@@ -74,12 +79,14 @@ class NearMiss:
 
 @dataclass(frozen=True, eq=False)
 class Contacts(Sequence[Contact]):
-    """The contacts of an assembly, in the order of its parts and their faces. `print` shows all that is known."""
+    """The contacts of an assembly, in the order of its parts and their faces; `print` shows them with all reports."""
 
     contacts: tuple[Contact, ...]
+    """The contacts."""
     near_misses: tuple[NearMiss, ...] = ()
+    """Pairs of faces that are nearly in contact."""
     notes: tuple[str, ...] = ()
-    """Faces that are none of the four surfaces, and parts that meet at an edge or a corner only."""
+    """Messages on faces that are none of the four surfaces, and on parts that meet at an edge or a corner only."""
 
     @overload
     def __getitem__(self, index: int) -> Contact: ...
@@ -98,7 +105,7 @@ class Contacts(Sequence[Contact]):
         return self.describe()
 
     def describe(self, verbose: bool = False) -> str:
-        """Tell contacts, near misses and notes in a table; of many of a kind the first one, unless `verbose`."""
+        """Write contacts, near misses and notes as text; many of one kind are summarised, unless `verbose`."""
         lines = [_count(len(self), "contact")]
         lines += [f"  {line}" for line in (self._table() if verbose or len(self) <= SCREEN else self._counts())]
         nearly = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in self.near_misses]
@@ -109,7 +116,7 @@ class Contacts(Sequence[Contact]):
         return "\n".join(lines)
 
     def _table(self) -> list[str]:
-        """One row a contact."""
+        """Write one line for each contact, below a line of headings."""
         rows = [("parts", "faces", "state", "region", "misfit")] if self.contacts else []
         for contact in self.contacts:
             name = f"({contact.state}) {contact.contact_state.name}"
@@ -119,7 +126,7 @@ class Contacts(Sequence[Contact]):
         return ["  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
 
     def _counts(self) -> list[str]:
-        """How many contacts there are of each state, and between parts of which products."""
+        """Write how many contacts there are of each state, and of each pair of products (parts of one design)."""
         states = Counter(f"({each.state}) {each.contact_state.name}" for each in self.contacts)
         products: dict[tuple[str, ...], Counter[str]] = defaultdict(Counter)
         for each in self.contacts:
@@ -130,9 +137,11 @@ class Contacts(Sequence[Contact]):
 
 
 def _counted(found: Counter[str]) -> list[str]:
+    """Write each name with its number, the most frequent first."""
     return [f"{count} {name}" for name, count in found.most_common()]
 
 
 def _count(number: int, noun: str) -> str:
+    """Write a number with a noun in singular or plural, "no" for zero."""
     plural = noun + ("es" if noun.endswith("s") else "s")
     return f"{number or 'no'} {noun if number == 1 else plural}"

@@ -1,7 +1,7 @@
-"""Detection of the contacts between the parts of an assembly (Section 3 of the paper).
+"""Find the contacts between the parts of an assembly (Section 3 of the paper).
 
-Broad phase by the boxes of parts, then of faces. Narrow phase: are the infinite surfaces in one of the states, and does
-the contact region lie on both trimmed faces?
+The broad phase finds parts, then faces, whose bounding boxes overlap. The narrow phase decides for two faces whether
+their unbounded surfaces are in one of the sixteen states, and whether the contact region lies on both faces.
 """
 
 from __future__ import annotations
@@ -24,18 +24,20 @@ from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 
 KINDS = ("plane", "cylinder", "cone", "sphere")
+"""Kinds of surface in the order of the paper: surface 1 of a state is of the earlier kind."""
 
 
 def find_contacts(
     parts: tuple[Part, ...], length: float | None = None, angle: float = 1e-4, fit: float = 0.02
 ) -> Contacts:
-    """All contacts between the parts in their assembled pose.
+    """Find all contacts between the parts in their assembled pose.
 
-    `length`: gap that still counts as touching, in the unit of the parts; by default 1e-5 of the diagonal of the
-    assembly, so that the unit does not matter. `angle`: radians that still count as parallel. `fit`: clearance,
-    relative to the radius, up to which a pin fills its hole (e), a ball its bore (j) or its socket (o); larger ones
-    are loose and touch where they touch, if they do. What misses a state by little more than the tolerances, or only
-    meets it along the edge of a face, is listed in `near_misses`; nothing is guessed.
+    `length` is the gap up to which surfaces count as touching, in the unit of the parts; by default 1e-5 of the
+    diagonal of the assembly (see `default_length`), so that the unit does not matter. `angle`, radians, is that up to
+    which directions count as parallel. `fit` is the clearance, relative to the radius, up to which a pin fills its hole
+    (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces are in contact only where they
+    touch along a line or at a point. Two faces that miss a state by little more than the tolerances, or meet only along
+    the edge of one of them, are listed in `near_misses`; nothing is guessed.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
@@ -62,13 +64,16 @@ def find_contacts(
 
 
 def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list[NearMiss]:
-    """Without edges of faces that are in contact: these meet the neighbours of the other face along its rim."""
+    """Drop the near misses along an edge of a face that is itself in contact.
+
+    Such a face also meets the neighbours of the face that it touches, along their common edges: no news.
+    """
     touching = {side for contact in contacts for side in zip(contact.parts, contact.faces, strict=True)}
     return [miss for miss in near_misses if not (miss.rim and touching & set(zip(miss.parts, miss.faces, strict=True)))]
 
 
 class _Nearly(NamedTuple):
-    """A state that two faces are nearly in."""
+    """A state that two faces are nearly in, with the place of the touch and the region."""
 
     state: ContactState
     touch: Touch
@@ -76,13 +81,16 @@ class _Nearly(NamedTuple):
 
 
 Found = tuple[ContactState, Touch, ContactRegion]
-"""A state that two faces are in."""
+"""A state that two faces are in, with the place of the touch and the region."""
 
 
 def _examine(
     parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
 ) -> Contact | NearMiss | None:
-    """The first state that the pair of faces is in, else what it nearly is by the least misfit."""
+    """Find the contact of two faces, else the state that they miss by the least length, else None.
+
+    `at` is a point near the contact, (3,).
+    """
     if KINDS.index(faces[0].surface.kind) > KINDS.index(faces[1].surface.kind):
         parts, faces = (parts[1], parts[0]), (faces[1], faces[0])
     found = _state(faces, at, tol)
@@ -92,9 +100,12 @@ def _examine(
 
 
 def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nearly | None:
-    """The state of two faces whose kinds are in the order of the states."""
+    """Find the first state that two faces are in, else the one that they are nearest to, else None.
+
+    The kinds of the faces are in the order of `KINDS`; `at` is a point near the contact, (3,).
+    """
     s1, s2 = faces[0].surface, faces[1].surface
-    near, least = None, np.inf
+    nearest, least = None, np.inf
     for state in _ROWS[s1.kind, s2.kind]:
         if (getattr(s1, "side", 1), getattr(s2, "side", 1)) not in state.sides:
             continue
@@ -110,15 +121,16 @@ def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nea
             if fits or region.inside:
                 excess = tol.excess(touch, region.extent, s1, s2)
                 if excess < least / 2:  # only what is much nearer supersedes a fit, which comes first
-                    near, least = _Nearly(state, touch, region), excess
+                    nearest, least = _Nearly(state, touch, region), excess
         if tol.fits(touch, 0.0, s1, s2):
             break  # what fills its hole is not also a loose pin that leans against it
-    return near
+    return nearest
 
 
 def _contact(
     parts: tuple[Part, Part], faces: tuple[Face, Face], state: ContactState, touch: Touch, region: ContactRegion
 ) -> Contact:
+    """Make the contact of two faces, surface 1 of the state first, with its frames."""
     surfaces = (faces[0].surface, faces[1].surface)
     return Contact(
         parts=(parts[0].name, parts[1].name),
@@ -135,7 +147,10 @@ def _contact(
 def _near_miss(
     nearly: _Nearly, parts: tuple[Part, Part], faces: tuple[Face, Face], at: Vector, tol: Tolerance
 ) -> NearMiss:
+    """Make the report on two faces that are nearly in a state, with the tolerances that would make it a contact."""
+
     def works(other: Tolerance) -> bool:
+        """Check whether the faces would be in this state with other tolerances."""
         found = _state(faces, at, other)
         return found is not None and not isinstance(found, _Nearly) and found[0] is nearly.state
 
@@ -154,6 +169,7 @@ def _near_miss(
 
 
 def _by_kinds() -> dict[tuple[str, str], list[ContactState]]:
+    """Group the states by the kinds of their surfaces, in the order of `CONTACT_STATES`."""
     rows = defaultdict(list)
     for state in CONTACT_STATES:
         rows[state.kinds].append(state)
@@ -161,3 +177,4 @@ def _by_kinds() -> dict[tuple[str, str], list[ContactState]]:
 
 
 _ROWS = _by_kinds()
+"""The states for each two kinds of surface, in the order in which they are tried."""

@@ -1,6 +1,7 @@
-"""The extent of a trimmed face along its surface: heights along an axis, distances along rulings, corners in a plane.
+"""Measure how far a face extends along its surface: along an axis, along the rulings of a cone, or in a plane.
 
-Triangles follow a curved rim in chords and end before it does, so an interval is longer than its corners are.
+The triangles of a face follow a curved rim in chords and end short of it, so an interval is made a little longer than
+the corners of the triangles show.
 """
 
 from __future__ import annotations
@@ -16,17 +17,23 @@ from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 
 
 class Interval(NamedTuple):
-    """A piece of a line."""
+    """The points origin + s direction of a line with low <= s <= high; for a cone such an interval on every ruling."""
 
     origin: Vector
+    """The point where s = 0; the apex of a cone."""
     direction: Vector
-    """Unit vector; of the rulings of a cone, all of which have one interval, its axis."""
+    """Unit vector along the line; for a cone its axis, though s is measured along the rulings."""
     low: float
+    """Lowest s, a length."""
     high: float
+    """Highest s, a length."""
 
 
 def interval(face: Face) -> Interval:
-    """Heights of a cylinder along its axis, distances from the apex of a cone, the centre of a ball."""
+    """Measure the interval of a face: heights along the axis of a cylinder, distances from the apex of a cone.
+
+    That of a ball is its centre, with direction zero. Raises TypeError for a plane.
+    """
     surface, corners = face.surface, face.triangles.reshape(-1, 3)
     match surface:
         case Cylinder():
@@ -41,16 +48,17 @@ def interval(face: Face) -> Interval:
 
 
 def outline(face: Face, origin: Vector, x: Vector, y: Vector) -> Float[np.ndarray, "corners 2"]:
-    """The corners of a face in a plane."""
+    """Project the corners of a face onto a plane: coordinates from `origin` along the unit vectors `x` and `y`."""
     offset = face.triangles.reshape(-1, 3) - origin
     return np.stack([offset @ x, offset @ y], axis=-1)
 
 
 def _ends(corners: Points, values: Float[np.ndarray, " corners"]) -> tuple[float, float]:
-    """Lowest and highest value on the rim, of which corners are a sample.
+    """Bound the lowest and highest value along a smooth rim, from its values at the corners.
 
-    About an extremum of a smooth rim that is sampled evenly, the extremum is missed by at most an eighth of the
-    difference of the first and the third sample: by nothing where the rim is at one height.
+    Near an extremum of the rim the value is quadratic in the arc length. Corners at equal spacing then miss the
+    extremum by at most an eighth of the difference of the first and the third smallest (or largest) value, and by
+    nothing where the rim is at constant height.
     """
     scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # most readers keep corners in single precision
     _, first = np.unique(np.round((corners - corners[0]) / scale), axis=0, return_index=True)

@@ -1,4 +1,4 @@
-"""The local frames of a contact (Table 1 of the paper)."""
+"""Make the local frames of a contact (Table 1 of the paper)."""
 
 from __future__ import annotations
 
@@ -15,17 +15,18 @@ from jaxkin.geometry.pose import Vector, frame, unit
 def contact_frames(
     state: ContactState, s1: Any, s2: Any, touch: Touch, centre: Vector
 ) -> Float[np.ndarray, "frames 4 4"]:
-    """Poses of the local frames in world coordinates, one for each movement of the state.
+    """Make the poses of the local frames in world coordinates, one for each movement of the state.
 
-    What Table 1 leaves free is chosen so that displacements read from the modelled pose: an origin that may lie
-    anywhere on a surface, an axis or a line is the projection of `centre`, the centroid of the contact region, and
-    x of a frame on a plane points along the contact line. In a fit (e, k, o) the mean of the two axes or centres
-    stands for that of surface 1.
+    `s1` and `s2` are the surfaces of the state, `centre` is the centroid of the contact region. An origin that Table 1
+    allows anywhere on a surface, an axis or a line is the projection of `centre`; x of a frame on a plane points along
+    the contact line. In a fit (e, k, o) the mean of the two axes or centres stands for that of surface 1. Raises
+    ValueError for a symbol that Table 1 does not use.
     """
     fit = state.is_fit
     x = touch.direction if state.region == "line" else None
 
     def direction(symbol: str) -> Vector:
+        """Look up the z axis by its symbol in `ContactState.frames`."""
         match symbol:
             case "n1":
                 return s1.normal
@@ -45,6 +46,7 @@ def contact_frames(
                 raise ValueError(f"{symbol!r} is no direction that a frame of a contact state may have")
 
     def origin(symbol: str) -> Vector:
+        """Look up the origin by the symbol of the set that it lies on in `ContactState.frames`."""
         match symbol:
             case "f1":
                 return centre - s1.distance(centre) * s1.normal
@@ -67,4 +69,5 @@ def contact_frames(
 
 
 def _on_axis(surface: Any, centre: Vector) -> Vector:
+    """Project a point onto the axis of a cylinder or a cone."""
     return foot(centre, surface.apex if surface.kind == "cone" else surface.point, surface.axis)

@@ -1,8 +1,9 @@
-"""Gaps between two convex polygons of which one moves in the plane, over many poses (separating axes).
+"""Compute the gap between two convex polygons, of which one moves in the plane, over many poses (separating axes).
 
-Two convex polygons are apart exactly where a line along an edge of one of them separates them. The farthest corner in a
-direction is found by bisection, since the normals of the edges of a convex polygon are in order. Most poses need no
-search: their corners are hardly elsewhere than at a pose near by at which the polygons overlap by more.
+Two convex polygons are apart exactly if a line along an edge of one of them separates them. The farthest corner in a
+direction is found by bisection, since the edge normals of a convex polygon are ordered by angle. Most poses need no
+search: if the polygons overlap at a neighbouring pose by more than the corners move in between, they overlap there too.
+A chart is a plane with its own origin and axes x, y.
 """
 
 from __future__ import annotations
@@ -16,60 +17,61 @@ from jaxtyping import Float, Int
 from jaxkin.contacts.rim import CORNER
 
 EVEN = 2.5
-"""Chords of one arc differ in length by less than this factor; an edge much longer than its neighbours is straight."""
+"""Largest ratio of the lengths of neighbouring chords of one arc; an edge that is longer is straight."""
 STRIDE = 64
-"""Poses of which one is searched at once, and decides the others if it can: most of a long range, one for each."""
+"""Every pose with a number divisible by this is searched first, and may decide the poses around it."""
 CHUNK = 20_000
-"""Poses that are searched together: bounds the memory to some tens of megabytes for a hundred corners."""
+"""Number of poses searched together: bounds the memory to some tens of megabytes for a hundred corners."""
 
 
 class PlaneMotion(NamedTuple):
-    """Displacements of a plane chart in another one."""
+    """Displacements of a moving chart relative to a fixed one: rotation, then translation."""
 
     turn: Float[np.ndarray, "2 poses"]
-    """Cosine and sine of the angle."""
+    """Cosine and sine of the angle of rotation."""
     shift: Float[np.ndarray, "2 poses"]
-    """Of the origin."""
+    """Translation of the origin, lengths."""
 
     def inverse(self) -> PlaneMotion:
-        """How the other chart moves, seen from this one."""
+        """Return the motion of the fixed chart relative to the moving one."""
         cos, sin = self.turn
         x, y = self.shift
         return PlaneMotion(np.stack([cos, -sin]), np.stack([-cos * x - sin * y, sin * x - cos * y]))
 
     def of(self, point: Float[np.ndarray, "2"]) -> Float[np.ndarray, "2 poses"]:
-        """Where a point of the chart is in the other one."""
+        """Map a point of the moving chart to the fixed one."""
         (cos, sin), (x, y) = self.turn, point
         return np.stack([cos * x - sin * y, sin * x + cos * y]) + self.shift
 
     def at(self, poses: Int[np.ndarray, " _"]) -> PlaneMotion:
-        """At some of the poses."""
+        """Select some of the poses, by their numbers."""
         return PlaneMotion(self.turn[:, poses], self.shift[:, poses])
 
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A convex polygon; a segment or a point too."""
+    """A convex polygon, or a segment (two corners) or a point (one)."""
 
     corners: Float[np.ndarray, "corners 2"]
     """Anticlockwise."""
     slack: float
-    """Length by which what it was made of may stand out of it: curved rims over their chords."""
+    """Length by which the face may extend beyond the polygon, since its curved rim is replaced by chords."""
 
     @property
     def edges(self) -> Float[np.ndarray, "corners 2"]:
-        """From each corner to the next one."""
+        """The vectors from each corner to the next one."""
         return np.roll(self.corners, -1, axis=0) - self.corners
 
     def normals(self) -> tuple[Float[np.ndarray, " edges"], Float[np.ndarray, " edges"]]:
-        """Angle of the outward normal of each edge, in [-pi, pi), and the height of the edge along it."""
+        """Compute for each edge the angle of its outward normal, in [-pi, pi], and the edge's distance from the origin
+        along this normal."""
         edges = self.edges[np.any(self.edges != 0, axis=1)]
         angles = np.arctan2(-edges[:, 0], edges[:, 1])
         return angles, self.corners[: len(edges), 0] * np.cos(angles) + self.corners[: len(edges), 1] * np.sin(angles)
 
 
 def hull(points: Float[np.ndarray, "points 2"]) -> Hull | None:
-    """The convex hull of points; None where they have none, being on a line but for rounding."""
+    """Compute the convex hull of points; None for three or more points on one line, but for rounding."""
     from scipy.spatial import ConvexHull, QhullError
 
     if len(points) < 3:
@@ -82,10 +84,11 @@ def hull(points: Float[np.ndarray, "points 2"]) -> Hull | None:
 
 
 def gaps_between_hulls(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.ndarray, " poses"]:
-    """Lengths by which hulls are apart, the second one moved; negative where they overlap, or do within their slacks.
+    """Compute the gap between two hulls at each pose: a length, negative where they overlap or may do so.
 
-    A gap is measured across the line that separates the hulls most; from corner to corner they are a little farther
-    apart. Negative ones are upper bounds: it grows between two poses by no more than a corner moves.
+    `motion` moves the chart of `other` relative to that of `one`. A positive gap is the width of the widest strip
+    between the hulls along an edge, less both slacks; from corner to corner the hulls may be farther apart. A negative
+    gap is only an upper bound: that at a neighbouring pose plus the largest movement of a corner in between.
     """
     slack, poses = one.slack + other.slack, motion.shift.shape[1]
     known = np.arange(0, poses, STRIDE)
@@ -103,12 +106,12 @@ def gaps_between_hulls(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.
 
 
 def _widest(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.ndarray, " poses"]:
-    """The largest distance by which one of two hulls is beyond an edge of the other; negative where they overlap."""
+    """Compute the width of the widest strip between two hulls along an edge of either; negative where they overlap."""
     return np.maximum(_beyond(one, other, motion), _beyond(other, one, motion.inverse()))
 
 
 def _beyond(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.ndarray, " poses"]:
-    """The largest distance by which the second hull is beyond an edge of the first one."""
+    """Compute the width of the widest strip between two hulls along an edge of the first; -inf where it has no edge."""
     angles, heights = one.normals()
     if not len(angles):
         return np.full(motion.shift.shape[1], -np.inf)
@@ -118,7 +121,7 @@ def _beyond(one: Hull, other: Hull, motion: PlaneMotion) -> Float[np.ndarray, " 
 
 
 def _farthest(one: Hull, angles: Float[np.ndarray, "edges poses"]) -> Float[np.ndarray, "edges poses"]:
-    """How far a hull reaches in the directions at some angles."""
+    """Compute the largest coordinate of the corners of a hull along directions at given angles (support function)."""
     normals, _ = one.normals()
     corners = one.corners
     if len(normals) > 1:  # corner k lies between the normals of the edges k - 1 and k
@@ -129,10 +132,11 @@ def _farthest(one: Hull, angles: Float[np.ndarray, "edges poses"]) -> Float[np.n
 
 
 def _chord_height(corners: Float[np.ndarray, "corners 2"]) -> float:
-    """How far a curved rim stands out of the chords that a hull has of it: twice the height of an arc, to be safe.
+    """Bound how far a curved rim extends beyond the edges of a hull that are its chords: a length.
 
-    The chord of an arc is an edge that hardly turns against a neighbour that is not much shorter. An arc of one chord
-    shows half of its turn at either end: hence twice.
+    An edge is a chord if the rim turns by less than `CORNER` at one of its ends, and the neighbour there is not much
+    shorter (`EVEN`). An arc of length l that turns by t is l t / 8 high over its chord; l t / 4 is returned, since at
+    the ends of an arc with a single chord only half of its turn is seen.
     """
     edges = np.roll(corners, -1, axis=0) - corners
     length = np.linalg.norm(edges, axis=-1)

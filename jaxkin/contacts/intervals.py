@@ -1,4 +1,4 @@
-"""Sets of intervals on a line, as sorted (k, 2) arrays of ends."""
+"""Compute with sets of intervals on a line: arrays (k, 2) of the lower and upper ends."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import numpy as np
 from jaxtyping import Float
 
 Intervals = Float[np.ndarray, "_ 2"]
+"""Lower and upper end of each interval."""
 
 
 def union(intervals: Intervals, gap: float) -> Intervals:
-    """The same set as disjoint intervals; those no farther apart than `gap` are joined."""
+    """Unite intervals into disjoint ones in rising order; those no farther apart than `gap` become one."""
     if not len(intervals):
         return intervals
     intervals = intervals[np.argsort(intervals[:, 0], kind="stable")]
@@ -19,7 +20,7 @@ def union(intervals: Intervals, gap: float) -> Intervals:
 
 
 def intersection(first: Intervals, second: Intervals) -> Intervals:
-    """What two sets of disjoint intervals share; single points are left out."""
+    """Intersect two sets of disjoint intervals; common end points alone are left out."""
     lows = np.maximum(first[:, None, 0], second[None, :, 0])
     highs = np.minimum(first[:, None, 1], second[None, :, 1])
     shared = lows < highs
@@ -27,11 +28,11 @@ def intersection(first: Intervals, second: Intervals) -> Intervals:
 
 
 def length(intervals: Intervals) -> float:
-    """Total length of disjoint intervals."""
+    """Compute the total length of disjoint intervals."""
     return float(np.sum(intervals[:, 1] - intervals[:, 0]))
 
 
 def centroid(intervals: Intervals) -> float:
-    """Middle of disjoint intervals, weighted with their lengths."""
+    """Compute the centroid of disjoint intervals of non-zero total length."""
     lengths = intervals[:, 1] - intervals[:, 0]
     return float(lengths @ intervals.mean(axis=1) / lengths.sum())

@@ -1,8 +1,8 @@
-"""The area that two faces share, where they lie on one surface.
+"""Compute the area that two faces on the same surface share.
 
-The triangles of a curved face are chords, so they are compared in the parameters of the surface: in the plane, unrolled
-about an axis, or as directions from a centre. There two circles about the axis that are the same are the same lines,
-whatever their tessellation.
+The triangles of a curved face are only chords of it, so they are first mapped to a chart of the surface: coordinates in
+the plane, an unrolled cylinder or cone, or directions from the centre of a sphere. In a chart, a circle about the axis
+is a straight line, and the same line for both faces, however each of them is tessellated.
 """
 
 from __future__ import annotations
@@ -17,7 +17,20 @@ from jaxkin.contacts.boxes import boxes_of, crossing
 from jaxkin.geometry.pose import Vector
 
 Flat = Float[np.ndarray, "_ 3 2"]
+"""Corners of triangles in a chart."""
 Solid = Float[np.ndarray, "_ 3 3"]
+"""Corners of triangles in space."""
+
+_MAX_PAIRS = 50_000
+"""Number of pairs of triangles intersected at once: bounds the memory."""
+
+_PARALLEL_SINE = 1e-9
+"""Sine of the angle between two edges below which they count as parallel, and their crossing is not computed."""
+
+_MIN_COSINE = 0.1
+"""Least cosine of the angle at the centre of a sphere between a pole and a corner in its tangent chart.
+
+The projection has no image from 90 deg on. Triangles that are so far from each other do not overlap."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,31 +38,37 @@ class Overlap:
     """What two sets of triangles share in one chart."""
 
     area: float
+    """Area of what is shared; 0 where only edges or corners touch."""
     centre: Float[np.ndarray, "d"]
-    """Centroid of the shared area, in coordinates of the chart."""
+    """Centroid of what is shared, in coordinates of the chart (d = 2), or in space (d = 3) for a sphere."""
     box: Float[np.ndarray, "2 d"]
     """Lowest and highest coordinates of what is shared, touching edges included."""
 
     @property
     def extent(self) -> float:
+        """Length of the diagonal of `box`."""
         return float(np.linalg.norm(self.box[1] - self.box[0]))
 
 
 def flat(triangles: Solid, origin: Vector, x: Vector, y: Vector) -> Flat:
-    """Coordinates in a plane."""
+    """Project triangles onto a plane: coordinates from `origin` along the unit vectors `x` and `y`."""
     return np.stack([(triangles - origin) @ x, (triangles - origin) @ y], axis=-1)
 
 
 def overlap(first: Flat, second: Flat, tolerance: float) -> Overlap | None:
-    """What two sets of triangles in one chart share; None if they are farther apart than the tolerance."""
+    """Compute what two sets of triangles in one chart share; None if they are farther apart than `tolerance`, a length.
+
+    Triangles of one set must not overlap each other.
+    """
     pairs = crossing(boxes_of(first), boxes_of(second), tolerance)
     return _sum(*_intersections(first[pairs[:, 0]], second[pairs[:, 1]], tolerance))
 
 
 def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float, tolerance: float) -> Overlap | None:
-    """What two sets of triangles share as seen from the centre of a sphere, in space.
+    """Compute what two sets of triangles on a sphere share; None if they are farther apart than `tolerance`, a length.
 
-    Each pair is compared in the tangent plane at the middle of its first triangle, where great circles are straight.
+    Each pair of triangles is projected from the centre of the sphere onto the tangent plane at the middle of the first
+    one (gnomonic projection), where great circles are straight lines.
     """
     a, b = _directions(first, centre), _directions(second, centre)
     edge = max(float(np.linalg.norm(t - np.roll(t, 1, axis=1), axis=-1).max(initial=0.0)) for t in (a, b))
@@ -59,13 +78,15 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     x = _directions(np.cross(pole, np.eye(3)[np.argmin(np.abs(pole), axis=-1)]), 0.0)
     axes = np.stack([x, np.cross(pole, x), pole], axis=-1)
     a, b = a @ axes, b @ axes
-    ahead = (a[..., 2] > 0.1).all(axis=1) & (b[..., 2] > 0.1).all(axis=1)  # the others lie half a sphere apart
+    ahead = (a[..., 2] > _MIN_COSINE).all(axis=1) & (b[..., 2] > _MIN_COSINE).all(axis=1)
     a, b, axes = a[ahead], b[ahead], axes[ahead]
     charts = radius * a[..., :2] / a[..., 2:], radius * b[..., :2] / b[..., 2:]
     areas, middles, corners, shared = _intersections(*charts, tolerance)
-    areas = areas * (1 + np.sum(middles**2, axis=-1) / radius**2) ** -1.5  # the tangent plane shows too much
+    # area on the sphere = cos^3(angle) x area in the tangent plane, with tan(angle) = distance from the pole / radius
+    areas = areas * (1 + np.sum(middles**2, axis=-1) / radius**2) ** -1.5
 
     def lifted(points: np.ndarray) -> np.ndarray:
+        """Project points (pairs, _, 2) of the tangent planes back to the sphere, in world coordinates."""
         points = np.concatenate([points, np.full((*points.shape[:-1], 1), radius)], axis=-1)
         return radius * _directions(points, 0.0) @ np.swapaxes(axes, 1, 2) + centre
 
@@ -73,21 +94,25 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
 
 
 class _Shared(NamedTuple):
-    """What pairs of triangles share. The corners of it are those of either triangle that lie in the other, and the
-    points where edges cross."""
+    """The convex polygon that the two triangles of each pair share.
+
+    Its corners are the corners of either triangle that lie in the other (6 candidates), and the points where two edges
+    cross (9 candidates).
+    """
 
     areas: np.ndarray
+    """(pairs,): areas of the polygons."""
     middles: np.ndarray
-    """Centroids."""
+    """(pairs, 2): centroids of the polygons."""
     corners: np.ndarray
-    """15 candidates for its corners."""
+    """(pairs, 15, 2): the candidates for corners."""
     chosen: np.ndarray
-    """Which of them are corners."""
+    """(pairs, 15): which candidates are corners."""
 
 
 def _intersections(a: Flat, b: Flat, tolerance: float) -> _Shared:
-    """What pairs of triangles share, pair by pair."""
-    if len(a) > 50_000:  # bounds the memory
+    """Intersect triangle k of `a` with triangle k of `b`, for all k."""
+    if len(a) > _MAX_PAIRS:
         halves = zip(np.array_split(a, 2), np.array_split(b, 2), strict=True)
         results = [_intersections(half_a, half_b, tolerance) for half_a, half_b in halves]
         return _Shared(*(np.concatenate(parts) for parts in zip(*results, strict=True)))
@@ -95,9 +120,9 @@ def _intersections(a: Flat, b: Flat, tolerance: float) -> _Shared:
     edges_a, edges_b = np.roll(a, -1, axis=1) - a, np.roll(b, -1, axis=1) - b
     start = b[:, None] - a[:, :, None]  # pair, edge of a, edge of b
     turn = _cross(edges_a[:, :, None], edges_b[:, None])
-    # edges on one line do not cross: the corners of one triangle in the other say all about them
+    # parallel edges have no crossing; where they overlap, the end points are corners of one triangle in the other
     length = np.linalg.norm(edges_a, axis=-1)[:, :, None] * np.linalg.norm(edges_b, axis=-1)[:, None]
-    parallel = np.abs(turn) <= 1e-9 * length
+    parallel = np.abs(turn) <= _PARALLEL_SINE * length
     turn = np.where(parallel, 1.0, turn)
     s, t = _cross(start, edges_b[:, None]) / turn, _cross(start, edges_a[:, :, None]) / turn
     meet = ~parallel & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
@@ -117,18 +142,23 @@ def _intersections(a: Flat, b: Flat, tolerance: float) -> _Shared:
 
 
 def _rims(corners: np.ndarray, shared: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The mean of the corners of each polygon, and from there its corners anticlockwise; what is none repeats one."""
+    """Sort the corners of convex polygons anticlockwise.
+
+    `corners` (pairs, 15, 2) are candidates, of which `shared` (pairs, 15) marks the corners. Returns their means
+    (pairs, 2), and the corners relative to these (pairs, 15, 2), the first one repeated in place of the other
+    candidates, which adds no area.
+    """
     count = np.maximum(shared.sum(axis=1), 1)
     middle = np.einsum("nk,nki->ni", shared, corners) / count[:, None]
     spokes = np.where(shared[..., None], corners - middle[:, None], 0.0)
     order = np.argsort(np.where(shared, np.arctan2(spokes[..., 1], spokes[..., 0]), np.inf), axis=1)
     rim = np.take_along_axis(spokes, order[..., None], axis=1)
     last = np.arange(15) >= count[:, None]
-    return middle, np.where(last[..., None], rim[:, :1], rim)  # what is no corner repeats the first and adds no area
+    return middle, np.where(last[..., None], rim[:, :1], rim)
 
 
 def shared_triangles(first: Flat, second: Flat, tolerance: float) -> Flat:
-    """What two sets of triangles in one chart share, as triangles: for drawing."""
+    """Divide what two sets of triangles in one chart share into triangles, for drawing."""
     pairs = crossing(boxes_of(first), boxes_of(second), tolerance)
     _, _, corners, shared = _intersections(first[pairs[:, 0]], second[pairs[:, 1]], tolerance)
     middle, rim = _rims(corners, shared)
@@ -138,12 +168,16 @@ def shared_triangles(first: Flat, second: Flat, tolerance: float) -> Flat:
 
 
 def _inside(points: Flat, triangles: Flat, edges: Flat, tolerance: float) -> np.ndarray:
-    """Which corners of one triangle lie in the other, anticlockwise one, or within the tolerance of an edge of it."""
+    """Mark the corners of `points` that lie in the triangle of the same number, or beyond its edges by `tolerance`.
+
+    The triangles are anticlockwise, `edges` are the vectors along their sides; returns a mask (pairs, 3).
+    """
     left = _cross(edges[:, None], points[:, :, None] - triangles[:, None])
     return np.all(left >= -tolerance * np.linalg.norm(edges, axis=-1)[:, None], axis=-1)
 
 
 def _sum(areas: np.ndarray, middles: np.ndarray, corners: np.ndarray, shared: np.ndarray) -> Overlap | None:
+    """Add up the polygons of all pairs; None where there is none."""
     if not shared.any():
         return None
     points, total = corners[shared], float(areas.sum())
@@ -152,14 +186,17 @@ def _sum(areas: np.ndarray, middles: np.ndarray, corners: np.ndarray, shared: np
 
 
 def _anticlockwise(triangles: Flat) -> Flat:
+    """Reverse the triangles whose corners run clockwise."""
     clockwise = _cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]) < 0
     return np.where(clockwise[:, None, None], triangles[:, ::-1], triangles)
 
 
 def _cross(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Compute the cross product of plane vectors (..., 2), a number each."""
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
 def _directions(points: np.ndarray, centre: Vector | float) -> np.ndarray:
+    """Compute the unit vectors from a centre to points (..., 3)."""
     offset = points - centre
     return offset / np.linalg.norm(offset, axis=-1, keepdims=True)

@@ -1,4 +1,4 @@
-"""Why a near miss is no contact, and what to do about it, in words."""
+"""Write why a near miss is no contact, and what to do about it."""
 
 from __future__ import annotations
 
@@ -19,8 +19,11 @@ def reason(
     surfaces: tuple[Surface, Surface],
     works: Callable[[Tolerance], bool],
 ) -> str:
-    """One clause for each thing that keeps the touch from being a contact, with what to correct in the model; and the
-    tolerances with which it would be one, if there are such. `works` tells whether others do."""
+    """Write a clause for each condition of a contact that a touch violates, with what to correct in the model.
+
+    The text ends with the tolerances with which the faces would be in contact, if there are any. `works` checks whether
+    given tolerances make them a contact.
+    """
     clauses = []
     loose = max(tolerance.length, tolerance.fit * smaller_radius(*surfaces))
     allowed = tolerance.length + min(max(0.0, touch.clearance or 0.0), loose)
@@ -48,7 +51,7 @@ def reason(
 
 
 def _advice(options: Options, only: bool) -> str:
-    """The end of the text; `only`: there is nothing in the model to correct."""
+    """Write the end of the text: the tolerances to give; `only` says that there is nothing to correct in the model."""
     if not options:
         return ""
     given = ", ".join(f"{name}={value:g}" for name, value in options.items())
@@ -57,6 +60,7 @@ def _advice(options: Options, only: bool) -> str:
 
 
 def _gap(touch: Touch, allowed: float) -> str:
+    """Write the clause on a gap or overlap larger than the length `allowed`."""
     if touch.clearance is not None:
         return "off centre by {}, allowed {}: centre it".format(*told_apart(abs(touch.gap), allowed))
     if touch.gap < 0:

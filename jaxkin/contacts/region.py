@@ -1,8 +1,9 @@
-"""Whether two surfaces touch where their faces are: the contact region on both trimmed faces.
+"""Find the contact region of two faces: where the place at which their unbounded surfaces touch lies on both faces.
 
-A contact on a line, on a circle or at a point is found by cutting the triangles of both faces with a pair of planes,
-`margin` to either side of it. What both cuts show on both faces is inside; what only one shows is on the rim of a face:
-the tangent edge of a fillet lies on the plane below it, but the fillet does not roll there.
+For a contact along a line, along a circle or at a point, the triangles of both faces are cut with two parallel planes,
+a small length `margin` to either side of it. Where both planes cut both faces, the contact is inside of the faces.
+Where only one of the planes cuts a face, the contact is at the rim of that face and is none: the edge of a fillet lies
+on the plane next to it, but the fillet does not roll there.
 """
 
 from __future__ import annotations
@@ -25,18 +26,22 @@ from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 
 @dataclass(frozen=True, eq=False)
 class ContactRegion:
-    """Where two trimmed faces touch or would touch."""
+    """The place where two faces touch, or would touch if there were no gap."""
 
     centre: Vector
-    """Centroid; on the axis where the region goes round one."""
+    """Centroid; where the region surrounds an axis, the point of the axis at its height."""
     extent: float
-    """Length over which a tilt adds to the gap: of a line, of an area (along the axis if it goes round one)."""
+    """Length over which a tilt adds to the gap: that of a line, the diagonal of an area, the height of an area round an
+    axis; 0 for a point or a circle."""
     inside: bool
     """False where the faces meet only along an edge of one of them."""
 
 
 def contact_region(kind: str, touch: Touch, face1: Face, face2: Face, tolerance: float) -> ContactRegion | None:
-    """The region that two faces share where their surfaces touch, or None. `tolerance` is a length."""
+    """Find the region that two faces share where their surfaces touch; None if they share none.
+
+    `kind` is "surface", "line", "circle" or "point"; `tolerance` is a length.
+    """
     match kind:
         case "surface":
             return _surface(touch, face1, face2, tolerance)
@@ -49,6 +54,7 @@ def contact_region(kind: str, touch: Touch, face1: Face, face2: Face, tolerance:
 
 
 def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> ContactRegion | None:
+    """Find the area that two faces on the same surface share."""
     a, b = face1.triangles, face2.triangles
     match face1.surface:
         case Plane():
@@ -76,7 +82,7 @@ def _surface(touch: Touch, face1: Face, face2: Face, tolerance: float) -> Contac
 
 
 def _is_wide(shared: Overlap, a: Solid, b: Solid, between: Difference, tolerance: float) -> bool:
-    """Whether an overlap is more than the slivers that noise and the chords of two tessellations leave at an edge."""
+    """Check that an overlap is wider than the slivers that noise and chords of two tessellations leave at an edge."""
     width = shared.area / max(shared.extent, tolerance)
     if width > 0.1 * shared.extent:
         return True
@@ -84,6 +90,7 @@ def _is_wide(shared: Overlap, a: Solid, b: Solid, between: Difference, tolerance
 
 
 def _line(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
+    """Find the pieces of a contact line that lie on both faces."""
     cuts = _cuts(touch, touch.direction, face1, face2, margin)
     for shared, inside in ((_inside(cuts), True), (_at_rim(cuts, margin), False)):
         if intervals.length(shared) > margin:
@@ -93,11 +100,12 @@ def _line(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegio
 
 
 def _point(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
+    """Check whether a contact point lies on both faces: `margin` (a length) to either side along a line."""
     cuts = _cuts(touch, perpendicular(touch.normal), face1, face2, margin)
     around = np.array([[-margin, margin]])
     for shared, inside in ((_inside(cuts), True), (_at_rim(cuts, margin), False)):
         shared = intervals.intersection(shared, around)
-        if inside and intervals.length(shared) < 1.999 * margin:
+        if inside and intervals.length(shared) < 1.999 * margin:  # 2 margins but for rounding
             continue
         if len(shared):
             return ContactRegion(touch.point, 0.0, inside)
@@ -105,11 +113,12 @@ def _point(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegi
 
 
 def _circle(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactRegion | None:
-    """Angles about the axis are compared as lengths along the circle."""
+    """Find the arcs of a contact circle that lie on both faces, as lengths along the circle."""
     x = perpendicular(touch.direction)
     y = np.cross(touch.direction, x)
 
     def arcs(face: Face, height: float) -> Intervals:
+        """Cut a face with the plane at a height over the circle, and return the arcs as lengths along the circle."""
         segments = _cut(face.triangles, touch.point + height * touch.direction, touch.direction) - touch.point
         angles = np.arctan2(segments @ y, segments @ x)
         angles[:, 1] = angles[:, 0] + shorter_way(angles[:, 1] - angles[:, 0])
@@ -126,9 +135,10 @@ def _circle(touch: Touch, face1: Face, face2: Face, margin: float) -> ContactReg
 
 
 def _cuts(touch: Touch, along: Vector, face1: Face, face2: Face, margin: float) -> list[list[Intervals]]:
-    """For each face, what two planes to either side of a line show of it, as lengths along the line.
+    """Cut both faces with two planes to either side of a line through `touch.point` in the direction `along`.
 
-    A curved face is cut on the side that touches only, where its normal is that of the contact.
+    Returns for each face, and each of the two planes, the intervals cut, as lengths along the line from `touch.point`.
+    Of a curved face only the triangles are cut that face the other part.
     """
     across = np.cross(touch.normal, along)
     cuts = []
@@ -141,19 +151,19 @@ def _cuts(touch: Touch, along: Vector, face1: Face, face2: Face, margin: float) 
 
 
 def _inside(cuts: list[list[Intervals]]) -> Intervals:
-    """What all cuts of both faces share."""
+    """Intersect the cuts of both faces with both planes."""
     (a, b), (c, d) = cuts
     return intervals.intersection(intervals.intersection(a, b), intervals.intersection(c, d))
 
 
 def _at_rim(cuts: list[list[Intervals]], gap: float) -> Intervals:
-    """What at least one cut of each face shows."""
+    """Intersect, for the two faces, the union of their cuts with both planes."""
     first, second = (intervals.union(np.concatenate(sides), gap) for sides in cuts)
     return intervals.intersection(first, second)
 
 
 def _cut(triangles: np.ndarray, point: Vector, normal: Vector) -> np.ndarray:
-    """The segments (k, 2, 3) in which a plane cuts triangles."""
+    """Compute the segments (k, 2, 3) in which a plane, given by a point and its normal, cuts triangles (_, 3, 3)."""
     heights = (triangles - point) @ normal
     above = heights > 0
     crossed = above.any(axis=1) & ~above.all(axis=1)

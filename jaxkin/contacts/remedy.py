@@ -1,4 +1,4 @@
-"""Tolerances with which a near miss would be a contact: rounded up to few digits, and tried before they are advised."""
+"""Find tolerances with which a near miss would be a contact: rounded up to few digits, and tried before advised."""
 
 from __future__ import annotations
 
@@ -13,11 +13,15 @@ from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
 
 DIGITS = 2
-"""Digits of an advised tolerance: one that is rounded up by a tenth at most hardly makes other pairs touch."""
+"""Number of significant digits of an advised tolerance.
+
+Two digits round it up by a tenth at most, which makes hardly any other pair of faces touch."""
 _MORE = (1.0, 1.1, 1.3, 1.6, 2.0)
-"""Factors on what a near miss is measured to need, in turn: where its faces overlap depends on the tolerance too."""
+"""Factors by which the tolerance that a near miss seems to need is enlarged, in turn, until it works.
+
+The measured value may not do, since the region that the faces share also depends on the tolerance."""
 _CLOSE = 9
-"""Digits of two numbers of which one is larger, at most: rounding is what differs beyond them."""
+"""Largest number of significant digits that `told_apart` writes; beyond them numbers differ by rounding only."""
 
 Options = dict[str, float]
 """Values by the names of arguments of `Assembly.contacts`."""
@@ -30,9 +34,9 @@ def remedy(
     surfaces: tuple[Surface, Surface],
     works: Callable[[Tolerance], bool],
 ) -> Options:
-    """The tolerances to give for a contact, as few as will do; none where none worth a report will do.
+    """Find the tolerances that make a near miss a contact, as few as possible; empty if no acceptable ones do.
 
-    `works` tells whether the faces are in contact with other tolerances.
+    `works` checks whether given tolerances make the faces a contact.
     """
     if touch.tilt > tolerance.angle or not region.inside:
         return {}
@@ -45,6 +49,7 @@ def remedy(
 def _candidates(
     touch: Touch, region: ContactRegion, tolerance: Tolerance, surfaces: tuple[Surface, Surface]
 ) -> Iterator[Options]:
+    """Yield tolerances that may make the touch a contact: first a larger `fit` alone, then a larger `length` too."""
     radius, clearance = smaller_radius(*surfaces), touch.clearance
     fits: list[Options] = [{}]
     if clearance is not None and clearance > max(tolerance.length, tolerance.fit * radius):
@@ -58,13 +63,13 @@ def _candidates(
 
 
 def rounded_up(value: float, digits: int = DIGITS) -> float:
-    """The next larger number of so many digits; the number itself where it has no more."""
+    """Round a positive number up to a number of significant digits."""
     step = 10.0 ** (np.floor(np.log10(value)) + 1 - digits)
     up = float(f"{np.ceil(value / step * (1 - 1e-12)) * step:.{digits}g}")
     return up if up >= value else float(f"{up + step:.{digits}g}")
 
 
 def told_apart(more: float, less: float) -> tuple[str, str]:
-    """Two numbers with as many digits as tell them apart, three at least."""
+    """Write two numbers with as many digits as make them look different: 3 to `_CLOSE`."""
     texts = [(f"{more:.{digits}g}", f"{less:.{digits}g}") for digits in range(3, _CLOSE + 1)]
     return next((pair for pair in texts if pair[0] != pair[1]), texts[-1])

@@ -1,4 +1,4 @@
-"""The rim of a face, which its triangles follow in chords."""
+"""Measure the arcs of the rim of a face, which its triangles follow in chords."""
 
 from __future__ import annotations
 
@@ -10,14 +10,19 @@ from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.pose import Points
 
 Difference = Callable[[Points, Points], np.ndarray]
-"""(ends, starts) -> vectors from the starts to the ends, in space or in a chart of the surface."""
+"""Function (ends, starts) of points (_, 3) that gives the vectors from the starts to the ends, in space (_, 3) or in a
+chart of the surface (_, 2)."""
 
 CORNER = 0.7
-"""Radians. Where a rim turns by more than this, it has a corner, not an arc."""
+"""Largest angle, radians, between successive chords of one arc; where a rim turns by more, it has a corner."""
 
 
 def chord_height(triangles: Solid, between: Difference) -> float:
-    """How far the chords along the rim cut into the face: the largest height of an arc over its chord."""
+    """Estimate by how much the chords along the rim of a face may cut into it: the largest height of an arc, a length.
+
+    An arc of length l that turns by t radians is l t / 8 high over its chord; l is the length of an edge of the rim,
+    t the angle between this edge and the next one.
+    """
     corners = triangles.reshape(-1, 3)
     scale = 1e-7 * float(np.ptp(corners, axis=0).max()) or 1.0  # corners are kept in single precision by most readers
     _, index = np.unique(np.round((corners - corners[0]) / scale), axis=0, return_inverse=True)
@@ -25,7 +30,7 @@ def chord_height(triangles: Solid, between: Difference) -> float:
     edges = np.stack([loops, np.roll(loops, -1, axis=1)], axis=-1).reshape(-1, 2)
     ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-2).reshape(-1, 2, 3)
     _, position, count = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
-    rim = position[count == 1]  # an edge of one triangle only
+    rim = position[count == 1]  # edges of one triangle only
     leaving = {int(start): number for number, (start, _) in zip(rim, edges[rim], strict=True)}
     joined = np.array([(number, leaving[end]) for number in rim if (end := int(edges[number, 1])) in leaving])
     if not len(joined):

@@ -1,6 +1,6 @@
-"""Where two infinite surfaces touch in the states with cones: they touch along rulings, or where rulings cross.
+"""Find where two unbounded surfaces touch in the states with a cone: along a ruling, or where two rulings cross.
 
-The functions have the same form as those of `touch.py`.
+A ruling is a straight line on a cone or a cylinder. The functions have the same arguments as those of `touch.py`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ def cone_in_cone(s1: Cone, s2: Cone, at: Vector) -> Touch:
     """State (k): a cone that fills a conical seat. The common axis is the mean of the two."""
     axis, tilt = common_axis(s1.axis, s2.axis)
     if s1.axis @ s2.axis < 0:
-        tilt = np.pi  # opening away from each other: the mean axis says nothing of it
+        tilt = np.pi  # the cones open in opposite directions, which the mean axis does not show
     angle_misfit = abs(s1.half_angle - s2.half_angle)
     along = float((s2.apex - s1.apex) @ axis)
     across = distance(foot(at, s1.apex, s1.axis), foot(at, s2.apex, s2.axis))
@@ -99,13 +99,16 @@ def sphere_in_seat(s1: Cone, s2: Sphere, at: Vector) -> Touch:
 
 
 def ruling(cone: Cone, outwards: Vector) -> Vector:
-    """The direction from the apex of the ruling that lies farthest in the direction `outwards` from the axis."""
+    """Return the unit vector from the apex along the ruling on the side of the axis that `outwards` points to."""
     across = _direction(outwards - (outwards @ cone.axis) * cone.axis, cone.axis)
     return np.cos(cone.half_angle) * cone.axis + np.sin(cone.half_angle) * across
 
 
 def _shared_ruling(p1: Vector, d1: Vector, normal: Vector, p2: Vector, d2: Vector, at: Vector) -> Touch:
-    """Two rulings that should be one; a sidewise distance counts as a gap too."""
+    """Measure how two rulings, that should be one, miss each other near `at`; their whole distance counts as the gap.
+
+    `p1`, `d1` and `p2`, `d2` are a point and the unit vector of each; `normal` is the normal of surface 1.
+    """
     on1, on2 = foot(at, p1, d1), foot(at, p2, d2)
     offset = on2 - foot(on2, p1, d1)
     gap = np.copysign(np.linalg.norm(offset), offset @ normal)
@@ -114,7 +117,11 @@ def _shared_ruling(p1: Vector, d1: Vector, normal: Vector, p2: Vector, d2: Vecto
 
 
 def _crossing_rulings(p1: Vector, d1: Vector, normal: Vector, cone: Cone) -> Touch | None:
-    """A ruling of surface 1 and the ruling of a cone that is nearest to the tangent plane along the first."""
+    """Measure how a ruling of surface 1 and a ruling of a cone, that should cross, miss each other.
+
+    `p1` is a point of the first, `d1` its unit vector, `normal` the normal of surface 1 along it. The second is the
+    ruling on the side of the cone towards surface 1. None where the rulings are parallel, or cross behind the apex.
+    """
     line2 = ruling(cone, -normal)
     closest = closest_points(p1, d1, cone.apex, line2)
     if closest is None or (closest[1] - cone.apex) @ line2 <= 0:
@@ -123,7 +130,7 @@ def _crossing_rulings(p1: Vector, d1: Vector, normal: Vector, cone: Cone) -> Tou
 
 
 def _normals(edge: Vector, direction: Vector, height: float) -> list[Vector]:
-    """The unit vectors perpendicular to a unit `edge` whose product with `direction` is `height`: two or none."""
+    """Find the unit vectors n with n . edge = 0 and n . direction = height: two or none; `edge` is a unit vector."""
     level = direction - (direction @ edge) * edge
     length = float(np.linalg.norm(level))
     if length <= abs(height):
@@ -135,10 +142,11 @@ def _normals(edge: Vector, direction: Vector, height: float) -> list[Vector]:
 
 
 def _nearest(touches: list[Touch | None]) -> Touch | None:
+    """Choose the touch with the smallest gap; None where there is no touch."""
     real = [touch for touch in touches if touch is not None]
     return min(real, key=lambda touch: abs(touch.gap)) if real else None
 
 
 def _direction(vector: Vector, axis: Vector) -> Vector:
-    """The unit vector along `vector`, or any perpendicular to the axis where it vanishes."""
+    """Return the unit vector along `vector`, or any one perpendicular to `axis` if `vector` is zero."""
     return unit(vector) if np.any(vector) else perpendicular(axis)

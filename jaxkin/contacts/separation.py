@@ -1,9 +1,10 @@
-"""How far two trimmed faces are from each other along the surfaces that stay in contact, over many displacements.
+"""Measure how far two faces are apart along their surfaces, which stay in contact, over many displacements.
 
-While a mechanism moves, its joints keep the infinite surfaces in contact; whether the faces are still where they touch,
-nothing keeps. One function a kind of contact, `(face 1, face 2, displacements of face 2) -> gaps`: extents of the faces
-along the freedoms of the contact, by convex hulls and intervals. They are larger than the faces, so that a positive gap
-is one for sure, and a negative one says nothing about holes, notches and half bores.
+While a mechanism moves, its joints keep the unbounded surfaces in contact; they do not keep the faces, which are
+bounded pieces of the surfaces, from sliding apart. There is one function for each kind of contact, from face 1, face 2
+and the displacements of face 2 to gaps. A face is replaced by a convex hull or an interval along the freedoms of the
+contact, which contains it. So a positive gap is certain; a negative gap does not exclude that the faces are apart, at
+holes, notches and half bores.
 """
 
 from __future__ import annotations
@@ -20,20 +21,24 @@ from jaxkin.geometry.pose import Vector, perpendicular
 from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 
 Displacements = Float[np.ndarray, "3 4 poses"]
-"""Of face 2 relative to face 1 from the assembled pose, in world coordinates: the upper rows of 4x4 matrices."""
+"""Displacements of face 2 relative to face 1 from the assembled pose, in world coordinates: the first three rows of
+4x4 matrices, with the pose as last axis."""
 Gaps = Float[np.ndarray, " poses"]
-"""Length by which faces are surely apart; negative where they may overlap."""
+"""For each pose the length by which the faces are at least apart along the surface; negative where they may overlap."""
 
 
 def along_axis(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
-    """Cylinder 1 and what slides along its axis: heights of a cylinder, a ruling of a cone, the centre of a ball."""
+    """Measure the gap along the axis of cylinder 1, between its heights and those of cylinder, cone or ball 2.
+
+    A cone that touches along a ruling has its ruling parallel to the axis; a ball counts by its centre.
+    """
     one, other = interval(face1), interval(face2)
     place = _moved(one.direction, displacements, other.origin) - one.direction @ one.origin
     return _between(one, other, place, 1.0 if one.direction @ other.direction >= 0 else -1.0)
 
 
 def on_ruling(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
-    """A ball on a cone: the foot of its centre on the ruling that it touches, and the rulings of the face."""
+    """Measure the gap along the rulings of cone 1, between face 1 and the point where ball 2 touches its ruling."""
     one, cone, centre = interval(face1), cast(Cone, face1.surface), interval(face2).origin
     offset = _points(displacements, centre) - cone.apex[:, None]
     height = cone.axis @ offset
@@ -43,20 +48,27 @@ def on_ruling(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
 
 
 def across(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
-    """Crossed cylinders: where the common normal of their axes meets each of them, and the heights of both."""
+    """Measure the gap of two crossed cylinders along either axis, between the face and the common normal of the axes.
+
+    Of the two gaps, the larger one is returned.
+    """
     one, other = interval(face1), interval(face2)
     direction = np.einsum("ijn,j->in", displacements[:, :3], other.direction)
     between = _points(displacements, other.origin) - one.origin[:, None]
     cosine = one.direction @ direction
     along1, along2 = one.direction @ between, np.sum(direction * between, axis=0)
-    square = np.maximum(1.0 - cosine**2, 1e-12)  # parallel axes are no crossed ones: any large number will do
+    square = np.maximum(1.0 - cosine**2, 1e-12)  # parallel axes have no common normal: any large gap will do
     place1, place2 = (along1 - cosine * along2) / square, (cosine * along1 - along2) / square
     point = Interval(one.origin, one.direction, 0.0, 0.0)
     return np.maximum(_between(one, point, place1, 1.0), _between(other, point, place2, 1.0))
 
 
 def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
-    """Plane 1 and what lies on it: the outline of a plane, the line of a cylinder or a cone, the foot of a ball."""
+    """Measure the gap in plane 1 between the hull of face 1 and that of what lies on it.
+
+    This is the outline of a plane, the contact line of a cylinder or a cone, or the contact point of a ball. -inf where
+    an outline has no hull, since all its corners are on one line.
+    """
     plane = cast(Plane, face1.surface)
     x = perpendicular(plane.normal)
     axes = np.stack([x, np.cross(plane.normal, x)])
@@ -70,7 +82,10 @@ def on_plane(face1: Face, face2: Face, displacements: Displacements) -> Gaps:
 
 
 def _lying(face: Face, normal: Vector) -> tuple[Vector, Vector, Hull | None]:
-    """What of a face lies on a plane: origin and x axis of its chart (y is normal x x), and its hull there."""
+    """Make the hull of what of a face lies on a plane with a unit `normal`.
+
+    Returns the origin and the x axis of a chart of the plane, and the hull in its coordinates; y = normal x x.
+    """
     match face.surface:
         case Plane(point=point, normal=direction):
             x = perpendicular(direction)
@@ -83,15 +98,19 @@ def _lying(face: Face, normal: Vector) -> tuple[Vector, Vector, Hull | None]:
 
 
 def _between(one: Interval, other: Interval, place: Gaps, sign: float) -> Gaps:
-    """The gap between two intervals on one line, the second one moved to `place` and reversed by a sign of -1."""
+    """Measure the gap between two intervals on one line: a length, negative where they overlap.
+
+    The origin of the second is at `place` (poses,) on the line, and its direction is reversed for a sign of -1.
+    """
     low, high = sorted((sign * other.low, sign * other.high))
     return np.maximum(place + (low - one.high), (one.low - high) - place)
 
 
 def _points(displacements: Displacements, point: Vector) -> Float[np.ndarray, "3 poses"]:
+    """Displace a point."""
     return np.einsum("ijn,j->in", displacements, np.append(point, 1.0))
 
 
 def _moved(direction: Vector, displacements: Displacements, point: Vector) -> Gaps:
-    """The coordinate of a displaced point along a direction."""
+    """Compute the coordinate of a displaced point along a direction, from the origin of the world."""
     return np.einsum("i,ijn,j->n", direction, displacements, np.append(point, 1.0))

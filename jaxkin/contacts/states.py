@@ -1,8 +1,9 @@
-"""The sixteen contact states of the paper as data: Fig. 1, Table 1 (frames) and Table 2 (movements) side by side.
+"""The sixteen contact states of the paper as a table: Fig. 1, Table 1 (frames) and Table 2 (movements) side by side.
 
 Table 2 is printed with errors in (j), (l) and (n); the movements here are the corrected ones. Two states have a second
-form, a contact on a circle: a ball that fills its bore (j) and a ball seated in a cone (n). The paper has no rows for
-them. Within the pair of kinds the order matters: a fit is tried before the tangency that it would be if it were loose.
+form, which the paper does not have, with contact on a circle: a ball that fills its bore (j), and a ball seated in a
+cone (n). The order of the states of two kinds of surface is that in which they are tried: a fit, such as a pin that
+fills its hole, comes before the contact on a line or at a point of the same surfaces with more clearance.
 """
 
 from __future__ import annotations
@@ -16,8 +17,11 @@ from jaxkin.contacts import rulings, separation, touch
 Region = Literal["surface", "line", "point", "circle"]
 
 OUTSIDE = ((1, 1),)
+"""Sides of two bodies next to each other: the material is inside of both surfaces (see `ContactState.sides`)."""
 INSIDE = ((1, -1), (-1, 1))
+"""Sides of a body in the hollow of another one, either of them first."""
 HOLLOW_1 = ((-1, 1),)
+"""Sides of body 2 in the hollow of body 1."""
 
 
 @dataclass(frozen=True)
@@ -25,42 +29,47 @@ class ContactState:
     """One row of Tables 1 and 2."""
 
     letter: str
+    """Letter of the state in the paper, "a" to "p"."""
     name: str
-    """In words: surface 2, how it lies, surface 1."""
+    """The state in words: surface 2, how it lies, surface 1."""
     kinds: tuple[str, str]
     """Kinds of surface 1 and surface 2, in the order plane, cylinder, cone, sphere."""
     sides: tuple[tuple[int, int], ...]
-    """Which combinations of sides can touch so: +1 material inside (pin, ball, plane), -1 outside (hole, socket)."""
+    """Sides (of surface 1, of surface 2) that the state allows: +1 material inside (pin, ball, also plane), -1 outside
+    (hole, socket)."""
     region: Region
+    """What the surfaces have in common where they touch."""
     frames: tuple[tuple[str, str], ...]
-    """Table 1, a frame each: what z is parallel to and what O lies on, in the symbols of the paper: surface f, its
-    normal n, axis a, centre c, apex v; m the common normal, l the line, p the point of contact."""
+    """Table 1: for each frame what z is parallel to and what the origin lies on, in symbols of the paper: surface f,
+    its normal n, axis a, centre c, apex v, with 1 or 2; common normal m, line l, point p of contact."""
     movements: tuple[str, ...]
-    """Table 2 as corrected, a frame each: keys of `jaxkin.geometry.movements.MOVEMENTS`."""
+    """Table 2, corrected: the movement of each frame, a key of `jaxkin.geometry.movements.MOVEMENTS`."""
     freedoms: int
+    """Number of freedoms of surface 2 relative to surface 1."""
     touch: Callable[..., touch.Touch | None]
-    """`(surface 1, surface 2, at) -> Touch`: where the infinite surfaces touch and by how much they miss."""
+    """Function (surface 1, surface 2, a point near the contact) that finds where the unbounded surfaces touch, and by
+    how much they miss; see `touch.py`."""
     gaps: Callable[..., separation.Gaps] | None = None
-    """`(face 1, face 2, displacements) -> gaps`: how far the faces are apart on surfaces that still touch. None where
-    the surfaces only turn on each other, about one axis or centre, and where that is not found out: (i), (l), (m), (p).
-    """
+    """Function (face 1, face 2, displacements) that measures how far the faces are apart on surfaces that still touch;
+    see `separation.py`. None where the surfaces only turn on each other, about one axis or centre: (k), (o), (n) on a
+    circle; and where no such function exists: (i), (l), (m), (p)."""
     lengths: tuple[str | None, ...] = ()
-    """Names of the lengths between successive frames of the chain, in turn; None where a gap has no length to be set:
-    half-angles of cones, since the frames alone do not hold them."""
+    """Name of the length between each two successive frames of the chain, or None where it cannot be changed: it
+    depends on the half-angle of a cone, which the frames do not hold."""
 
     @property
     def is_flat(self) -> bool:
-        """Whether two planes lie on each other: (a)."""
+        """Whether the state is a plane on a plane: (a)."""
         return self.kinds == ("plane", "plane")
 
     @property
     def is_fit(self) -> bool:
-        """Whether one curved surface fills the other: (e), (k), (o)."""
+        """Whether the state is a fit, a curved surface that fills another one: (e), (k), (o)."""
         return self.region == "surface" and not self.is_flat
 
     @property
     def is_pin(self) -> bool:
-        """Whether a pin fills its bore: (e)."""
+        """Whether the state is a pin that fills its hole: (e)."""
         return self.is_fit and self.kinds == ("cylinder", "cylinder")
 
 
@@ -123,9 +132,9 @@ CONTACT_STATES: tuple[ContactState, ...] = (
 
 
 def find_state(letter: str, region: str | None = None) -> ContactState:
-    """The state with this letter. `region="circle"` selects the circle forms of (j) and (n).
+    """Look up a contact state by its letter; `region="circle"` selects the second forms of (j) and (n).
 
-    ValueError if there is no such state, or not with this region.
+    Raises ValueError if there is no such state, or if it has no such region.
     """
     rows: dict[str, ContactState] = {state.region: state for state in CONTACT_STATES if state.letter == letter}
     if not rows:

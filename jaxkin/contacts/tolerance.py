@@ -1,4 +1,4 @@
-"""When a touch counts as a contact, and when it is near enough to be reported as a miss."""
+"""Decide whether a touch of two surfaces counts as a contact, or is near enough to be reported as a near miss."""
 
 from __future__ import annotations
 
@@ -11,38 +11,40 @@ from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.surfaces import Surface
 
 NEAR = 100.0
-"""Gaps of so many length tolerances are still reported: 1e-3 of the size, below what is left free on purpose."""
+"""Largest gap that is reported, over the length tolerance: by default 1e-3 of the size of the assembly, less than gaps
+that are there on purpose."""
 NEAR_PART = 0.01
-"""Of the smaller part's diagonal; gaps up to here are reported: a large assembly must not make small parts near."""
+"""Largest gap that is reported, over the diagonal of the smaller part: in a large assembly small parts with gaps of
+their own size must not count as near."""
 NEAR_TILT = 0.05
-"""Radians; tilts up to here are reported. Assemblies saved in a sloppy pose were seen at 0.02."""
+"""Largest tilt that is reported, radians: assemblies saved in an inexact pose were seen with tilts of 0.02."""
 NEAR_FIT = 0.25
-"""Of the radius; clearances, interferences and eccentricities of a fit up to here are reported."""
+"""Largest clearance, interference or eccentricity of a fit that is reported, over its radius."""
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Tolerances of contact detection. The lengths scale with the assembly, so that its unit does not matter."""
+    """The tolerances of contact detection."""
 
     length: float
-    """Gap that still counts as touching, in the unit of the assembly."""
+    """Largest gap that counts as touching, in the unit of the assembly."""
     angle: float = 1e-4
-    """Radians between directions that count as parallel."""
+    """Largest angle between directions that count as parallel, radians."""
     fit: float = 0.02
-    """Clearance, relative to the radius, up to which a pin fills its hole and a ball its socket."""
+    """Largest clearance, over the radius, with which a pin fills its hole and a ball its socket."""
     near_length: float = 0.0
-    """Gap up to which a miss is reported."""
+    """Largest gap that is reported as a near miss, in the unit of the assembly."""
 
     def between(self, one: Part, other: Part) -> Tolerance:
-        """The same with the gap that is worth a report between these two parts."""
+        """Return these tolerances with `near_length` set for two given parts."""
         return replace(self, near_length=min(NEAR * self.length, NEAR_PART * min(size((one,)), size((other,)))))
 
     def fits(self, touch: Touch, extent: float, s1: Surface, s2: Surface) -> bool:
-        """Whether a touch is a contact, given the extent of its region."""
+        """Check whether a touch of surfaces `s1`, `s2` is a contact; `extent` is the length of the contact region."""
         return touch.tilt <= self.angle and self.excess(touch, extent, s1, s2) == 0.0
 
     def excess(self, touch: Touch, extent: float, s1: Surface, s2: Surface) -> float:
-        """The length by which a touch misses a contact after all that is allowed."""
+        """Compute by how much a touch exceeds the tolerances on lengths, as a length: zero for a contact."""
         if touch.clearance is None:
             return max(0.0, reach(touch, extent) - self.length)
         loose = max(self.length, self.fit * smaller_radius(s1, s2))
@@ -51,7 +53,7 @@ class Tolerance:
         return beyond + max(0.0, reach(touch, extent) - allowed)
 
     def near(self, touch: Touch, s1: Surface, s2: Surface) -> bool:
-        """Whether a touch is worth a report if it is no contact."""
+        """Check whether a touch is near enough to be reported if it is no contact."""
         allowed = max(self.length, self.near_length)
         if touch.clearance is not None:
             allowed = max(allowed, NEAR_FIT * smaller_radius(s1, s2))
@@ -61,16 +63,19 @@ class Tolerance:
 
 
 def reach(touch: Touch, extent: float) -> float:
-    """The largest distance between the surfaces over the region: the gap, and the tilt over half its extent."""
+    """Compute the largest distance of the surfaces over the contact region: |gap| + tilt x extent / 2."""
     return abs(touch.gap) + touch.tilt * extent / 2
 
 
 def default_length(parts: tuple[Part, ...]) -> float:
-    """1e-5 of the diagonal of the assembly, or 1e-6 of its largest coordinate: placements come in single precision."""
+    """Choose the length tolerance: 1e-5 of the diagonal of the assembly, or 1e-6 of its largest coordinate if larger.
+
+    The second is a few roundings of a coordinate in float32, in which placements are read.
+    """
     farthest = max(float(np.abs(part.box).max()) for part in parts)
     return max(1e-5 * size(parts), 1e-6 * farthest)
 
 
 def smaller_radius(s1: Surface, s2: Surface) -> float:
-    """What a fit is relative to."""
+    """Return the smaller radius of two surfaces, to which the clearance of a fit is relative; infinite without one."""
     return min(getattr(surface, "radius", np.inf) for surface in (s1, s2))

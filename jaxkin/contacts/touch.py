@@ -1,8 +1,9 @@
-"""Where two infinite surfaces touch in the states without cones, and by how much they miss it.
+"""Find where two unbounded surfaces touch in the states without a cone, and by how much they miss each other.
 
-One function a state, `(surface 1, surface 2, at) -> Touch`. `at` is a point near the contact: misfits that grow along
-an axis are measured there. None means that the state has no meaning for the pair, such as a crossing of parallels.
-The states with cones are in `rulings.py`, the rules that accept a touch as a contact in `tolerance.py`.
+There is one function for each state, from surface 1, surface 2 and a point `at` near the contact to a `Touch`. Gaps
+that vary along an axis are measured next to `at`. None is returned where the state is not possible for the two
+surfaces, such as a crossing of parallel axes. The states with a cone are in `rulings.py`; `tolerance.py` decides
+whether a touch counts as a contact.
 """
 
 from __future__ import annotations
@@ -15,17 +16,18 @@ from jaxkin.geometry.pose import Points, Vector, unit
 from jaxkin.geometry.surfaces import Cylinder, Plane, Sphere
 
 CROSSING = 0.03
-"""Radians. Two rulings at a smaller angle are a line contact that is tilted, not a contact at a point."""
+"""Smallest angle, radians, between two lines that cross: at a smaller one the surfaces have a tilted contact along a
+line, not a contact at a point."""
 
 
 @dataclass(frozen=True, eq=False)
 class Touch:
-    """The place where two infinite surfaces touch or nearly do."""
+    """The place where two unbounded surfaces touch or nearly touch."""
 
     gap: float
     """Length between the surfaces where they should touch: positive apart, negative overlapping."""
     tilt: float
-    """Radians between directions that should be parallel."""
+    """Angle between directions that should be parallel, radians."""
     point: Vector
     """A point of the contact; the centre of a contact on a circle."""
     normal: Vector = field(default_factory=lambda: np.zeros(3))
@@ -33,9 +35,9 @@ class Touch:
     direction: Vector = field(default_factory=lambda: np.zeros(3))
     """Along a contact line (the paper's l); the common axis where two surfaces share one; else zero."""
     radius: float = 0.0
-    """Of a contact on a circle."""
+    """Radius of a contact on a circle; else 0."""
     clearance: float | None = None
-    """Radius of the hole less that of what fills it, for the states that are a fit."""
+    """Radius of the hole less that of the pin or ball in it, for the fits (e), (o) and (j) on a circle; else None."""
 
 
 def plane_plane(s1: Plane, s2: Plane, at: Vector) -> Touch:
@@ -62,7 +64,7 @@ def plane_sphere(s1: Plane, s2: Sphere, at: Vector) -> Touch:
 
 
 def cylinder_in_cylinder(s1: Cylinder, s2: Cylinder, at: Vector) -> Touch:
-    """State (e): a pin that fills its hole. The common axis is the mean of the two."""
+    """State (e): a pin that fills its hole. The common axis is the mean of the two axes, the gap their distance."""
     foot1, foot2 = foot(at, s1.point, s1.axis), foot(at, s2.point, s2.axis)
     clearance = -(s1.side * s1.radius + s2.side * s2.radius)
     axis, tilt = common_axis(s1.axis, s2.axis)
@@ -100,7 +102,7 @@ def sphere_in_bore(s1: Cylinder, s2: Sphere, at: Vector) -> Touch:
 
 
 def sphere_in_sphere(s1: Sphere, s2: Sphere, at: Vector) -> Touch:
-    """State (o): a ball that fills its socket. The common centre is the mean of the two."""
+    """State (o): a ball that fills its socket. The common centre is the mean of the two, the gap their distance."""
     clearance = -(s1.side * s1.radius + s2.side * s2.radius)
     return Touch(distance(s1.centre, s2.centre), 0.0, (s1.centre + s2.centre) / 2, clearance=clearance)
 
@@ -111,23 +113,30 @@ def sphere_on_sphere(s1: Sphere, s2: Sphere, at: Vector) -> Touch | None:
 
 
 def round_touch(centre: Vector, r1: float, side1: int, offset: Vector, r2: float, side2: int) -> Touch | None:
-    """Two circles in one plane, `offset` from the first centre to the second; None if the centres coincide."""
-    apart = float(np.linalg.norm(offset))
-    if apart == 0.0:
+    """Find where two circles in one plane touch, or two spheres; None if their centres coincide.
+
+    `offset` leads from the first centre, `centre`, to the second; `r1`, `r2` are the radii, and the sides are +1 for
+    material inside, -1 for material outside.
+    """
+    between = float(np.linalg.norm(offset))
+    if between == 0.0:
         return None
-    outside = 1 if side1 == side2 else -1  # side by side, or the one in the other
-    towards = offset / apart
-    gap = outside * apart - (side1 * r1 + side2 * r2)
+    outside = 1 if side1 == side2 else -1  # +1 next to each other, -1 one in the other
+    towards = offset / between
+    gap = outside * between - (side1 * r1 + side2 * r2)
     return Touch(gap, 0.0, centre + outside * side1 * r1 * towards, normal=outside * towards)
 
 
 def foot(points: Points, origin: Vector, direction: Vector) -> Points:
-    """The points of a line, given by a point and a unit direction, that are nearest to the given ones."""
+    """Project points onto a line, given by a point and a unit vector."""
     return origin + ((points - origin) @ direction)[..., None] * direction
 
 
 def closest_points(p1: Vector, d1: Vector, p2: Vector, d2: Vector) -> tuple[Vector, Vector] | None:
-    """Where two crossing lines are nearest to each other; None if they are parallel within `CROSSING`."""
+    """Find the points of two lines that are nearest to each other; None if the lines are parallel within `CROSSING`.
+
+    A line is given by a point and a unit vector.
+    """
     normal = np.cross(d1, d2)
     square = float(normal @ normal)
     if square < np.sin(CROSSING) ** 2:
@@ -137,15 +146,19 @@ def closest_points(p1: Vector, d1: Vector, p2: Vector, d2: Vector) -> tuple[Vect
 
 
 def common_axis(axis1: Vector, axis2: Vector) -> tuple[Vector, float]:
-    """The mean of two axes, directed as the first, and the angle between them, either way round."""
+    """Compute the mean of two axes, unit vectors, and the angle between them (radians, at most pi / 2).
+
+    The second axis is reversed if it points against the first.
+    """
     turned = axis2 if axis1 @ axis2 >= 0 else -axis2
     return unit(axis1 + turned), angle(axis1, turned)
 
 
 def angle(direction1: Vector, direction2: Vector) -> float:
-    """Radians between two unit vectors, accurate for small angles too."""
+    """Compute the angle between two unit vectors, 0 to pi, accurate for small angles too."""
     return float(np.arctan2(np.linalg.norm(np.cross(direction1, direction2)), direction1 @ direction2))
 
 
 def distance(point1: Vector, point2: Vector) -> float:
+    """Compute the distance of two points."""
     return float(np.linalg.norm(point1 - point2))

@@ -1,4 +1,4 @@
-"""Cylinders and cones unrolled about their axis."""
+"""Unroll cylinders and cones: a chart of angle about the axis (times a radius) and height along it."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from jaxkin.geometry.pose import Points, Vector, perpendicular
 
 
 def unrolled(triangles: Solid, origin: Vector, axis: Vector, radius: float) -> Flat:
-    """Angle about the axis times `radius`, and height along it from `origin`.
+    """Map triangles to the chart: angle about `axis` times `radius`, and height along it from `origin`, both lengths.
 
-    The corners of a triangle lie within half a turn of its first one, which lies in [-pi, pi]. A triangle with a corner
-    on the axis, the apex of a cone, covers all heights between two angles and becomes two.
+    The first corner of a triangle has an angle in [-pi, pi], the others are within half a turn of the first. A triangle
+    with a corner at the apex of a cone, where all angles meet, is a rectangle in the chart and becomes two triangles;
+    the second ones come last.
     """
     x = perpendicular(axis)
     offset = triangles - origin
@@ -33,13 +34,13 @@ def unrolled(triangles: Solid, origin: Vector, axis: Vector, radius: float) -> F
 
 
 def turned(chart: Flat, radius: float) -> Flat:
-    """An unrolled chart with its copies one turn back and one turn on."""
+    """Add copies of unrolled triangles one turn back and one turn ahead, so that overlaps across +-pi are found."""
     turn = np.array([2 * np.pi * radius, 0.0])
     return np.concatenate([chart - turn, chart, chart + turn])
 
 
 def unrolled_difference(ends: Points, starts: Points, origin: Vector, axis: Vector, radius: float) -> np.ndarray:
-    """From each start to its end in the unrolled surface, the shorter way round."""
+    """Compute the vectors (_, 2) in the chart from each start to its end, the shorter way round the axis."""
     x = perpendicular(axis)
     y = np.cross(axis, x)
     theta_start, theta_end = (np.arctan2((p - origin) @ y, (p - origin) @ x) for p in (starts, ends))
@@ -47,5 +48,5 @@ def unrolled_difference(ends: Points, starts: Points, origin: Vector, axis: Vect
 
 
 def shorter_way(angle: np.ndarray) -> np.ndarray:
-    """The same turn within half a turn."""
+    """Wrap angles to [-pi, pi]."""
     return np.angle(np.exp(1j * angle))

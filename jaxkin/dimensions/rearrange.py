@@ -1,8 +1,12 @@
-"""Place the joints of a part with three joints or more so that new lengths hold, and all its other lengths stay.
+"""Move the features of a part with three joints or more so that some lengths get new values and all others stay.
 
-The formulas of `feature_geometry` change one length between two features. With a third feature the one that moves must
-also keep its lengths to that (a triangle is given by its three sides). This is a small system of equations in the
-positions, solved by damped Gauss-Newton steps and differentiated by the implicit function theorem.
+A feature is the point, axis or plane of a joint on the part. The formulas of `feature_geometry` change one length
+between two features. With a third feature, the one that moves must also keep its lengths to the third, as a triangle is
+given by its three sides. That makes a small system of equations for the positions of the features, which `placement`
+solves.
+
+`xp` is numpy on the host or jax.numpy for traced numbers, as in `feature_geometry`; no Python branch depends on a
+number. In shapes, "features" is their number n, "pairs" is n (n - 1) / 2 in the order of `itertools.combinations`.
 """
 
 from __future__ import annotations
@@ -11,21 +15,16 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import Any, NamedTuple
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float
 
 from jaxkin.dimensions.feature_geometry import Between, between
 from jaxkin.dimensions.features import Feature, Quantity
-
-PLACEMENT_ITERATIONS = 60
-"""Gauss-Newton steps at most; the loop ends before when a step is of rounding size."""
+from jaxkin.dimensions.placement import TINY, PairEquations, residuals, solve_positions
 
 
 class Change(NamedTuple):
-    """A length to be changed: static, since its target is given separately."""
+    """A length to be changed. Its new value is given separately (`targets`), so that a `Change` is static under jit."""
 
     first: int
     second: int
@@ -34,70 +33,58 @@ class Change(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """The static input: the features of a part, and which of its lengths change."""
+    """The features of a part, and which lengths between them change: static under jit."""
 
     features: tuple[Feature, ...]
     changes: tuple[Change, ...]
 
 
-class _Pairs(NamedTuple):
-    """The equations of all pairs of features (first axis) for the vectors d between them, divided by the size."""
-
-    project: Any
-    """3x3: projects d onto the directions in which the distance is measured."""
-    distance: Any
-    along: Any
-    """Direction of the distance where the equation is linear in d: `project d = distance along`."""
-    linear: Any
-    """Whether it is linear; otherwise it is `|project d| = distance`."""
-    offsets: Any
-    """Two vectors, one for the offset along either feature: `offset . d = place`; zero where there is no offset."""
-    places: Any
-    angles: Any
-    """Errors of the cosines of the angles: constant, since only positions are solved for."""
-    weights: Any
-    """One for each feature: 1 if it moves, else 0."""
-
-
 def arrange(xp, layout: Layout, original, guess, targets) -> tuple[Any, Any]:
-    """Solve for poses of all features near the guess; return them and the misfit, relative to the size of the part.
+    """Solve for the poses of all features near a guess, such that the lengths in `layout.changes` get their targets.
 
-    `original` and `guess` are 4x4 poses (features, 4, 4), `targets` one number for each change. The second feature of
-    every change moves, and so do all that coincide with it; the others stay. The misfit is the norm of all residuals:
-    of rounding size where the lengths agree, else a differentiable measure of their contradiction.
+    `original` and `guess` hold the poses of the features (features, 4, 4) in one frame of the part, in the unit of the
+    mechanism; the guess has the new directions, and its origins are where the search for positions starts. `targets`
+    holds a length or an angle in radians for each change. All lengths that do not change keep their values at
+    `original`. The second feature of every change moves, and so do all that coincide with it; the others stay.
+
+    Returns the poses (features, 4, 4) and the misfit, dimensionless: the norm of all residuals, with lengths over the
+    size of the part (the root of the summed squared distances of the origins from their mean). The misfit is of
+    rounding size where all lengths can hold, else a differentiable measure of their contradiction.
     """
-    places = original[:, :3, 3]
-    size = xp.sqrt(xp.sum((places - places.mean(axis=0)) ** 2)) + 1e-300
+    origins = original[:, :3, 3]
+    size = xp.sqrt(xp.sum((origins - origins.mean(axis=0)) ** 2)) + TINY
     pairs = _pairs(xp, layout, original, guess, targets, size)
     start = guess[:, :3, 3] / size
-    positions = _search(np, _host_loop, pairs, start) if xp is np else _solve(pairs, start)
-    rows, _ = _rows(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
-    misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angles**2) + 1e-300)
+    positions = solve_positions(xp, pairs, start)
+    # the norm of the residuals is least at these positions, so its derivative by them is zero
+    rows, _ = residuals(xp, pairs, positions if xp is np else lax.stop_gradient(positions))
+    misfit = xp.sqrt(xp.sum(rows**2) + xp.sum(pairs.angle_errors**2) + TINY)
     moved = guess[:, :3, 3] + size * (positions - start)  # exactly zero for features that stay
     poses = xp.concatenate([guess[:, :3, :3], moved[:, :, None]], axis=2)
     return xp.concatenate([poses, guess[:, 3:]], axis=1), misfit
 
 
 class _Pair(NamedTuple):
-    """Two features of the part, at their original and at their guessed poses."""
+    """Two features of the part, measured at their original and at their guessed poses."""
 
     i: int
     j: int
+    """Indices of the two features in `Layout.features`."""
     one: Feature
     two: Feature
     was: Between
-    """As they are."""
+    """Lengths between the two at the original poses."""
     now: Between
-    """As they are guessed."""
+    """Lengths between the two at the guessed poses."""
     direction_1: Any
     direction_2: Any
-    """As they are guessed."""
+    """(3,): unit vectors of the axis or normal of each feature at its guessed pose."""
     delta: Any
-    """From the origin of the first to that of the second, as they are."""
+    """(3,): from the origin of the first to that of the second, at the original poses."""
 
 
-def _pairs(xp, layout: Layout, original, guess, targets, size) -> _Pairs:
-    """Collect the equations of all pairs of features; lengths are divided by `size`."""
+def _pairs(xp, layout: Layout, original, guess, targets, size) -> PairEquations:
+    """Collect the equations of all pairs of features; arguments as in `arrange`, lengths are divided by `size`."""
     wanted: dict[tuple[int, int, str], Any] = {
         (change.first, change.second, change.quantity): target
         for change, target in zip(layout.changes, targets, strict=True)
@@ -119,17 +106,17 @@ def _pairs(xp, layout: Layout, original, guess, targets, size) -> _Pairs:
     ]
     coincident = {(i, i): xp.asarray(True) for i in range(len(features))}
     for pair in pairs:
-        apart = (pair.was.distance == 0) & pair.was.parallel
-        coincident[pair.i, pair.j] = coincident[pair.j, pair.i] = apart
+        same_place = (pair.was.distance == 0) & pair.was.parallel
+        coincident[pair.i, pair.j] = coincident[pair.j, pair.i] = same_place
     entries = []
     for pair in pairs:
         project, along, linear = _distance_equation(xp, pair, wanted)
-        vectors, places = zip(*_offset_equations(xp, pair, original, wanted, size), strict=True)
+        vectors, offsets = zip(*_offset_equations(xp, pair, original, wanted, size), strict=True)
         distance = _distance(xp, pair, wanted, coincident) / size
         angle = xp.asarray(_angle_misfit(xp, pair, wanted))
-        entries.append((project, distance, along, linear, xp.stack(vectors), xp.stack(places), angle))
+        entries.append((project, distance, along, linear, xp.stack(vectors), xp.stack(offsets), angle))
     columns = [xp.stack([xp.asarray(entry) for entry in column]) for column in zip(*entries, strict=True)]
-    return _Pairs(*columns, weights=_movers(xp, layout, coincident))
+    return PairEquations(*columns, weights=_movers(xp, layout, coincident))
 
 
 def _wanted(pair: _Pair, quantity: Quantity, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
@@ -138,35 +125,43 @@ def _wanted(pair: _Pair, quantity: Quantity, wanted: Mapping[tuple[int, int, str
 
 
 def _distance(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any], coincident: Mapping[tuple[int, int], Any]):
-    """Find the distance that two features have to get; coinciding features get one distance to each other feature."""
+    """Find the distance that two features must get, in the unit of the mechanism.
+
+    It is the target of the pair, or else the target of a pair whose two features coincide with these two, or else the
+    distance at the original poses. `coincident` says for each two features whether they coincide.
+    """
     if (asked := _wanted(pair, "distance", wanted)) is not None:
         return asked
     kept = pair.was.distance
     for (a, b, quantity), target in wanted.items():
         if quantity == "distance":
-            alike = (coincident[pair.i, a] & coincident[pair.j, b]) | (coincident[pair.i, b] & coincident[pair.j, a])
-            kept = xp.where(alike, target, kept)
+            same = (coincident[pair.i, a] & coincident[pair.j, b]) | (coincident[pair.i, b] & coincident[pair.j, a])
+            kept = xp.where(same, target, kept)
     return kept
 
 
 def _distance_equation(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> tuple[Any, Any, Any]:
-    """Make the distance equation of a pair: its projection (3x3), its direction, and whether it is linear in d."""
+    """Make the distance equation of a pair: `project` (3, 3), `along` (3,) and `linear` of `PairEquations`.
+
+    The distance is measured between points in all directions, from a plane along its normal, between skew axes along
+    their common normal, and else perpendicular to the axis.
+    """
     one, two, u, v = pair.one, pair.two, pair.direction_1, pair.direction_2
-    # features that coincide keep all three components: a distance has no derivative at zero
-    together = (pair.was.distance == 0) & (_wanted(pair, "distance", wanted) is None)
+    # where the distance is and stays zero the equation is `project d = 0`: the norm has no derivative at zero
+    stays_zero = (pair.was.distance == 0) & (_wanted(pair, "distance", wanted) is None)
     plane = "plane" in (one.kind, two.kind)
-    # from the first to the second; from a plane the distance is measured along its normal
+    # d points from the first feature to the second, the distance from a plane out of the plane
     along = u if one.kind == "plane" else -v if two.kind == "plane" else pair.now.away
-    level = xp.eye(3) - xp.outer(v, v) if two.kind == "axis" else xp.eye(3) - xp.outer(u, u)
+    across_axis = xp.eye(3) - xp.outer(v, v) if two.kind == "axis" else xp.eye(3) - xp.outer(u, u)
     if (one.kind, two.kind) == ("point", "point"):
-        level = xp.eye(3)
-    skew = xp.outer(along, along)
-    project = skew if plane else xp.where(pair.now.parallel, level, skew)
-    return project, along, together | ~pair.now.parallel | plane
+        across_axis = xp.eye(3)
+    along_normal = xp.outer(along, along)
+    project = along_normal if plane else xp.where(pair.now.parallel, across_axis, along_normal)
+    return project, along, stays_zero | ~pair.now.parallel | plane
 
 
 def _angle_misfit(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -> Any:
-    """Compute the error of the cosine of the angle of a pair; zero where a feature is a point."""
+    """Compute the cosine of the angle of a pair at the guess less that wanted; zero where a feature is a point."""
     if "point" in (pair.one.kind, pair.two.kind):
         return 0.0
     target = _wanted(pair, "angle", wanted)
@@ -176,14 +171,17 @@ def _angle_misfit(xp, pair: _Pair, wanted: Mapping[tuple[int, int, str], Any]) -
 def _offset_equations(
     xp, pair: _Pair, original, wanted: Mapping[tuple[int, int, str], Any], size
 ) -> Iterator[tuple[Any, Any]]:
-    """Make the offset equation along either feature: (vector, offset over the size), zeros where there is none."""
+    """Make the equation `vector . d = offset` for the offset along the first feature, then along the second.
+
+    Yields vector (3,) and offset (a scalar, over the size) for each; zeros where the pair has no such offset.
+    """
     u, v = pair.direction_1, pair.direction_2
     for a, b, feature, other, axis, across, sign in (
         (pair.i, pair.j, pair.one, pair.two, u, v, 1.0),
         (pair.j, pair.i, pair.two, pair.one, v, u, -1.0),
     ):
-        place = wanted.get((a, b, "offset"))
-        if place is None and not (feature.marked and other.kind == "point"):
+        offset = wanted.get((a, b, "offset"))
+        if offset is None and not (feature.marked and other.kind == "point"):
             yield 0.0 * axis, 0.0 * size
             continue
         vector = axis
@@ -191,99 +189,24 @@ def _offset_equations(
             cross = xp.cross(axis, across)
             square = xp.where(pair.now.parallel, 1.0, cross @ cross)
             vector = xp.where(pair.now.parallel, axis, xp.cross(across, cross) / square)
-        if place is None:
-            place = sign * pair.delta @ original[a][:3, feature.axis]
-        yield sign * vector, xp.asarray(place / size)
+        if offset is None:
+            offset = sign * pair.delta @ original[a][:3, feature.axis]
+        yield sign * vector, xp.asarray(offset / size)
 
 
 def _movers(xp, layout: Layout, coincident):
-    """Make the weights of the features: 1 for those that move and those that coincide with them, 0 for the others."""
+    """Make the weights (features,): 1 for features that move and those that coincide with them, 0 for the others.
+
+    The first feature of a change moves only if it is also the second of another change.
+    """
     count = len(layout.features)
     moving = sorted({change.second for change in layout.changes})
     moving = moving if len(moving) < count else moving[1:]  # at least one feature stays
     firsts = {change.first for change in layout.changes}
     weights = []
     for i in range(count):
-        along = xp.asarray(i in moving)
+        moves = xp.asarray(i in moving)
         for j in moving if i not in firsts else ():
-            along = along | coincident[i, j]
-        weights.append(xp.where(along, 1.0, 0.0))
+            moves = moves | coincident[i, j]
+        weights.append(xp.where(moves, 1.0, 0.0))
     return xp.stack(weights)
-
-
-def _rows(xp, pairs: _Pairs, positions):
-    """Compute the residuals of all equations, and their Jacobian by the positions (rows, features, 3)."""
-    count = len(positions)
-    first, second = np.array(list(combinations(range(count), 2))).T
-    incidence = np.zeros((len(first), count))
-    incidence[np.arange(len(first)), first], incidence[np.arange(len(first)), second] = -1.0, 1.0
-    d = positions[second] - positions[first]
-    across = xp.einsum("pij,pj->pi", pairs.project, d)
-    square = xp.sum(across**2, axis=1)
-    length = xp.sqrt(xp.where(square > 0, square, 1.0))
-    linear = pairs.linear[:, None]
-    scalar = np.array([1.0, 0.0, 0.0])
-    curved = (xp.where(square > 0, length, 0.0) - pairs.distance)[:, None] * scalar
-    distances = xp.where(linear, across - pairs.distance[:, None] * pairs.along, curved)
-    slope = xp.einsum("pi,pij->pj", across / length[:, None], pairs.project)
-    slopes = xp.where(linear[:, :, None], pairs.project, scalar[:, None] * slope[:, None])
-    offsets = xp.einsum("pej,pj->pe", pairs.offsets, d) - pairs.places
-    rows = xp.concatenate([distances, offsets], axis=1)
-    jacobian = xp.concatenate([slopes, pairs.offsets], axis=1)[:, :, None] * incidence[:, None, :, None]
-    return rows.ravel(), jacobian.reshape(rows.size, count, 3)
-
-
-def _search(xp, loop, pairs: _Pairs, start):
-    """Solve for the positions (features, 3) by damped Gauss-Newton steps of length 0.5 at most, run by `loop`."""
-    weights = xp.repeat(pairs.weights, 3)
-
-    def step(positions):
-        rows, jacobian = _rows(xp, pairs, positions)
-        slope = jacobian.reshape(rows.size, -1) * weights
-        gram = slope.T @ slope
-        damping = (0.1 * xp.minimum(rows @ rows, 1.0) + 1e-15) * xp.trace(gram) + 1e-300
-        delta = -weights * xp.linalg.solve(gram + damping * xp.eye(len(gram)), slope.T @ rows)
-        length = xp.sqrt(delta @ delta)
-        delta = delta * xp.minimum(1.0, 0.5 / (length + 1e-300))
-        return positions + delta.reshape(positions.shape), length
-
-    return loop(step, start)
-
-
-def _host_loop(step, positions):
-    """Repeat steps in numpy until they are of rounding size."""
-    for _ in range(PLACEMENT_ITERATIONS):
-        positions, length = step(positions)
-        if length < 1e-16:
-            break
-    return positions
-
-
-def _device_loop(step, positions):
-    """Repeat steps in JAX until they are of rounding size."""
-
-    def go(carry):
-        count, positions, _ = carry
-        return count + 1, *step(positions)
-
-    start = (jnp.asarray(0), positions, jnp.asarray(jnp.inf, positions.dtype))
-    least = 2.0 * float(jnp.finfo(positions.dtype).eps)
-    return lax.while_loop(lambda carry: (carry[0] < PLACEMENT_ITERATIONS) & (carry[2] > least), go, start)[1]
-
-
-@jax.custom_jvp
-def _solve(pairs: _Pairs, start: Float[Array, "features 3"]) -> Float[Array, "features 3"]:
-    """Solve the equations in JAX, with derivatives by the implicit function theorem."""
-    return _search(jnp, _device_loop, pairs, start)
-
-
-@_solve.defjvp
-def _solve_jvp(primals, tangents):
-    (pairs, start), (d_pairs, d_start) = primals, tangents
-    positions = _solve(pairs, start)
-    # features that stay have the derivative of the start; the others correct it by the least norm
-    _, d_rows = jax.jvp(lambda p, x: _rows(jnp, p, x)[0], (pairs, positions), (d_pairs, d_start))
-    rows, jacobian = _rows(jnp, pairs, positions)
-    weights = jnp.repeat(pairs.weights, 3)
-    inverse = jnp.linalg.pinv(jacobian.reshape(rows.size, -1) * weights, rtol=1e-8)
-    return positions, d_start - (weights * (inverse @ d_rows)).reshape(positions.shape)

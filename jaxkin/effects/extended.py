@@ -28,8 +28,8 @@ LAST_STEP = 1e-22
 """Step, radians or lengths, below which the pose has converged: far below the rounding of float64."""
 RANK = 1e-9
 """Singular value over the largest one that counts as zero: an idle freedom. A hundred times below the rank threshold of
-the solver (`linkage.first_order.DOUBLE`), which is that of J J^T: the exact pose is to be found nearer to singular
-poses than the solver gets, and J itself is known to 1e-14."""
+the solver (`linkage.first_order.RANK_TOLERANCE`), which is that of J J^T: the exact pose is to be found nearer to
+singular poses than the solver gets, and J itself is known to 1e-14."""
 
 Row = Float[np.ndarray, " columns"]
 

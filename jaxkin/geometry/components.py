@@ -1,4 +1,4 @@
-"""Connected components of a graph given by its edges."""
+"""Find the connected components of a graph that is given by its edges."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from jaxtyping import Int
 
 
 def components(count: int, edges: Int[np.ndarray, "edges 2"]) -> Int[np.ndarray, " count"]:
-    """Number the connected components of `count` nodes, from 0 in the order of their first nodes: one number a node."""
+    """Return for each of `count` nodes the number of its connected component, an array (count,).
+
+    Components are numbered from 0 in the order of their first nodes.
+    """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -20,6 +23,6 @@ def components(count: int, edges: Int[np.ndarray, "edges 2"]) -> Int[np.ndarray,
 
 
 def grouped(label: Int[np.ndarray, "_"]) -> list[Int[np.ndarray, "_"]]:
-    """Group the indices of equal labels, by increasing label."""
+    """Group the indices of equal labels; the groups are in the order of the labels, the indices rise."""
     order = np.argsort(label, kind="stable")
     return np.split(order, np.flatnonzero(np.diff(label[order])) + 1) if len(order) else []

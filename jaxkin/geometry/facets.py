@@ -1,7 +1,7 @@
-"""The flat facets of a triangulated solid, and which neighbouring facets may belong to one curved face.
+"""Group the triangles of a solid into flat facets, and find which neighbouring facets may belong to one curved face.
 
 A facet is a set of connected triangles in one plane. A tessellation replaces a curved face by facets that meet at small
-angles; only their corners lie on the true surface.
+angles; only the corners of the facets lie on the true surface.
 """
 
 from __future__ import annotations
@@ -15,16 +15,20 @@ from jaxkin.geometry.components import components
 from jaxkin.geometry.pose import Points
 
 COPLANAR_ANGLE = 1e-3
-"""Angle between two neighbouring triangles, radians, below which they form one flat facet; facets of curved faces meet
-at 1e-2 and more."""
+"""Angle between the normals of neighbouring triangles, radians, below which they belong to one facet.
+
+Facets of curved faces meet at 1e-2 and more."""
 
 SMOOTH_ANGLE = 0.65
-"""Angle between two neighbouring facets, radians, below which they may belong to one curved face: ten facets a turn."""
+"""Angle between the normals of neighbouring facets, radians, below which they may belong to one curved face.
+
+A little above 2 pi / 10, the angle in a cylinder of ten facets."""
 
 SLIVER_HEIGHT = 20.0
-"""Height of a triangle, as a multiple of the rounding of its corners, below which its normal is not used."""
+"""Height of a triangle, in units of `Facets.tolerance`, below which it is a sliver, whose own normal is not used."""
 
 Rows = Int[np.ndarray, "_"]
+"""Indices of triangles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,16 +40,17 @@ class Facets:
     triangles: Int[np.ndarray, "triangles 3"]
     """Indices into `points`, wound outwards."""
     tolerance: float
-    """Rounding of the points, a length: how far a corner may lie from the surface that it was made on."""
+    """Rounding of the points, a length: how far a corner may lie from its true surface."""
     normals: Float[np.ndarray, "triangles 3"]
     """Outward unit normals; a sliver has the normal of its facet."""
     areas: Float[np.ndarray, "triangles"]
+    """Areas, in the unit of the assembly squared."""
     facet_of: Int[np.ndarray, "triangles"]
     """Number of the facet of each triangle."""
     pairs: Int[np.ndarray, "pairs 2"]
     """Pairs of triangles that share an edge."""
     smooth: Int[np.ndarray, "_ 2"]
-    """Pairs of triangles that share an edge, of two facets that meet there below `SMOOTH_ANGLE`."""
+    """The pairs of triangles in `pairs` that belong to different facets, at an angle below `SMOOTH_ANGLE`."""
 
     @property
     def count(self) -> int:
@@ -53,7 +58,11 @@ class Facets:
         return int(self.facet_of.max(initial=-1)) + 1
 
     def corner_normals(self, rows: Rows) -> Float[np.ndarray, "_ 3 3"]:
-        """Average the normals of the triangles `rows` that meet at each of their corners, weighted by angle."""
+        """Estimate the normals of the true surface at the three corners of each of the triangles `rows`.
+
+        A normal is the mean of those of all triangles in `rows` that meet at the corner, weighted by their angles
+        there. Returns unit vectors (rows, 3 corners, 3).
+        """
         corners = self.triangles[rows]
         edges = self.points[np.roll(corners, -1, axis=1)] - self.points[corners]
         before = -np.roll(edges, 1, axis=1)
@@ -70,8 +79,8 @@ class Facets:
 def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"], tolerance: float) -> Facets:
     """Group welded triangles into facets.
 
-    `points` and `triangles` are as in `Welded`; `pairs` are the triangles that share an edge; `tolerance` is the
-    rounding of the points, a length.
+    `points` and `triangles` are as in `Welded`; `pairs` are the pairs of triangles that share an edge; `tolerance` is
+    the rounding of the points, a length.
     """
     corners = points[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -87,7 +96,7 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
     noise = tolerance * (1 / heights[leader[i]] + 1 / heights[leader[j]])
     flat = (angle < np.maximum(COPLANAR_ANGLE, noise)) | (leader[i] == leader[j])
     label = components(len(triangles), np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], -1)]))
-    # triangles that each bend by less than the angle may together be a curved strip: no facet
+    # triangles at angles below COPLANAR_ANGLE may together be a curved strip, which is no facet
     bent = np.flatnonzero(_bent(label, normals, corners, double, 5 * tolerance))
     label[bent] = label.max(initial=0) + 1 + np.arange(len(bent))
     label = np.unique(label, return_inverse=True)[1]
@@ -96,9 +105,10 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
 
 
 def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver: np.ndarray) -> Rows:
-    """For each triangle the one whose normal it gets: itself, or for a sliver the triangle beyond its longest edge.
+    """Find for each triangle the one whose normal it gets (triangles,): itself, unless it is a sliver.
 
-    Where that is a sliver too, the triangle beyond its longest edge, and so on.
+    A sliver gets the normal of the neighbour across its longest edge; if that is a sliver too, of the neighbour across
+    the longest edge of that, and so on. `edges` (triangles, 3) are the lengths of the edges, `sliver` is a mask.
     """
     leader = np.arange(len(triangles))
     if not sliver.any():
@@ -115,7 +125,10 @@ def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver
 
 
 def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
-    """Which triangles belong to a group whose corners are not all within `tolerance` of its mean plane."""
+    """Mark the triangles of groups whose corners do not all lie within `tolerance` (a length) of their mean plane.
+
+    `label` (triangles,) numbers the groups, `corners` are (triangles, 3, 3), `weights` those of the normals.
+    """
     count = np.maximum(np.bincount(label), 1)
     normal = np.stack([np.bincount(label, weights * n) for n in normals.T], axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
@@ -128,5 +141,5 @@ def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray
 
 
 def _angles(a: Points, b: Points) -> np.ndarray:
-    """Angles between unit vectors, radians, accurate for small ones."""
+    """Compute the angles between unit vectors `a` and `b`, pair by pair, 0 to pi, accurate for small angles."""
     return np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), np.sum(a * b, axis=-1))

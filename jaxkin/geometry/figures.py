@@ -1,6 +1,7 @@
-"""Simple solids that symbolise the two sides of a joint: rows of `MOVEMENTS` hold them, `jaxkin.view.sticks` draws.
+"""Simple solids that symbolise the two sides of a joint in drawings.
 
-All lengths are multiples of the radius of a drawn bar.
+The rows of `jaxkin.geometry.movements.MOVEMENTS` hold these figures, and `jaxkin.view.sticks` draws them. All lengths
+are multiples of the radius of a drawn bar.
 """
 
 from __future__ import annotations
@@ -12,15 +13,17 @@ class CylinderFigure(NamedTuple):
     """A cylinder centred on a joint, along an axis of its frame."""
 
     axis: int
-    """0, 1, 2 for x, y, z."""
+    """Axis of the joint frame along the cylinder: 0, 1, 2 for x, y, z."""
     radius: float
     length: float
+    """Length along the axis."""
 
 
 class BoxFigure(NamedTuple):
     """A box centred on a joint, with its edges along the axes of the frame."""
 
     extents: tuple[float, float, float]
+    """Lengths of the edges along x, y, z."""
 
 
 class BallFigure(NamedTuple):
@@ -30,6 +33,7 @@ class BallFigure(NamedTuple):
 
 
 Figure = CylinderFigure | BoxFigure | BallFigure
+"""One solid of a drawing."""
 
 ROD = CylinderFigure(2, 0.7, 32.0)
 """The rod on which a sliding part is drawn: about half as long as the mechanism, since the travel is not known."""

@@ -1,8 +1,8 @@
 """Fit a plane, cylinder, cone, sphere or torus to points with normals.
 
-For faces that the file holds as splines or as triangles only. The corners of a tessellation lie on the true surface, so
-a surface has to pass all of them within their rounding. The normals only choose the kind of surface and the first
-guess.
+It serves faces that a file holds only as splines or triangles. The corners of a tessellation lie on the true surface,
+so the fitted surface must pass through all of them within their rounding. The normals decide only between the kinds of
+surface, and give the first guess.
 """
 
 from __future__ import annotations
@@ -19,7 +19,11 @@ from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
 _AXIS_ALLOWANCE = 0.1
-"""Angle, radians, by which a few wrong normals may turn the axis that is guessed from all normals."""
+"""Largest angle, radians, by which a few wrong normals are taken to tilt the axis that is guessed from all normals."""
+
+_MIN_ALIGNED = 0.9
+"""Smallest share of points at which the normal of the surface must agree with that given, since the apex of a cone and
+the pole of a spline have no normal of their own."""
 
 
 def rounding(points: Points) -> float:
@@ -32,7 +36,7 @@ def rounding(points: Points) -> float:
 
 
 def flipped(surface: Surface) -> Surface:
-    """Return the same surface with the material on its other side."""
+    """Return a surface with the material on its other side."""
     if isinstance(surface, Plane):
         return replace(surface, normal=-surface.normal)
     return replace(surface, side=-surface.side)
@@ -56,26 +60,31 @@ def fit_surface(
         surface = surface if np.sum(surface.normals(points) * normals) >= 0 else flipped(surface)
         if np.abs(surface.distance(points)).max() <= tolerance:
             aligned = np.sum(surface.normals(points) * normals, axis=-1) >= np.cos(angle)
-            if np.mean(aligned) > 0.9:  # an apex, and the pole of a spline, have no normal of their own
+            if np.mean(aligned) > _MIN_ALIGNED:
                 return surface
     return None
 
 
 def _candidates(points: Points, normals: Points, angle: float) -> Iterator[Surface]:
-    """Fit all kinds of surface that the normals allow, the simplest first, to points around the origin of size one."""
-    for enough, fit in ((3, _plane), (6, _cylinder), (7, _cone), (5, _sphere)):
-        if len(points) >= enough:
+    """Fit each kind of surface that the normals allow, the simplest first, to points with mean 0 and largest entry 1.
+
+    A kind is tried only with enough points: for curved surfaces at least one more than the surface has parameters.
+    """
+    for min_points, fit in ((3, _plane), (6, _cylinder), (7, _cone), (5, _sphere)):
+        if len(points) >= min_points:
             surface = fit(points, normals, angle)
             if surface is not None:
                 yield surface
 
 
 def _plane(points: Points, normals: Points, angle: float) -> Plane:
+    """Fit a plane through the origin: its normal is the direction of least spread of the points."""
     normal = np.linalg.svd(points, full_matrices=False)[2][2]
     return Plane(np.zeros(3), normal)
 
 
 def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
+    """Fit a cylinder; None where the normals, up to `angle` (radians), are not perpendicular to one axis."""
     axis = np.linalg.eigh(normals.T @ normals)[1][:, 0]
     if np.median(np.abs(normals @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
@@ -83,16 +92,16 @@ def _cylinder(points: Points, normals: Points, angle: float) -> Cylinder | None:
     y = np.cross(axis, x)
     flat = points @ np.stack([x, y], axis=-1)
     middle, radius = _ball(flat)
-
     return refined(Cylinder(middle[0] * x + middle[1] * y, axis, radius, 1), points)
 
 
 def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
+    """Fit a cone; None where the normals, up to `angle` (radians), are not at one angle to one axis."""
     spread = normals - normals.mean(axis=0)
     axis = np.linalg.eigh(spread.T @ spread)[1][:, 0]
     if np.median(np.abs(spread @ axis)) > angle + _AXIS_ALLOWANCE:
         return None
-    # all tangent planes go through the apex
+    # all tangent planes go through the apex: n . apex = n . p
     apex, _, rank, _ = np.linalg.lstsq(normals, np.sum(normals * points, axis=-1), rcond=1e-6)
     if rank < 3:
         return None
@@ -103,6 +112,7 @@ def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
 
 
 def _sphere(points: Points, normals: Points, angle: float) -> Sphere:
+    """Fit a sphere; `normals` and `angle` are not needed."""
     centre, radius = _ball(points)
     return Sphere(centre, radius, 1)
 
@@ -115,7 +125,7 @@ def _ball(points: Float[np.ndarray, "n d"]) -> tuple[Float[np.ndarray, "d"], flo
 
 
 def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
-    """Scale a surface about the origin, then move the origin to `centre`."""
+    """Scale a surface about the origin, then translate it by `centre`; the material is inside of the result."""
     match surface:
         case Plane():
             return Plane(centre + scale * surface.point, surface.normal)
@@ -130,8 +140,8 @@ def _scaled(surface: Surface, centre: Vector, scale: float) -> Surface:
 def fit_torus(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float) -> Torus | None:
     """Find the torus that all points lie on within `tolerance` (a length); None if there is none.
 
-    The normals of a surface of revolution all meet its axis: a linear condition on the Pluecker coordinates of the
-    axis.
+    `normals` are unit vectors at the points. All normals of a surface of revolution meet its axis, which is a linear
+    condition on the Pluecker coordinates (direction a, moment m) of the axis: (p x n) . a + n . m = 0.
     """
     if len(points) < 10:
         return None
@@ -140,7 +150,7 @@ def fit_torus(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"
     local = (points - middle) / scale
     line = np.linalg.svd(np.concatenate([np.cross(local, normals), normals], axis=-1), full_matrices=False)[2][5]
     if np.linalg.norm(line[:3]) < 1e-3 * np.linalg.norm(line[3:]):
-        return None  # an axis at infinity: a cylinder
+        return None  # the axis is at infinity, as for a cylinder
     line = line / np.linalg.norm(line[:3])
     axis, moment = line[:3], line[3:]
     foot = np.cross(axis, moment)

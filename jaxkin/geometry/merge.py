@@ -10,7 +10,8 @@ from jaxkin.geometry.part import Face
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 
 _PARALLEL = 0.99
-"""Cosine between the normals of faces in one plane: the normals of faces a few roundings wide agree no better."""
+"""Smallest cosine between the normals of faces in one plane: planes fitted to faces only a few roundings wide do not
+agree better."""
 
 
 def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
@@ -28,7 +29,7 @@ def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
     for index in sorted(range(len(faces)), key=lambda index: -faces[index].area):
         if free[index]:
             near = np.abs(faces[index].surface.distance(points)) <= tolerance
-            near[index] = True  # however far its own triangles are off
+            near[index] = True  # a face is in its own group, even if its triangles are far off its surface
             group = [k for k in np.flatnonzero(free & near).tolist() if _same(faces[index], faces[k], tolerance)]
             free[group] = False
             groups.append((group, faces[index].surface))
@@ -38,16 +39,17 @@ def merge_faces(faces: Sequence[Face], tolerance: float) -> tuple[Face, ...]:
 
 
 def _same(a: Face, b: Face, tolerance: float) -> bool:
+    """Check whether two faces are on the same surface, as `merge_faces` says; `a` is the larger one."""
     if a is b:
         return True
-    on = ((a.surface, b),) if isinstance(a.surface, Plane) else ((a.surface, b), (b.surface, a))
+    tests = ((a.surface, b),) if isinstance(a.surface, Plane) else ((a.surface, b), (b.surface, a))
     return _alike(a.surface, b.surface, tolerance) and all(
-        bool(np.all(np.abs(surface.distance(face.triangles)) <= tolerance)) for surface, face in on
+        bool(np.all(np.abs(surface.distance(face.triangles)) <= tolerance)) for surface, face in tests
     )
 
 
 def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
-    """Whether surfaces agree in what distances of corners do not show: side of the material, radii of small faces."""
+    """Check what the distances of corners do not show: the side of the material, and the radii of narrow faces."""
     match a, b:
         case Plane(), Plane():
             return float(a.normal @ b.normal) > _PARALLEL
@@ -59,6 +61,7 @@ def _alike(a: Surface, b: Surface, tolerance: float) -> bool:
 
 
 def _united(group: list[Face], surface: Surface) -> Face:
+    """Make one face of several with a given surface."""
     if len(group) == 1:
         return group[0]
     name = ", ".join([group[0].name, *(face.name.removeprefix("face ") for face in group[1:])])

@@ -1,11 +1,11 @@
 """The paper's allowable movements T_z, T_phi, T_z_phi, T_xy_phi, T_theta_phi, T_theta_phi_psi (Section 3) in JAX.
 
-A movement displaces a local frame: `x, y, z` are translations along its axes, `theta, phi, psi` rotations about its
-axes x, y, z. The angle about z is psi in the three-angle matrix and phi elsewhere, as the paper prints it. Each
-movement is one row of `MOVEMENTS`. The row holds the movement as a product of elementary motions, from which
-displacements, screws and closure equations follow, and all else that differs from movement to movement: no other table
-is keyed by movements.
-`T_screw`, the helical pair, and `I`, no movement, are not in the paper.
+A movement displaces a local frame. Its coordinates x, y, z are translations along the axes of the frame. In
+`T_theta_phi` and `T_theta_phi_psi`, theta, phi, psi are rotations about x, y, z; in the other movements phi is the
+rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
+movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
+closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair, and `I`, the identity,
+are not in the paper.
 """
 
 from __future__ import annotations
@@ -29,36 +29,35 @@ class ElementaryMotion:
     kind: Literal["translate", "rotate", "screw"]
     """A screw turns by its coordinate q and advances by pitch q / 2 pi."""
     axis: int
-    """0, 1, 2 for x, y, z."""
+    """Axis of the local frame: 0, 1, 2 for x, y, z."""
     coordinate: int
-    """Which coordinate of the movement drives the motion."""
+    """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion."""
 
 
 class InvariantFeature(NamedTuple):
-    """The point, axis or plane that a movement leaves in place: lengths of a part are measured between such features.
-
-    On an axis that is `marked` the origin has a meaning too: on that of a hinge, not on that of a pin that slides.
-    """
+    """The point, axis or plane that a movement leaves in place. Lengths of a part are measured between features."""
 
     kind: Literal["point", "axis", "plane"]
     axis: int = 2
-    """Which axis of the frame (0, 1, 2 for x, y, z) is the axis, or the normal of the plane."""
+    """Axis of the frame, 0, 1, 2 for x, y, z, that is the axis, or the normal of the plane; unused for a point."""
     marked: bool = False
+    """Whether the origin of the frame is a definite point of the axis: it is for a hinge, not for a pin that slides."""
 
 
 class AngleLock(NamedTuple):
-    """The gimbal lock of two successive movements: after a quarter turn of the rolling ball in contact states (d), (p).
+    """The angles of a ball that two successive movements of a chain share, as in the contact states (d), (p).
 
-    The solver uses a quaternion in place of the angles (`jaxkin.solve.system.loop_system`).
+    They have a gimbal lock after a quarter turn of the ball, so the solver uses a quaternion in their place
+    (`jaxkin.solve.system.loop_system`).
     """
 
     follower: str
-    """Key of the movement that follows this one in the chain."""
+    """Key of the second of the two movements; the first is the one whose row holds this lock."""
     ball: int
-    """The movement in whose frame the ball turns: 0 for this one, 1 for the follower."""
+    """The movement in whose frame the ball turns: 0 for the first, 1 for the second."""
     columns: tuple[int, ...]
-    """Columns that turn the ball about x, y, z, counted from the first column of this movement. Where only two are
-    given, the third turn belongs to the movement that follows."""
+    """Coordinates that turn the ball about x, y, z, counted from the first coordinate of the first movement. Where only
+    two are given, the rotation about z belongs to the second movement."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,31 +65,33 @@ class Movement:
     """All that defines an allowable movement: one row of `MOVEMENTS`."""
 
     coordinates: tuple[str, ...] = ()
-    """Names of its coordinates."""
+    """Names of the coordinates of the movement, in their order in `q`."""
     elements: tuple[ElementaryMotion, ...] = ()
     """The elementary motions of which the movement is the product, leftmost factor first."""
     ball: bool = False
-    """True for the three angles of a ball, in gimbal lock at phi = 90 deg: the solver uses a quaternion instead."""
+    """True for the three angles of a spherical pair, which have a gimbal lock at phi = 90 deg, so that the solver uses
+    a quaternion in their place."""
     pair: str | None = None
-    """Name of the lower pair that has this movement, a `JointKind`; None where no lower pair has it."""
+    """Value of the `JointKind` of the lower pair with this movement; None where no lower pair has it."""
     letter: str | None = None
-    """Letter of the pair in the names of loops (RSSR); None where it is written as those of its elementary
-    motions: R of a rotation, P of a translation, H of a screw."""
+    """Letter of the pair in the names of loops, such as RSSR; None where the letters of the elementary motions are
+    written: R for a rotation, P for a translation, H for a screw."""
     feature: InvariantFeature | None = None
-    """The feature that the movement leaves in place on both parts; None for no movement at all."""
+    """The feature that the movement leaves in place on both parts; None for the identity."""
     features_alone: tuple[InvariantFeature, InvariantFeature] | None = None
-    """The features of part 1 and part 2 where the movement is a joint by itself, if they are not `feature`."""
+    """The features on part 1 and part 2 for a joint of this movement only, where they differ from `feature`."""
     surface: Literal["plane", "cylinder", "cone", "sphere"] | None = None
-    """The kind of surface that the movement maps onto itself; set only for the one with most freedoms that does."""
+    """Kind of surface for which this is the movement with most freedoms that maps the surface onto itself."""
     aligned: frozenset[Literal["axis", "direction", "centre"]] = frozenset()
-    """What of the frame has to be aligned with other frames for the loops to close: "axis", the line along z;
+    """What of the frame matters for the closure of loops, so that noise in it is removed: "axis", the line along z;
     "direction", the direction of z; "centre", the origin."""
     figures: tuple[tuple[Figure, ...], tuple[Figure, ...]] = ((), ())
     """The solids drawn for part 1 (bearing, rail, plate) and for part 2 (pin, slider, puck, ball)."""
     without_normal: str | None = None
-    """Key of the movement that is left in a planar loop whose normal is z, since the translation along z rests there;
-    None for movements without such a translation."""
+    """Key of the movement that remains in a planar loop with normal z, in which nothing moves along z; None for
+    movements without translation along z."""
     lock: AngleLock | None = None
+    """The gimbal lock of this movement and the next one in a chain; None where there is none."""
 
     @property
     def has_pitch(self) -> bool:
@@ -104,16 +105,18 @@ class Movement:
 
     @property
     def turns_and_slides(self) -> tuple[int, int]:
-        """Number of rotations, and of translations."""
+        """Number of rotations and number of translations among the elementary motions; screws count as neither."""
         kinds = [element.kind for element in self.elements]
         return kinds.count("rotate"), kinds.count("translate")
 
 
 def _translate(axis: int, coordinate: int) -> ElementaryMotion:
+    """Make a translation along an axis of the local frame."""
     return ElementaryMotion("translate", axis, coordinate)
 
 
 def _rotate(axis: int, coordinate: int) -> ElementaryMotion:
+    """Make a rotation about an axis of the local frame."""
     return ElementaryMotion("rotate", axis, coordinate)
 
 
@@ -190,17 +193,17 @@ MOVEMENTS: dict[str, Movement] = {
         figures=((CylinderFigure(2, 1.8, 2.0),), (BallFigure(2.2),)),
     ),
 }
-"""Key of a movement -> its row. Joints (`jaxkin.joints.pairs`) and contact states (`jaxkin.contacts.states`) give the
-movements of their chains by these keys."""
+"""All movements by their keys, with which joints (`jaxkin.joints.pairs`) and contact states
+(`jaxkin.contacts.states`) name the movements of their chains."""
 
 
 def symmetry_of(surface: str) -> str:
-    """Name the movement that maps a kind of surface ("plane", "cylinder", "cone", "sphere") onto itself."""
+    """Look up the key of the movement that maps a kind of surface, such as "plane", onto itself."""
     return next(name for name, movement in MOVEMENTS.items() if movement.surface == surface)
 
 
 def is_length(coordinate: str) -> bool:
-    """Whether a coordinate of a joint, by its name, is a length (x, y, z) and not an angle (theta, phi, psi)."""
+    """Check by its name, such as "z" or "phi2", whether a coordinate of a joint is a length (x, y, z), not an angle."""
     return coordinate.rstrip("0123456789") in ("x", "y", "z")
 
 
@@ -210,8 +213,8 @@ def displaced(
     """Multiply frames F by a movement T from the right, F T, one elementary motion after the other.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
-    `pitch` is the advance per turn of `T_screw`, in that unit too. Frames and `q` may be one for all poses. An
-    elementary motion changes at most two columns of F, so that this is cheaper than a product of matrices.
+    `pitch` is the advance per turn of `T_screw`, in the same unit. The frames, or `q`, may have a last axis of length
+    one, for all poses. An elementary motion changes at most two columns of F, which costs less than a matrix product.
     """
     for element in MOVEMENTS[movement].elements:
         frame = _displaced(frame, element, q[element.coordinate], pitch)
@@ -221,7 +224,7 @@ def displaced(
 def _displaced(
     frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
 ) -> Rigid:
-    """Multiply frames by one elementary motion from the right."""
+    """Multiply frames by one elementary motion from the right; arguments as in `displaced`."""
     advance = None
     if element.kind != "rotate":
         advance = q if element.kind == "translate" else q * pitch / (2 * jnp.pi)
@@ -231,10 +234,11 @@ def _displaced(
 
 
 def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
-    """Multiply frames F by an elementary motion E about a local axis from the right, F E, in any arithmetic.
+    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
 
-    `columns` are those of F: three axes and the origin. E advances along the axis by `advance` and turns about it by
-    the angle of which `turn` is cosine and sine; None is for no advance, and for no turn.
+    `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
+    axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
+    them means no translation, or no rotation.
     """
     i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
     columns = list(columns)

@@ -1,4 +1,4 @@
-"""Parts and their faces: analytic surfaces, with triangles that say where on the surface a face lies."""
+"""Parts and their faces; a face is a bounded piece of an analytic surface, given by triangles."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ class Face:
     """One face of a part: its unbounded surface, and the triangles that say where on the surface the face lies."""
 
     name: str
-    """Unique within the part, such as "face 7"."""
+    """Name, unique within the part, such as "face 7"."""
     surface: Surface
+    """The surface in world coordinates at the assembled pose."""
     triangles: Float[np.ndarray, "triangles 3 3"]
     """Corners in world coordinates at the assembled pose, in the unit of the assembly, wound outwards."""
 
@@ -40,19 +41,22 @@ class Part:
     """A rigid part in its assembled pose, in world coordinates and in the unit of the assembly."""
 
     name: str
+    """Name, unique within the assembly."""
     faces: tuple[Face, ...]
+    """The faces that are one of the four analytic surfaces."""
     triangles: Float[np.ndarray, "triangles 3 3"]
-    """All triangles of the part, analytic or not: for drawing."""
+    """Corners of the triangles of all faces, analytic or not, for drawing."""
     color: tuple[float, float, float] | None = None
-    """Red, green, blue in 0..1 where the file gives a colour."""
+    """Red, green, blue, 0 to 1; None where the file gives no colour."""
     notes: tuple[str, ...] = field(default=())
     """Messages about faces of this part that could not be read as one of the four surfaces."""
     vertex_resolution: float = 0.0
-    """Length by which the vertices that surfaces were fitted to are rounded; 0 where the file holds the surfaces."""
+    """Largest rounding error, a length, of the vertices that the surfaces were fitted to; 0 where the file holds the
+    surfaces themselves."""
     path: tuple[str, ...] = ()
-    """Names of the sub-assemblies that the part is in, outermost first, without the assembly of the whole file."""
+    """Names of the sub-assemblies that contain the part, outermost first, without the assembly of the whole file."""
     original_name: str = ""
-    """The name as the file says it, before it was cleaned and numbered; empty where the file gives none."""
+    """The name in the file, before it was cleaned and numbered; empty where the file gives none."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:

@@ -1,7 +1,8 @@
-"""Rigid poses as 4x4 matrices, on the host (float64).
+"""Rigid poses as 4x4 matrices, on the host (numpy, float64).
 
-A pose `F` maps local coordinates to world coordinates; a displacement `D` moves points of the world. The displacement
-that a motion `T` of a local frame makes in the world is `F T F^-1` (the paper's `M^-1 T M` with `M = F^-1`).
+A pose F maps local coordinates to world coordinates; a displacement D maps points of the world to their new places, in
+world coordinates. A motion T in a local frame F makes the displacement D = F T F^-1 (the paper's M^-1 T M with
+M = F^-1).
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from jaxtyping import Float
 Vector = Float[np.ndarray, "3"]
 Points = Float[np.ndarray, "*batch 3"]
 Pose = Float[np.ndarray, "4 4"]
+"""Rotation matrix and translation, the last row 0, 0, 0, 1: a pose or a displacement."""
 
 RIGID_TOLERANCE = 1e-6
 """Largest error of the entries of a matrix that is taken for a rigid pose: poses that went through single precision are
@@ -51,9 +53,9 @@ def inverse(pose: Pose) -> Pose:
 
 
 def is_rigid(matrix: Pose) -> bool:
-    """Whether a 4x4 matrix of finite numbers is a right-handed rotation with a translation (`RIGID_TOLERANCE`).
+    """Check whether a 4x4 matrix is a right-handed rotation R with a translation, within `RIGID_TOLERANCE`.
 
-    The columns x, y, z of a rotation R satisfy R^T R = I and det R = 1; the last row is 0, 0, 0, 1.
+    That is: all entries are finite, R^T R = I, det R = 1, and the last row is 0, 0, 0, 1.
     """
     turn = matrix[:3, :3]
     errors = np.concatenate([(turn.T @ turn - np.eye(3)).ravel(), matrix[3] - [0.0, 0.0, 0.0, 1.0]])
@@ -73,7 +75,7 @@ def apply(pose: Pose, points: Points) -> Points:
 
 
 def turned_by(pose: Pose) -> float:
-    """Measure the angle of the rotation of a pose, 0 to pi."""
+    """Measure the angle of the rotation of a pose, radians, 0 to pi."""
     turn = pose[:3, :3]
     sine = np.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     return float(np.arctan2(sine, np.trace(turn) - 1.0))

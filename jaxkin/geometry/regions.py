@@ -1,8 +1,8 @@
-"""The faces of a triangulated solid: regions of facets whose corners lie on one plane, cylinder, cone or sphere.
+"""Find the faces of a triangulated solid: regions of facets whose corners lie on one analytic surface.
 
-Facets that meet smoothly belong to one face, or to several faces that are tangent to each other. One surface is tried
-first; where none fits, faces are found by region growing (`region_growing.py`). Tori are recognised too, though no
-contact state has one: a band of facets of a torus, taken alone, lies on a cone.
+Facets that meet smoothly belong to one face, or to several faces that are tangent to each other. So one surface is
+fitted to all of them first; where none fits, they are divided by region growing (`region_growing.py`). Tori are
+recognised too, though no contact state has one, since a band of facets of a torus, taken alone, lies on a cone.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Reg
 from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
 
 _STRAY_ANGLE = 0.8
-"""Largest angle, radians, between a lone triangle and the surface of the face next to it that its corners lie on."""
+"""Largest angle, radians, between a lone triangle and the surface of the neighbouring face that its corners lie on."""
 
 _MAX_LEFTOVER = 4
-"""Number of triangles between faces, on no surface, up to which each is tried as part of a neighbouring face."""
+"""Largest number of triangles of a region on no surface, each of which is then tried as part of a neighbouring face."""
 
 
 def regions(mesh: Facets) -> list[Region]:
@@ -35,14 +35,17 @@ def regions(mesh: Facets) -> list[Region]:
 
 
 def _without_flats(mesh: Facets, region: Region) -> list[Region]:
-    """Separate from a round face the flats cut into it: facets whose corners lie on the surface, but far too wide."""
+    """Split off a round face the flats that are cut into it; returns all pieces, the round one first.
+
+    A flat is a facet with its corners on the surface that spans a far larger arc than other facets (`MAX_WIDTH_RATIO`).
+    """
     if region.surface is None or not region.is_round:
         return [region]
     arc = arcs(mesh, region.surface, region.rows)
     facet = np.unique(mesh.facet_of[region.rows], return_inverse=True)[1]
     widths = np.zeros(int(facet.max()) + 1)
     np.maximum.at(widths, facet, arc)
-    # a lone triangle may be as wide as the mesher liked, where the face has a jagged rim
+    # a facet of one triangle is no flat: meshers leave wide triangles along a jagged rim of the round face
     wide_ones = np.flatnonzero((np.bincount(facet) > 1) & (widths > MAX_WIDTH_RATIO * np.median(widths)))
     wide = [region.rows[facet == k] for k in wide_ones]
     flats = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in wide]
@@ -50,10 +53,10 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
 
 
 def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
-    """Add lone triangles to the round faces that their corners lie on and that they share an edge with.
+    """Give lone triangles to neighbouring round faces on whose surface their corners lie.
 
-    Meshers leave such triangles along jagged rims; they span so much of the round face that they are far from tangent
-    to it.
+    A triangle is lone if it is a facet by itself, or in a region of few triangles on no surface. Meshers leave such
+    triangles along jagged rims; they span so large an arc of the round face that they are far from tangent to it.
     """
     owner = np.full(len(mesh.triangles), -1)
     for k, region in enumerate(found):

@@ -1,7 +1,7 @@
-"""Rigid displacements of many poses at once: the first three rows of 4x4 matrices, with the pose as the last axis.
+"""Multiply and invert rigid displacements of many poses at once, in JAX.
 
-In this order of axes a product is a few vector operations over all poses, several times as fast as a batch of products
-of small matrices.
+They are stored as the first three rows of 4x4 matrices, with the pose as last axis. In this order of axes a product is
+a few vector operations over all poses, several times as fast as a batch of products of small matrices.
 """
 
 from __future__ import annotations
@@ -25,7 +25,10 @@ def as_matrices(rigid: Float[Array, "3 4 *poses"]) -> Float[Array, "*poses 4 4"]
 
 
 def product(a: Rigid, b: Rigid) -> Rigid:
-    """Multiply displacements pose by pose: b followed by a in world coordinates; either may be one for all poses."""
+    """Multiply displacements pose by pose: first b, then a, in world coordinates.
+
+    Either may have a last axis of length one, for all poses.
+    """
     x, y, z = (a[:, k, None] * b[None, k] for k in range(3))
     turned = x + y + z
     return jnp.concatenate([turned[:, :3], turned[:, 3:] + a[:, 3:]], axis=1)

@@ -1,4 +1,4 @@
-"""Solids from welded triangles: holes, closed surfaces, bodies with their cavities, and the sense of their winding."""
+"""Make solids from welded triangles: find holes, closed surfaces, their cavities, and wrongly wound pieces."""
 
 from __future__ import annotations
 
@@ -10,20 +10,27 @@ from jaxkin.geometry.pose import Points
 from jaxkin.geometry.weld import Corners, Welded
 
 Rows = Int[np.ndarray, "_"]
+"""Indices of triangles."""
 
 _SIDE_SAMPLES = 200
-"""Number of triangles at which `wrong_side` checks the two sides."""
+"""Largest number of triangles at which `wrong_side` checks the two sides."""
 
 _MAX_SOLID_ANGLES = 8_000_000
-"""Largest number of solid angles (samples times triangles times two sides) that `wrong_side` computes: bounds its
-time."""
+"""Largest number of solid angles, samples x triangles x 2 sides, that `wrong_side` computes: bounds the time."""
+
+_SIDE_HEIGHT = 10
+"""Height over a triangle of the points at which `wrong_side` checks a side, in units of the tolerance."""
+
+_MAX_WINDING_ERROR = 0.25
+"""Largest deviation of a winding number from 0 or 1 that counts as rounding; off the surface it is a whole number."""
 
 
 def open_loops(welded: Welded, tolerance: float) -> list[Points]:
-    """Find the holes of a surface: for each the points of connected edges without a partner that enclose an area.
+    """Find the holes of a surface; returns for each the points of its rim (_, 3).
 
-    Where two tessellations meet with corners between those of the other, edges without a partner lie on each other;
-    they enclose no area, and there is no hole. `tolerance` is the width, a length, below which there is none.
+    A hole is a set of connected edges without a second triangle that enclose an area wider than `tolerance`, a length.
+    Where two tessellations meet with different corners along a common line, such edges lie on each other, enclose no
+    area, and are no hole.
     """
     edges = welded.open_edges
     if not len(edges):
@@ -41,12 +48,17 @@ def open_loops(welded: Welded, tolerance: float) -> list[Points]:
 
 
 def shells(welded: Welded) -> list[Rows]:
-    """Group the triangles that are connected through shared edges: the closed surfaces."""
+    """Group the triangles that are connected through shared edges: returns the indices of each connected surface."""
     return grouped(components(len(welded.triangles), welded.pairs))
 
 
 def bodies(corners: Corners, surfaces: list[Rows]) -> list[Rows]:
-    """Join closed surfaces to bodies: a surface wound inwards is a cavity of the smallest outer surface around it."""
+    """Join closed surfaces to solids: each outer surface with its cavities.
+
+    `corners` are those of all triangles, `surfaces` the indices of the triangles of each closed surface. A surface that
+    is wound inwards (negative volume) is a cavity of the smallest outer surface around it. Returns the indices of the
+    triangles of each solid, rising.
+    """
     volumes = np.array([volume(corners[rows]) for rows in surfaces])
     outer = [k for k in np.argsort(volumes) if volumes[k] > 0]
     members = {int(k): [surfaces[k]] for k in outer}
@@ -81,11 +93,11 @@ def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "poin
 
 
 def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES) -> Points | None:
-    """Find a point of a surface that does not have the solid on its inner side only; None if none was found.
+    """Find a point of a closed surface without the solid inside and empty space outside; None if none was found.
 
-    It is found in solids that overlap or touch within one surface, and in surfaces that intersect themselves or are
-    wound inwards in part. The largest triangles are checked, and some at random, `samples` in all, with points at ten
-    times `tolerance` (a length) on both sides.
+    Such points are on solids that overlap or touch within one surface, and on surfaces that intersect themselves or are
+    wound inwards in part. The winding number is tested close to both sides (`_SIDE_HEIGHT` times `tolerance`, a length)
+    of at most `samples` triangles: the largest ones, and others at random.
     """
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     double = np.linalg.norm(cross, axis=-1)
@@ -95,18 +107,19 @@ def wrong_side(corners: Corners, tolerance: float, samples: int = _SIDE_SAMPLES)
     some = np.unique(np.concatenate([largest, chance[: count - len(largest)]]))
     middles, normals = corners[some].mean(axis=1), cross[some] / double[some][:, None]
     for side, wanted in ((1.0, 0.0), (-1.0, 1.0)):
-        wrong = np.abs(winding_numbers(middles + side * 10 * tolerance * normals, corners) - wanted) > 0.25
+        numbers = winding_numbers(middles + side * _SIDE_HEIGHT * tolerance * normals, corners)
+        wrong = np.abs(numbers - wanted) > _MAX_WINDING_ERROR
         if wrong.any():
             return middles[np.argmax(wrong)]
     return None
 
 
 def _in_box(point: np.ndarray, corners: Corners) -> bool:
-    """Whether a point is in the bounding box of some triangles."""
+    """Check whether a point is in the bounding box of some triangles."""
     flat = corners.reshape(-1, 3)
     return bool(np.all((point >= flat.min(axis=0)) & (point <= flat.max(axis=0))))
 
 
 def _winds(point: np.ndarray, corners: Corners) -> bool:
-    """Whether a closed surface winds round a point."""
+    """Check whether a closed surface winds round a point, so that the point is inside."""
     return bool(winding_numbers(point[None], corners)[0] > 0.5)

@@ -1,7 +1,8 @@
 """The four analytic surfaces of the paper (assumption 3, Section 2): plane, cylinder, cone, sphere.
 
-Host code, float64. Directions are unit vectors. `side` is +1 where the material is inside (a pin, a ball) and -1 where
-it is outside (a hole, a socket), so that `normals` always points out of the material.
+They are unbounded and computed on the host (numpy, float64). Points (*batch, 3) and lengths are in world coordinates
+and the unit of the assembly; axes and normals are unit vectors. `side` is +1 where the material is inside of the
+surface (a pin, a ball) and -1 where it is outside (a hole, a socket), so that normals always point out of the material.
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ class Plane:
     """A plane."""
 
     point: Vector
+    """A point of the plane."""
     normal: Vector
-    """Points out of the material."""
+    """Unit normal, out of the material."""
     kind: ClassVar[str] = "plane"
 
     def distance(self, points: Points) -> Distances:
@@ -51,8 +53,10 @@ class Cylinder:
     point: Vector
     """A point of the axis."""
     axis: Vector
+    """Unit vector, in either direction."""
     radius: float
     side: int
+    """+1 where the material is inside, -1 where it is outside."""
     kind: ClassVar[str] = "cylinder"
 
     def distance(self, points: Points) -> Distances:
@@ -78,14 +82,15 @@ class Cone:
 
     apex: Vector
     axis: Vector
-    """Points from the apex into the half of the double cone that the face lies on."""
+    """Unit vector from the apex into the half of the double cone that the face lies on."""
     half_angle: float
-    """Radians, 0 < half_angle < pi/2."""
+    """Angle between the axis and a ruling, radians, 0 < half_angle < pi/2."""
     side: int
+    """+1 where the material is inside, -1 where it is outside."""
     kind: ClassVar[str] = "cone"
 
     def distance(self, points: Points) -> Distances:
-        """Distance from the surface, positive outside the material; beyond the apex, from the extended rulings."""
+        """Distance from the surface, positive outside the material; behind the apex, from the extended rulings."""
         height = (points - self.apex) @ self.axis
         radius = np.linalg.norm(_radial(points, self.apex, self.axis), axis=-1)
         return self.side * (radius * np.cos(self.half_angle) - height * np.sin(self.half_angle))
@@ -111,6 +116,7 @@ class Sphere:
     centre: Vector
     radius: float
     side: int
+    """+1 where the material is inside, -1 where it is outside."""
     kind: ClassVar[str] = "sphere"
 
     def distance(self, points: Points) -> Distances:
@@ -134,7 +140,7 @@ Surface = Plane | Cylinder | Cone | Sphere
 
 
 def _radial(points: Points, origin: Vector, axis: Vector) -> Points:
-    """The part of `points - origin` that is perpendicular to the axis."""
+    """Project `points - origin` perpendicular to the axis, a unit vector."""
     offset = points - origin
     return offset - (offset @ axis)[..., None] * axis
 

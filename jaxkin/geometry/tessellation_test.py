@@ -1,8 +1,8 @@
-"""The test whether triangles are a tessellation of a surface, and do not only have their corners on it by chance.
+"""Test whether triangles are a tessellation of a surface, or have their corners on it only by chance.
 
-A few corners lie on many surfaces: those of two facets on some cylinder, those of two bands about an axis on some
-torus. The triangles of a tessellation are nearly tangent to the surface, about equally wide, and more than the fit
-needs.
+A few corners lie on many surfaces: the corners of two facets on some cylinder, those of two bands about an axis on some
+torus. The triangles of a tessellation are nearly tangent to the surface, span about equal arcs, and have more corners
+than the fit needs.
 """
 
 from __future__ import annotations
@@ -16,20 +16,28 @@ from jaxkin.geometry.surfaces import Cone, Plane, Sphere, Surface
 from jaxkin.geometry.torus import Torus
 
 CHORD_ANGLE = 0.36
-"""Largest angle, radians, between a facet and its surface at the corners of the facet: little above pi / 9, so that a
-polygon of nine sides or more is round."""
+"""Largest angle, radians, between a facet and its surface at the corners of the facet.
+
+A little above pi / 9, the angle in a regular prism of nine sides: a prism with fewer sides is not taken for round."""
 
 MAX_WIDTH_RATIO = 3.0
-"""Largest ratio of the arc that one facet spans to that of its neighbours on the same face."""
+"""Largest ratio of the arcs that a facet and its neighbours on the same face span."""
 
 _SHALLOW_DEPTH = 20.0
-"""Depth under a surface, as a multiple of the rounding, of facets that are several triangles merged by rounding."""
+"""Largest depth under a surface, in units of `Facets.tolerance`, of a facet whose triangles differ in direction by no
+more than rounding, and so were taken for one facet."""
 
 _MAX_FACET_CORNERS = 8
 """Largest number of corners of a facet on a ball or a torus; a facet with more is a flat face with a round rim."""
 
 _MAX_FITTED_POINTS = 600
-"""Number of points at most that a surface is fitted to; all others are compared with it."""
+"""Largest number of points that a surface is fitted to, chosen at random; all points are then compared with it."""
+
+_MIN_TANGENT = 0.9
+"""Smallest share of the triangles that must be nearly tangent to the surface: some triangles at a rim are not."""
+
+_APEX_DISTANCE = 20
+"""Distance from the apex of a cone, in units of `Facets.tolerance`, up to which a corner has no normal to compare."""
 
 
 def surface_of(
@@ -37,8 +45,8 @@ def surface_of(
 ) -> Surface | Torus | None:
     """Find the surface that the triangles `rows` are a tessellation of; None if there is none.
 
-    `tolerance` is the largest distance of a corner from it. With `one_facet` the triangles are all of
-    one facet; with `torus` a torus is looked for too.
+    `tolerance`, a length, is the largest distance of a corner from the surface. `one_facet` says that all triangles are
+    of one facet; with `torus` a torus is tried too, after the other kinds.
     """
     corners = mesh.points[mesh.triangles[rows]].reshape(-1, 3)
     normals = mesh.normals[rows][:, None].repeat(3, 1) if one_facet else mesh.corner_normals(rows)
@@ -58,7 +66,7 @@ def surface_of(
         return surface if one_facet or np.all(tangent(mesh, surface, rows, CHORD_ANGLE)) else None
     sizes = _corner_counts(mesh, rows)
     # four rulings, or five points: any three rulings lie on some cylinder, any four points on some sphere
-    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD_ANGLE)) <= 0.9:
+    if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD_ANGLE)) <= _MIN_TANGENT:
         return None
     if isinstance(surface, Sphere | Torus) and sizes.max() > _MAX_FACET_CORNERS and _cut(mesh, surface, rows, sizes):
         return None
@@ -66,36 +74,42 @@ def surface_of(
 
 
 def on(mesh: Facets, surface: Surface | Torus, rows: Rows, tolerance: float, angle: float) -> Bool[np.ndarray, "_"]:
-    """Which triangles have their corners on the surface and are within `angle` of tangent to it there."""
+    """Mark the triangles `rows` that lie on a surface and are tangent to it.
+
+    Their corners are within `tolerance` (a length) of the surface, and the angles there within `angle` (radians).
+    """
     near = np.all(np.abs(surface.distance(mesh.points[mesh.triangles[rows]])) <= tolerance, axis=1)
     return near & tangent(mesh, surface, rows, angle)
 
 
 def tangent(mesh: Facets, surface: Surface | Torus, rows: Rows, angle: float) -> Bool[np.ndarray, "_"]:
-    """Which triangles are within `angle`, radians, of tangent to the surface at all their corners."""
+    """Mark the triangles `rows` that are tangent to a surface at all their corners, within `angle` (radians)."""
     return arcs(mesh, surface, rows) < angle
 
 
 def arcs(mesh: Facets, surface: Surface | Torus, rows: Rows) -> Float[np.ndarray, "_"]:
-    """Measure the largest angle (radians) between triangle and surface at its corners: half the arc that it spans."""
+    """Measure half the arc that each triangle spans: its largest angle (radians) to the surface at its corners."""
     corners = mesh.points[mesh.triangles[rows]]
     along = np.sum(surface.normals(corners) * mesh.normals[rows][:, None], axis=-1)
-    if isinstance(surface, Torus):  # its side is not known
+    if isinstance(surface, Torus):  # a torus does not say on which side of it the material is
         along = np.abs(along)
-    if isinstance(surface, Cone):  # its apex has no normal
-        along[np.linalg.norm(corners - surface.apex, axis=-1) <= 20 * mesh.tolerance] = 1.0
+    if isinstance(surface, Cone):
+        along[np.linalg.norm(corners - surface.apex, axis=-1) <= _APEX_DISTANCE * mesh.tolerance] = 1.0
     return np.arccos(np.clip(along.min(axis=1), -1.0, 1.0))
 
 
 def _corner_counts(mesh: Facets, rows: Rows) -> np.ndarray:
-    """How many corners each facet has, in the order of the facets."""
+    """Count the corners of each facet of the triangles `rows`, in the order of the facets."""
     facet = np.repeat(mesh.facet_of[rows], 3)
     _, count = np.unique(np.unique(np.stack([facet, mesh.triangles[rows].ravel()]), axis=1)[0], return_counts=True)
     return count
 
 
 def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray) -> bool:
-    """Whether a facet with many corners lies so deep under the surface that it is a flat cut, not merged triangles."""
+    """Check whether a facet with many corners is a flat that is cut into the surface, since it lies too deep under it.
+
+    `corners` holds the number of corners of each facet. Facets of triangles merged by rounding are less deep.
+    """
     facet = np.unique(mesh.facet_of[rows], return_inverse=True)[1]
     middles = mesh.points[mesh.triangles[rows]].mean(axis=1)
     return bool(
@@ -104,7 +118,11 @@ def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray)
 
 
 def _rings(surface: Torus, points: np.ndarray, tolerance: float) -> int:
-    """Count the circles about the axis that the points lie on, up to four: any three lie on some torus."""
+    """Count the circles about the axis of a torus on which points (_, 3) lie, up to four.
+
+    Points on three circles or fewer prove nothing: any three circles about one axis lie on some torus. `tolerance`, a
+    length, is the width of a circle.
+    """
     offset = points - surface.centre
     height = offset @ surface.axis
     section = np.stack([np.linalg.norm(offset - height[:, None] * surface.axis, axis=-1), height], axis=-1)

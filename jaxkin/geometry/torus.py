@@ -1,4 +1,4 @@
-"""Tori: recognised so that they can be named to the user, since no contact state of the paper has one."""
+"""Tori: recognised in order to be reported to the user, since no contact state of the paper has one."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ class Torus:
 
     centre: Vector
     axis: Vector
+    """Unit vector along the axis of revolution."""
     ring: float
-    """Radius of the circle that the centre of the tube follows."""
+    """Radius of the circle in the middle of the tube."""
     radius: float
     """Radius of the tube."""
     kind: ClassVar[str] = "torus"
@@ -34,7 +35,7 @@ class Torus:
         return offset / np.where(length > 0, length, 1.0)
 
     def _from_tube(self, points: Points) -> Points:
-        """Vectors to the points from the nearest point of the circle in the middle of the tube."""
+        """Compute the vectors to points from the nearest point of the circle in the middle of the tube."""
         offset = points - self.centre
         height = (offset @ self.axis)[..., None]
         radial = offset - height * self.axis

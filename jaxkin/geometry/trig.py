@@ -1,8 +1,8 @@
-"""Cosine and sine of many angles, several times as fast as by the library functions: one polynomial, vectorised.
+"""Compute cosines and sines of many angles with one vectorised polynomial, several times as fast as library functions.
 
-Both functions are computed as sines. The multiple of pi at the nearest zero is subtracted from the angle, in three
-parts so that no digit is lost (Cody and Waite 1980); a polynomial gives the sine of the rest, at most pi / 2. Both
-stand in one array, which the compiler computes in one loop.
+Both functions are computed as sines. From the angle, its nearest zero of the function is subtracted, a multiple of
+pi / 2. This is done in three parts, so that no digit is lost (Cody and Waite 1980). A polynomial gives the sine of the
+remainder, which is at most pi / 2 in size. Cosine and sine are in one array, which the compiler computes in one loop.
 """
 
 from __future__ import annotations
@@ -17,8 +17,10 @@ from jaxtyping import Array, Float
 TURN = 2 * math.pi
 """A full turn, radians."""
 HALF = (float.fromhex("0x1.921fb544p+1"), float.fromhex("0x1.0b4611a6p-33"), float.fromhex("0x1.3198a2e037073p-68"))
-"""pi as a sum. The first two parts have 33 bits each, so that their products with whole numbers up to a million are
-exact; larger angles have lost as many digits themselves."""
+"""pi, half a turn, as a sum of three numbers.
+
+The first two have 33 bits each, so that their products with multiples of 1/2 up to a million are exact; larger angles
+have themselves lost as many digits to rounding."""
 SERIES = tuple(
     map(
         float.fromhex,
@@ -40,7 +42,10 @@ SERIES = tuple(
 
 @jax.custom_jvp
 def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"]:
-    """Compute the cosines and sines, first axis, of angles in radians; single precision uses the library functions."""
+    """Compute the cosines (first row) and sines (second row) of angles in radians.
+
+    Only float64 uses the polynomial; other precisions use the library functions.
+    """
     if jnp.finfo(angles.dtype).bits != 64:
         return jnp.stack([jnp.cos(angles), jnp.sin(angles)])
     # zeros of the cosine lie half way between those of the sine
@@ -53,7 +58,7 @@ def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"
     *lower, total = SERIES
     for term in reversed(lower):
         total = total * square + term
-    # the sine changes its sign with every half turn; the cosine falls at pi / 2, its first zero
+    # the sine changes its sign with every half turn; the cosine falls at pi / 2, the zero with `turns` = 0
     odd = turns - 2 * jnp.floor(0.5 * turns)
     # divide by the sign: XLA takes a quotient for costly, and does not compute it again wherever it is used
     return (rest + rest * (square * total)) / ((1 - 2 * odd) * (1 - 4 * shift))

@@ -1,7 +1,8 @@
 """Weld triangles into a surface: find which corners are the same point, and which triangles share an edge.
 
-Files hold every triangle by itself, or split the surface where colours or shading change. Equal corners are one point;
-corners at edges without a partner are one point where they are equal within the rounding of the file.
+Files hold each triangle with its own corners, or split the surface where colours or shading change. Equal corners
+become one point. Corners at edges that belong to one triangle only become one point if they are equal within the
+rounding of the file.
 """
 
 from __future__ import annotations
@@ -14,11 +15,14 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.components import components
 
 Corners = Float[np.ndarray, "_ 3 3"]
+"""Corners of triangles: [triangle, corner, coordinate]."""
 Rows = Int[np.ndarray, "_ 3"]
+"""Triangles by the indices of their corners."""
 
 _MIN_WEDGE = 1e-2
-"""Smallest angle, radians, of a wedge of material between two triangles at an edge; below it the triangles lie on each
-other but for rounding, and bound different wedges."""
+"""Smallest angle, radians, of a wedge of material between two triangles at an edge.
+
+At a smaller angle the triangles coincide but for rounding, and do not bound a wedge with each other."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,15 +30,20 @@ class Welded:
     """Triangles by the indices of their corners, and the pairs of triangles that share an edge."""
 
     points: Float[np.ndarray, "points 3"]
+    """The corners, each point once."""
     triangles: Rows
+    """The triangles, by indices into `points`."""
     pairs: Int[np.ndarray, "pairs 2"]
-    """The two triangles at an edge, one pair for each edge."""
+    """The two triangles at each edge that two triangles share."""
     open_edges: Int[np.ndarray, "edges 2"]
-    """Start and end point of each edge without a partner."""
+    """Start and end point of each edge of one triangle only."""
 
 
 def weld(corners: Corners, tolerance: float) -> Welded:
-    """Weld triangles, but for those that are a line or a point; `tolerance` is the rounding of the file, a length."""
+    """Weld triangles; those that become a line or a point are left out.
+
+    `tolerance`, a length, is the rounding of the file.
+    """
     points, index = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
     triangles = _proper(index.reshape(-1, 3))
     pairs, lone = pair_edges(points, triangles)
@@ -46,10 +55,11 @@ def weld(corners: Corners, tolerance: float) -> Welded:
 
 
 def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndarray]:
-    """Find the pairs of triangles that share an edge in opposite directions, and the edges left over.
+    """Find the pairs of triangles that share an edge, which they run along in opposite directions.
 
-    Where more than two triangles meet at an edge, as where two solids touch, two triangles are a pair if they bound
-    one wedge of material. Returns the pairs (indices of triangles) and the edges (indices of points) left over.
+    Where more than two triangles meet at an edge, as where two solids touch, two triangles are a pair if they bound one
+    wedge of material. Returns the pairs (pairs, 2) of triangles, and the edges without a pair (edges, 2), by their
+    start and end points.
     """
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     owner = np.repeat(np.arange(len(triangles)), 3)
@@ -76,10 +86,11 @@ def pair_edges(points: np.ndarray, triangles: Rows) -> tuple[np.ndarray, np.ndar
 def _wedges(
     points: np.ndarray, triangles: Rows, owner: np.ndarray, side: np.ndarray, forward: np.ndarray, body: np.ndarray
 ):
-    """Pair the triangles around one edge that bound one wedge of material; returns indices into the list given.
+    """Pair the triangles around one edge that bound one wedge of material.
 
-    `owner` holds the triangles, `side` the number of the edge within each, `forward` whether the edge runs from its
-    lower to its higher point there, `body` the number of the surface that ordinary pairs connect the triangle to.
+    For each triangle at the edge, `owner` is its index, `side` the number (0, 1, 2) of the edge within it, `forward`
+    whether it runs along the edge from the point of lower index to that of higher index, and `body` the number of the
+    surface to which edges of two triangles connect it. Returns pairs (_, 2) of positions in these arrays.
     """
     rows = triangles[owner]
     place = np.arange(len(owner))
@@ -91,13 +102,13 @@ def _wedges(
     away = away - (away @ axis)[:, None] * axis
     x = away[0] / (np.linalg.norm(away[0]) or 1.0)
     angle = np.arctan2(away @ np.cross(axis, x), away @ x)
-    # the material of a triangle that runs along the edge lies clockwise of it, seen against the edge
+    # seen with the edge pointing to the viewer, the material of a forward triangle is on its clockwise side
     found, taken = [], np.zeros(len(owner), bool)
     for one in np.flatnonzero(forward):
         wedge = np.mod(angle[one] - angle, 2 * np.pi)
         wedge = np.where(wedge < _MIN_WEDGE, 2 * np.pi, wedge)
         wedge[forward | taken] = np.inf
-        # facets of a ball and of its socket intersect: to be connected elsewhere says more than the angle
+        # a triangle of the same surface comes first: facets of a ball and of its socket intersect, so angles mislead
         akin = (body == body[one]) & np.isfinite(wedge)
         wedge[akin.any() & ~akin] = np.inf
         other = int(np.argmin(wedge))
@@ -113,7 +124,11 @@ def _proper(triangles: Rows) -> Rows:
 
 
 def _merged(points: np.ndarray, at: np.ndarray, tolerance: float) -> np.ndarray:
-    """Map each point to its own index, but the points `at` to the first of those within the tolerance of each other."""
+    """Return for each point the index of the point that replaces it (points,).
+
+    Points of the list `at` that are connected by distances up to `tolerance` are replaced by the first of them, all
+    other points by themselves.
+    """
     from scipy.spatial import KDTree
 
     index = np.arange(len(points))

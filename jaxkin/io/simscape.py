@@ -21,6 +21,10 @@ KILOGRAMS = {"kilogram": 1.0, "kg": 1.0, "gram": 0.001, "g": 0.001, "lbm": 0.453
 """Kilograms in one unit of mass."""
 
 
+ORTHOGONAL = 1e-6
+"""Largest entry by which rows of a rotation are not orthogonal unit vectors: exporters write nine digits or more."""
+
+
 @dataclass(frozen=True, eq=False)
 class ExportedPart:
     """An instance of a part, placed."""
@@ -156,6 +160,10 @@ class _Reader:
             inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
             group = one.get("rigidGroup")
             own = body or ((*path, f"group {group}") if group else inner if _true(one, "rigid") else None)
+            if inner in self.placed:
+                self.notes.append(
+                    f"{'/'.join(called)}: another instance has its identifier {inner[-1]!r}; taken for one body"
+                )
             self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
             yield inner, called, one, held, own
             yield from self._instances(one, inner, called, self.placed[inner], held, own)
@@ -201,7 +209,13 @@ class _Reader:
         """Read a (4, 4) transform, metres; rotations are written row by row. The identity where there is none."""
         transform = np.eye(4)
         if at is not None:
-            transform[:3, :3] = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
+            rotation = self._numbers(at.findtext("Rotation"), 9, name).reshape(3, 3)
+            if np.abs(rotation @ rotation.T - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(rotation) < 0:
+                raise ValueError(
+                    f"{self.file}: {name!r}: expected a rotation, nine numbers row by row, got {rotation.tolist()}; "
+                    "parts that are mirrored or scaled have to be exported as parts of their own"
+                )
+            transform[:3, :3] = rotation
             transform[:3, 3] = self._numbers(at.findtext("Translation"), 3, name) * self.metres
         return transform
 

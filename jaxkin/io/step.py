@@ -17,7 +17,7 @@ from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_solid import Solid, make_solid, solid_key
 from jaxkin.io.step_tree import placed_parts
-from jaxkin.io.step_unit import length_unit
+from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
@@ -49,6 +49,7 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
     limit = TimeLimit.start(path, seconds)
     text = data.decode("latin-1")
     unit_name, metres = length_unit(text, path.name)
+    off = uncertainty(text)
     placed = placed_parts(text, path.name)
     found, defects = _instances(data, limit)
     defects += missing(text, placed, found)
@@ -58,7 +59,7 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
     for name, instance in zip(names, found, strict=True):
         limit.remaining()
         if (key := solid_key(instance)) not in solids:
-            solids[key] = make_solid(instance, metres)
+            solids[key] = make_solid(instance, metres, off)
         pose = instance.pose.copy()
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)

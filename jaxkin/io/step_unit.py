@@ -1,4 +1,4 @@
-"""The length unit of a STEP file, from its text (ISO 10303-21)."""
+"""The length unit of a STEP file and how exact its geometry is, from its text (ISO 10303-21)."""
 
 from __future__ import annotations
 
@@ -38,6 +38,14 @@ def length_unit(text: str, name: str) -> tuple[str, float]:
                 raise ValueError(f"{name} is in the length unit {said}: export it in {known}")
     warnings.warn(f"{name} does not say its length unit: taken for mm", stacklevel=2)
     return "mm", METRES["mm"]
+
+
+def uncertainty(text: str) -> float:
+    """The largest deviation of geometry that a file says it has, in its length unit; 0 where it says none."""
+    statements = (statement for statement in text.split(";") if "UNCERTAINTY_MEASURE_WITH_UNIT" in statement)
+    number = re.compile(r"LENGTH_MEASURE\s*\(\s*(\d+\.?\d*(?:[Ee][+-]?\d+)?)\s*\)")
+    found = [match[1] for match in map(number.search, statements) if match]
+    return max(map(float, found), default=0.0)
 
 
 def _metres(units: Mapping[str, str], number: str, depth: int = 0) -> float | None:

@@ -19,7 +19,7 @@ from jaxkin.io.study_errors import messages
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.joint import Joint
-from jaxkin.mobility.alignment import PLAY
+from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS
 
 JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAND.items()} | {
     "contact": pairs.contact_joint
@@ -159,7 +159,7 @@ class StudyFile(_Table):
     infer: bool = True
     clearance: Annotated[Number, Field(ge=0)] | None = None
     combine: bool = True
-    align: Annotated[Number, Field(ge=0, le=PLAY[-1])] | None = None
+    align: Annotated[Number, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
     drive: Drive = {}

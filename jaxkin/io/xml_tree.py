@@ -6,6 +6,8 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
 
+from jaxkin._files import check_file
+
 MOST_BYTES = 256_000_000
 """Of one file: 175 placed parts take 135 kB, so this is room for 300,000."""
 
@@ -19,7 +21,7 @@ def read_xml(path: Path) -> Element:
     Raises FileNotFoundError where there is no file, and ValueError, in one line, where the file is larger or deeper
     than the bounds, declares a document type (the only place of entities), or is damaged.
     """
-    if (size := path.stat().st_size) > MOST_BYTES:
+    if (size := check_file(path, "XML file")) > MOST_BYTES:
         raise ValueError(f"{path.name}: {size} bytes of XML; at most {MOST_BYTES} are read")
     builder, depth = TreeBuilder(), 0
     parser = expat.ParserCreate()

@@ -53,47 +53,49 @@ LOWER_PAIRS = lower_pairs(MOVEMENTS)
 
 @dataclass(frozen=True, eq=False)
 class LowerPair:
-    """A revolute, prismatic, cylindrical, planar or spherical pair between two parts, or none of their freedoms."""
+    """A lower pair with its place: revolute, prismatic, cylindrical, planar, spherical, or fixed (no freedoms)."""
 
     kind: JointKind
     movement: str
-    """Key of `MOVEMENTS`."""
+    """Key of the pair in `MOVEMENTS`."""
     frame: Pose
-    """In world coordinates at the assembled pose."""
+    """Joint frame (4x4) in world coordinates at the assembled pose."""
     margin: float
-    """How strictly the contacts forbid all other motions: the smallest violation by a unit twist outside of the pair,
-    in radians or lengths per size of the assembly. A margin little above the noise says that the contacts were perhaps
-    meant to allow more."""
+    """How strictly the contacts forbid all motions that the pair does not allow, dimensionless: the smallest non-zero
+    singular value of the constraints on the twist, with lengths over the size of the assembly, but at most 1. A margin
+    little above the noise says that the contacts were perhaps meant to allow more."""
 
 
 class Chain(NamedTuple):
-    """A displacement set: the product of some movements."""
+    """A set of displacements, given as all products of some movements one after the other."""
 
     movements: Sequence[str]
-    """Keys of `MOVEMENTS`."""
+    """Keys of the movements in `MOVEMENTS`."""
     frames: Float[np.ndarray, "frames 4 4"]
-    """A frame for each movement, in world coordinates at the assembled pose."""
+    """The frame of each movement, in world coordinates at the assembled pose."""
 
 
 def combine(contacts: Sequence[Contact], noise: Noise) -> LowerPair | None:
-    """Find the lower pair that the contacts of two parts are equivalent to; None if there is none.
+    """Find the lower pair that the contacts between two parts are equivalent to; None if no lower pair is.
 
-    The contacts may give the two parts in either order, since a lower pair allows the inverse of each displacement that
-    it allows.
+    `noise` says which deviations count as zero. The contacts may name the two parts in either order, since a lower pair
+    allows the inverse of each displacement that it allows.
     """
     return lower_pair([Chain(movements(contact), contact.frames) for contact in contacts], noise)
 
 
 def lower_pair(chains: Sequence[Chain], noise: Noise) -> LowerPair | None:
-    """Find the lower pair whose displacements are those that all chains have in common; None if there is none.
+    """Find the lower pair whose displacements are the intersection of the sets of all chains; None if no pair is.
 
-    Where the origin of the pair is arbitrary, it is the possible one nearest to the origin of the first chain; the x
-    axis is that of the first frame with the same z axis.
+    Where the pair leaves the origin of its frame arbitrary, the admissible point next to the first frame of the first
+    chain is chosen; the directions are those of the first frame of any chain with a parallel z axis, or arbitrary in x
+    and y if there is none. `noise` says which deviations count as zero.
     """
     centre, size = chains[0].frames[0, :3, 3], noise.size
+    # lengths from `centre` over `size`, so that one tolerance serves angles and lengths
     scaled = [Chain(chain.movements, _scaled(chain.frames, centre, size)) for chain in chains]
     allowed = [displace(*each, np.zeros(freedoms(each.movements)))[1] for each in scaled]
-    # entries of the matrices are sums of a few numbers, each within the noise
+    # 4: entries of the matrices are sums of a few numbers, each within the noise
     tolerance = 4 * noise.angle
     forbidden = np.vstack([complement(screws) for screws in allowed])
     _, strengths, twists = np.linalg.svd(forbidden, full_matrices=True)
@@ -103,6 +105,8 @@ def lower_pair(chains: Sequence[Chain], noise: Noise) -> LowerPair | None:
         return None
     kind, movement, pose = candidate
     coordinates = freedoms([movement])
+    # finite displacements of the pair must lie in all sets; the chains are algebraic, so random ones decide; two, since
+    # one might be special by chance; half a radian, so that `misfit` converges
     for q in np.random.default_rng(0).uniform(-0.5, 0.5, (2, coordinates)):
         displacement = displace([movement], pose[None], q)[0]
         if any(misfit(*each, displacement) > tolerance for each in scaled):
@@ -120,14 +124,18 @@ def _scaled(frames: np.ndarray, centre: Vector, size: float) -> np.ndarray:
 
 
 def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[JointKind, str, Pose] | None:
-    """Find the lower pair with as many rotations and translations as some twists, about the same axis or centre."""
+    """Find the lower pair with the same first-order freedoms as a space of twists; None if no lower pair has them.
+
+    `twists` (6, freedoms) spans the space; `frames` (frames, 4, 4) are all frames of the chains, scaled, from which
+    arbitrary origins and directions are taken. Returns the kind, the key in `MOVEMENTS` and the frame of the pair.
+    """
     directions, strengths, mixes = np.linalg.svd(twists[:3], full_matrices=True)
     rotations = int(np.sum(strengths > tolerance))
-    slides = (twists @ mixes[rotations:].T)[3:]
+    slides = (twists @ mixes[rotations:].T)[3:]  # (3, translations): velocities of the twists without rotation
     if (rotations, slides.shape[1]) not in LOWER_PAIRS:
         return None
     kind, movement = LOWER_PAIRS[rotations, slides.shape[1]]
-    turns = twists @ mixes[:rotations].T
+    turns = twists @ mixes[:rotations].T  # (6, rotations)
     origin, z = frames[0, :3, 3], frames[0, :3, 2]
     if rotations == 1:
         z = directions[:, 0]
@@ -139,10 +147,10 @@ def _candidate(twists: Screws, frames: np.ndarray, tolerance: float) -> tuple[Jo
         crosses = np.vstack([-_cross_matrix(w) for w in turns[:3].T])
         point = np.linalg.lstsq(crosses, turns[3:].T.ravel(), rcond=tolerance)[0]
         origin = point + z * ((origin - point) @ z) if "axis" in aligned else point
-    same = [pose for pose in frames if np.linalg.norm(np.cross(pose[:3, 2], z)) <= tolerance]
-    return kind, movement, frame(origin, same[0][:3, 2], same[0][:3, 0]) if same else frame(origin, z)
+    parallel = [pose for pose in frames if np.linalg.norm(np.cross(pose[:3, 2], z)) <= tolerance]
+    return kind, movement, frame(origin, parallel[0][:3, 2], parallel[0][:3, 0]) if parallel else frame(origin, z)
 
 
 def _cross_matrix(vector: Vector) -> np.ndarray:
-    """The matrix of the cross product, `vector` from the left."""
+    """Return the 3x3 matrix M with M x = `vector` x x (cross product)."""
     return np.cross(vector, np.eye(3)).T

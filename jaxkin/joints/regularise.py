@@ -1,9 +1,9 @@
-"""Remove the noise of files from contacts: axes that are parallel, perpendicular, coaxial or meet do so exactly.
+"""Remove file noise from contacts: make axes exactly parallel, perpendicular, coaxial or intersecting that nearly are.
 
-Readers pass the placements of parts through float32. Axes that are parallel by design arrive 1e-8 to 1e-7 rad apart,
-and a planar loop of such axes closes exactly only in the pose that was read. Relations are looked for among all
-contacts together, since the axes of one loop belong to different contacts. Only that is aligned which the motion
-depends on: of a face on a face its normal and not its height, of a pin its axis and not the place along it.
+CAD readers round the placements of parts to float32. Axes that are parallel by design then differ by 1e-8 to 1e-7 rad,
+and a planar loop of such axes closes exactly in no pose but the assembled one. Axes are compared across all contacts,
+since the axes of one loop belong to different contacts. Only what the motion depends on is aligned: of a plane on a
+plane the normal but not the height, of a pin in a hole the axis but not the position along it.
 """
 
 from __future__ import annotations
@@ -24,38 +24,41 @@ from jaxkin.joints.directions import align_directions
 Frames = Float[np.ndarray, "frames 4 4"]
 
 _MAX_ANGLE = 1e-4
-"""Largest angle that counts as noise, radians: the default angle tolerance of `Assembly.contacts`, since surfaces that
-are farther apart are not in contact."""
+"""Largest angle that may count as noise, radians.
+
+It is the default angle tolerance of `Assembly.contacts`: surfaces at larger angles are not in contact at all."""
 
 
 @dataclass(frozen=True)
 class Noise:
-    """The largest deviations that count as the noise of a file and not as design."""
+    """The largest deviations that count as rounding of the file; larger ones count as design."""
 
     angle: float
-    """Radians."""
+    """Largest angle, radians."""
     length: float
-    """In the unit of the contacts."""
+    """Largest distance, in the unit of the contacts."""
 
     @property
     def size(self) -> float:
-        """The length over which angle and length are equivalent: the size of the assembly."""
+        """The lever arm at which a rotation by `angle` moves a point by `length`: about the size of the assembly."""
         return self.length / self.angle
 
     def with_uncertainty(self, angle: float, length: float) -> Noise:
-        """Enlarge this noise to given uncertainties of angles (radians) and lengths, up to `_MAX_ANGLE` of the angle.
+        """Enlarge the noise so that it covers an uncertainty of angles (radians) and of lengths.
 
-        Both entries grow by one factor, so that `size` stays.
+        `angle` and `length` of the result are those of this noise times one factor of at least 1, so that `size` stays;
+        the angle of the result is at most `_MAX_ANGLE`, and then an uncertainty may not be covered.
         """
         factor = max(1.0, min(max(angle / self.angle, length / self.length), _MAX_ANGLE / self.angle))
         return Noise(float(factor * self.angle), float(factor * self.length))
 
     @staticmethod
     def of(contacts: Sequence[Contact]) -> Noise:
-        """Return ten times the noise of single precision for contacts of this size.
+        """Estimate the noise that float32 leaves in contacts, times ten for safety.
 
-        Rounding to float32 changes a number by up to 6e-8 of itself: an entry of a rotation matrix (1e-7 rad in all),
-        or a coordinate, which grows with the distance of the assembly from the origin. Design deviates by 1e-5 or more.
+        Rounding to float32 changes a number by up to 6e-8 of itself. Rounded entries of a rotation matrix turn an axis
+        by up to 1e-7 rad, and move points by that times the size of the assembly; a rounded coordinate moves a point by
+        6e-8 times its distance from the origin of the world. Deviations by design are 1e-5 rad or more.
         """
         origins = np.concatenate([contact.frames[:, :3, 3] for contact in contacts] or [np.zeros((1, 3))])
         radii = [getattr(surface, "radius", 0.0) for contact in contacts for surface in contact.surfaces]
@@ -65,7 +68,7 @@ class Noise:
 
 @dataclass(frozen=True, eq=False)
 class Regularised:
-    """Contacts without noise, and the largest corrections that this took."""
+    """Contacts after the removal of noise, and the largest corrections that were made."""
 
     contacts: tuple[Contact, ...]
     angle: float
@@ -75,9 +78,11 @@ class Regularised:
 
 
 def regularise(contacts: Sequence[Contact], noise: Noise) -> Regularised:
-    """Align the frames and surfaces of all contacts with each other; their centres and misfits stay as they were found.
+    """Align the frames and surfaces of all contacts with each other where they deviate by no more than the noise.
 
-    A second application changes nothing, and the result moves and scales with the input, both up to rounding.
+    The fields of a contact other than `frames` and `surfaces` stay as they were found. Up to rounding, a second
+    application changes nothing, and contacts that are displaced or scaled together give a result displaced or scaled
+    alike.
     """
     names = [name for contact in contacts for name in movements(contact)]
     names += [symmetry_of(surface.kind) for contact in contacts for surface in contact.surfaces]
@@ -97,9 +102,11 @@ def movements(contact: Contact) -> tuple[str, ...]:
 
 
 def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frames, float, float]:
-    """Align frames with each other in what their movements depend on (`Movement.aligned`).
+    """Align the z axes and origins of frames with each other as far as their movements depend on them.
 
-    Returns the frames, and the largest change of a direction (radians) and of a place (length).
+    `movements` holds the movement of each frame; its `Movement.aligned` says whether the direction of the z axis, the
+    line of the z axis, or the origin is to be aligned. Returns the aligned frames, the largest change of a z axis
+    (radians) and the largest displacement of an origin (a length).
     """
     has_axis, has_direction, has_centre = (
         np.array([what in MOVEMENTS[name].aligned for name in movements], bool)
@@ -123,7 +130,7 @@ def align(movements: Sequence[str], frames: Frames, noise: Noise) -> tuple[Frame
 
 
 def _surface_frame(surface: Surface) -> np.ndarray:
-    """Make the frame of a surface that takes part in the alignment: z along its axis or normal."""
+    """Make a frame of a surface for the alignment: z along the axis or normal, the origin on it, or at the centre."""
     match surface:
         case Plane():
             return frame(surface.point, surface.normal)

@@ -18,7 +18,7 @@ from jaxkin.joints.joint import Joint
 DEPENDENT = 1e-9
 """Singular value of the screws of a joint, lengths scaled to the size of the mechanism, at which they are dependent.
 Screws of one joint are unit twists at a few lever arms and dependent exactly or not at all: 1e-9 is above their
-rounding, 1e-14, and a hundred times below the rank threshold of whole loops (`linkage.first_order.DOUBLE`)."""
+rounding, 1e-14, and a hundred times below the rank threshold of whole loops (`linkage.first_order.RANK_TOLERANCE`)."""
 
 Frames = Float[np.ndarray, "frames 4 4"]
 Screws = Float[np.ndarray, "6 freedoms"]

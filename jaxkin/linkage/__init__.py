@@ -1,1 +1,1 @@
-"""The linkage: joints, structure and loop classes, all that computing needs; its rates at first order."""
+"""Describe a linkage by joints, structure and loop classes: all that computing its motion needs."""

@@ -1,7 +1,7 @@
 """The closure equations of a linkage for any displacements of its joints (Eq. 10 and 11), in plain JAX.
 
-The solver has its own kernels, which evaluate only the equations that a loop needs; these here are all twelve of each
-loop, for other people's optimisers, and as a check.
+The solver has kernels of its own, which evaluate only the equations that a loop needs. This module evaluates all twelve
+equations of each loop, for optimisers outside jaxkin and as a check of the kernels.
 """
 
 from __future__ import annotations
@@ -28,9 +28,10 @@ class ClosureEquations(NamedTuple):
     """The closure equations of all loops at one set of displacements."""
 
     residual: Float[Array, " equations"]
-    """Twelve a loop (Eq. 11), in the order of `structure.loops`: the rotation matrix that is left when the loop has
-    been travelled, less the unit matrix, row by row, then how far its end is from its start, over the characteristic
-    length. The norm is the square root of Eq. 12."""
+    """Twelve entries a loop (Eq. 11), in the order of `structure.loops`. The displacement that is left when the loop
+    has been travelled gives nine entries of rotation, its matrix less the unit matrix, row by row; and three of
+    translation, from the start of the loop to its end, over the characteristic length. The norm is the square root of
+    Eq. 12."""
     jacobian: Float[Array, "equations coordinates"]
     """Derivative of the residual with respect to the coordinates of all joints, one joint after the other."""
     coordinates: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""The graph of a structure element in which parts whose place to each other is known count as one part.
+"""Contract the graph of a structure element: parts whose displacements relative to each other are known count as one.
 
 Parts are nodes and joints are edges. A joint whose coordinates are all known is contracted: its two parts get the same
 representative. Circuits of what is left are the loops that are still to be solved.
@@ -17,19 +17,19 @@ Ends = Mapping[int, tuple[str, str]]
 
 
 class ContractedGraph:
-    """Parts and joints of a structure element, some of the joints known."""
+    """The graph of a structure element (parts are nodes, joints are edges) in which known joints are contracted."""
 
     def __init__(self, ends: Ends) -> None:
         self.ends = ends
         self.representative = {part: part for pair in ends.values() for part in pair}
-        """For each part the one part by which all that are known relative to it are named."""
+        """For each part the representative of all parts that are known relative to it."""
         self._known: dict[str, list[tuple[int, int, str]]] = {part: [] for part in self.representative}
-        """For each part its known joints: (joint, sign when it is left by the joint, part that is reached)."""
+        """For each part its known joints: (joint, +1 if the part is part 1 of the joint, else -1; other part)."""
         self._group_of: dict[int, int | None] = {}
-        """For each known joint the number of the group that gave it; None for a drive."""
+        """For each known joint the number of the group that was solved for it; None if it is driven."""
 
     def contract(self, joint: int, group: int | None) -> None:
-        """Contract a joint that is known from now on: by the solution of a numbered group, or (None) by the drive."""
+        """Contract a joint whose coordinates are known from now on: solved by `group`, or driven (None)."""
         part1, part2 = self.ends[joint]
         self._known[part1].append((joint, 1, part2))
         self._known[part2].append((joint, -1, part1))
@@ -39,11 +39,11 @@ class ContractedGraph:
             self.representative = {part: kept if own == gone else own for part, own in self.representative.items()}
 
     def known_joints(self, circuits: Iterable[Circuit]) -> dict[int, int | None]:
-        """The known joints on closed circuits, each with the number of the group that gave it (None: the drive)."""
+        """Return the known joints on closed circuits, each with the group that was solved for it (None: driven)."""
         return {joint: self._group_of[joint] for loop in circuits for joint, _ in loop if joint in self._group_of}
 
     def known_path(self, start: str, end: str) -> Circuit:
-        """The path of fewest known joints between two parts of one representative."""
+        """Find the path of fewest known joints between two parts of one representative."""
         came: dict[str, tuple[int, int, str] | None] = {start: None}
         queue = deque([start])
         while end not in came:
@@ -59,7 +59,7 @@ class ContractedGraph:
         return tuple(reversed(path))
 
     def closed(self, circuit: Circuit) -> Circuit:
-        """A circuit of representatives as a closed circuit of parts, with the known joints that it passes."""
+        """Turn a circuit of representatives into a closed circuit of parts, by inserting paths of known joints."""
         left = dict(circuit)
         (joint, sign), *_ = circuit
         start = part = self.ends[joint][0 if sign > 0 else 1]
@@ -73,7 +73,8 @@ class ContractedGraph:
         return tuple([*travelled, *self.known_path(part, start)])
 
     def _onward(self, part: str, left: Mapping[int, int], travelled: Sequence[WalkStep]) -> tuple[int, int]:
-        """The joint of a circuit by which the parts known relative to this one are left, and its sign."""
+        """Find the next joint of a circuit, and its sign: a joint at the representative of `part` among those
+        `left`."""
         here = self.representative[part]
         if not travelled:
             return next(iter(left.items()))
@@ -83,7 +84,7 @@ class ContractedGraph:
         raise AssertionError("the joints are no circuit")
 
     def _around(self, joints: Iterable[int]) -> dict[str, list[tuple[int, int, str]]]:
-        """For each representative its (joint, sign, other representative)."""
+        """List for each representative its joints: (joint, sign, other representative)."""
         around: dict[str, list[tuple[int, int, str]]] = {}
         for joint in joints:
             part1, part2 = (self.representative[part] for part in self.ends[joint])
@@ -92,13 +93,14 @@ class ContractedGraph:
         return around
 
     def lightest(self, weights: Mapping[int, int]) -> set[frozenset[int]]:
-        """The lightest circuit through each of some weighted joints; the joint alone where it ends where it begins."""
+        """Find the circuit of least weight through each joint: the joint alone if its ends have one representative."""
         around = self._around(weights)
         return {self._lightest(around, weights, joint) for joint in weights}
 
     def _lightest(
         self, around: Mapping[str, Sequence[tuple[int, int, str]]], weights: Mapping[int, int], joint: int
     ) -> frozenset[int]:
+        """Find the circuit of least weight through one joint, by Dijkstra's algorithm between its two ends."""
         start, end = (self.representative[part] for part in self.ends[joint])
         queue: list[tuple[int, str, tuple[int, ...]]] = [(0, start, ())]
         done: set[str] = set()
@@ -115,10 +117,11 @@ class ContractedGraph:
         raise AssertionError("every joint of an element with loops lies in a circuit")
 
     def circuits(self, joints: Sequence[int]) -> list[Circuit]:
-        """Independent circuits of representatives through these joints: one for each joint that a spanning tree of the
-        others leaves out, (joint, sign) in any order, that joint first.
+        """Find independent circuits of representatives through these joints, one for each joint outside a spanning
+        tree.
 
-        Known joints on the way are left out: see `closed`.
+        Each circuit is (joint, sign) with the joint outside the tree first and the others in any order. It holds no
+        known joints: `closed` inserts them.
         """
         around = self._around(joints)
         came: dict[str, tuple[int, int, str] | None] = {}
@@ -150,7 +153,10 @@ class ContractedGraph:
 
 
 class CycleSpace:
-    """Circuits that are linearly independent over the field of two elements, as for circuits they then are over any."""
+    """A set of linearly independent circuits, kept in row echelon form over the field of two elements.
+
+    Circuits that are independent over this field are independent over the real numbers too.
+    """
 
     def __init__(self) -> None:
         self._rows: dict[int, int] = {}

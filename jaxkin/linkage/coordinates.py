@@ -1,4 +1,4 @@
-"""Which coordinates are driven: names such as "A" or "j5.z" resolved, arrays checked."""
+"""Resolve the names of driven coordinates, such as "A" or "j5.z", and check the arrays that are given for them."""
 
 from __future__ import annotations
 
@@ -15,22 +15,24 @@ from jaxkin._traced import traced
 from jaxkin.linkage.linkage import Linkage
 
 Given = Float[Array, " poses"] | Float[np.ndarray, " poses"]
-"""Displacements, one a pose: on the host where they are numbers."""
+"""Displacements of one coordinate, one a pose, radians or lengths of the mechanism; numpy unless JAX traces them."""
 
 
 class Driven(NamedTuple):
-    """A driven coordinate."""
+    """A driven coordinate with its displacements."""
 
     joint: int
+    """Number of the joint in `Linkage.joints`."""
     coordinate: int
+    """Number of the coordinate in `Joint.coordinates`."""
     values: Given
 
 
 def resolve(linkage: Linkage, drive: Mapping[str, object]) -> dict[str, Driven]:
-    """The driven coordinates by their full names "joint.coordinate", in the order given.
+    """Resolve a drive into its coordinates, by full names "joint.coordinate" in the order given.
 
     Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
-    and a ball of which only some angles are driven. NaN and infinity are the status of their poses.
+    and a ball of which only some angles are driven. Displacements may be NaN or infinite: their poses are NONFINITE.
     """
     driven = coordinates(linkage, named(drive))
     given = given_values(driven, drive)
@@ -38,12 +40,12 @@ def resolve(linkage: Linkage, drive: Mapping[str, object]) -> dict[str, Driven]:
 
 
 def named(drive: Mapping[str, object]) -> tuple[str, ...]:
-    """What a drive names; ValueError where it is no mapping."""
+    """Return the names in a drive; ValueError where the drive is no mapping."""
     return tuple(by_name(drive, "driven displacements", "{'A': angles}"))
 
 
 def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, int]]:
-    """(joint, coordinate) that the names of a drive mean, by their full names; ValueError as in `resolve`."""
+    """Resolve names of coordinates: full name "joint.coordinate" -> (joint, coordinate); ValueError as in `resolve`."""
     if not keys:
         raise ValueError("the drive is empty: name at least one joint, as in {'A': angles}")
     driven: dict[str, tuple[int, int]] = {}
@@ -58,7 +60,10 @@ def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, i
 
 
 def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[Given, ...]:
-    """What a drive gives to coordinates of these full names, in its order; ValueError as in `resolve`."""
+    """Check the arrays of a drive, and return them in its order; ValueError as in `resolve`.
+
+    `names` are the full names of the coordinates in that order, for messages.
+    """
     given = tuple(_values(key, values) for key, values in drive.items())
     lengths = [values.shape[0] for values in given]
     if len(set(lengths)) > 1:
@@ -68,10 +73,11 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
 
 
 def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
-    """The displacements with each pose that holds NaN or infinity replaced by the finite one before it, and where that
-    was not so (None: nowhere); at the beginning by the first finite pose, zero where there is none.
+    """Replace the inputs of each pose that has NaN or infinity by those of the last finite pose before it.
 
-    So the poses between which the motion is followed are those that there would be without the ones replaced.
+    Poses at the beginning get the inputs of the first finite pose, or zero if no pose is finite. So the branch is
+    followed through the same inputs as without the replaced poses. Returns the displacements, and which poses were
+    finite (None if all were).
     """
     xp = jnp if traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
@@ -88,7 +94,7 @@ def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Arra
 
 
 def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
-    """The joint and the coordinate that a name "joint" or "joint.coordinate" means; ValueError where it means none."""
+    """Resolve a name "joint" or "joint.coordinate" into (joint, coordinate); ValueError where there is none."""
     names = [joint.name for joint in linkage.joints]
     if not isinstance(key, str):
         raise ValueError(f"a drive names 'joint' or 'joint.coordinate', as in {{{names[0]!r}: angles}}, got {key!r}")
@@ -116,11 +122,12 @@ def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
 
 
 def _pair(linkage: Linkage, name: str) -> list[str]:
-    """Names of parallel joints "p-q:a", "p-q:e" for the name "p-q" of their pair of parts."""
+    """List the names of parallel joints, such as 'p-q:a' and 'p-q:e' for the pair of parts "p-q"."""
     return [repr(joint.name) for joint in linkage.joints if joint.name.rpartition(":")[0] == name]
 
 
 def _values(key: str, values: Any) -> Given:
+    """Check the displacements of one coordinate and convert them to floats; `key` is its name, for messages."""
     dtype = dtypes.canonicalize_dtype(float)
     if traced(values):
         values = jnp.asarray(values, dtype)
@@ -140,7 +147,7 @@ def _values(key: str, values: Any) -> Given:
 
 
 def _whole_balls(linkage: Linkage, driven: Collection[tuple[int, int]]) -> None:
-    """A ball's angles are one rotation: all three are driven or none."""
+    """Raise ValueError where some angles of a ball are driven and others not: the three angles are one rotation."""
     for index, joint in enumerate(linkage.joints):
         for group in joint.driven_together:
             if 0 < sum((index, c) in driven for c in group) < len(group):

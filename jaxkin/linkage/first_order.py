@@ -1,4 +1,4 @@
-"""Loops at first order: the rates of the joints that keep them closed, as linear equations in numpy."""
+"""Write the closure of loops at first order, as linear equations for the rates of their joints (numpy, on the host)."""
 
 from __future__ import annotations
 
@@ -12,27 +12,39 @@ from jaxkin.joints.screws import Screws
 
 
 class Thresholds(NamedTuple):
-    """Below what a number of a mechanism counts as zero, in one floating-point precision.
+    """The numbers below which quantities of a mechanism count as zero, for one floating-point precision.
 
     Lengths are divided by the characteristic length of the loops.
     """
 
     residual: float
-    """Largest closure residual of a pose whose loops are closed."""
+    """Largest closure residual (square root of Eq. 12) of a pose whose loops count as closed."""
     rank: float
-    """Singular values of a closure Jacobian below this, relative to the largest, are zero. Mobility, plan and sweep
-    agree on the rank, since the solver damps its least-norm steps by the square of this number."""
+    """Largest singular value of a closure Jacobian, over the largest of all, that counts as zero. Mobility, plan and
+    sweep agree on the rank, because the solver damps its least-norm steps by the square of this number."""
     rate: float
-    """Joint rates below this, in motions of unit norm, are zero: a few roundings of numbers of six digits. A part that
-    moves about itself (a leg that slides along its line) need not be aligned for the loops to move, so its frames may
-    keep the rounding of the file."""
+    """Largest rate of a coordinate, in a motion of unit norm, that counts as rest."""
 
 
-DOUBLE = Thresholds(1e-11, 1e-7, 2e-5)
-"""For mechanisms in float64. The rank threshold is the root of the solver's damping, some 45 roundings: that of J J^T,
-from which least-norm steps are computed, is the square, and below 1.5e-8, the root of one rounding, J J^T is noise."""
-SINGLE = Thresholds(1e-5, 1e-3, 1e-3)
-"""For mechanisms in float32, by the same rule: the root of one rounding is 3.5e-4."""
+RESIDUAL_TOLERANCE = 1e-11
+"""`Thresholds.residual` in float64: ten times the residual at which a sweep calls a pose closed, 1e-12."""
+RANK_TOLERANCE = 1e-7
+"""`Thresholds.rank` in float64. Its square, 45 units of rounding, is the damping of J J^T, from which least-norm steps
+are computed. Singular values of J below 1.5e-8, the root of one unit of rounding, are rounding in J J^T."""
+RATE_TOLERANCE = 2e-5
+"""`Thresholds.rate` in float64: four times the rounding of numbers of six digits, 5e-6. Frames of a part with an idle
+motion (a leg that slides along its line) may stay rounded so, since its loops move without exact alignment."""
+DOUBLE = Thresholds(RESIDUAL_TOLERANCE, RANK_TOLERANCE, RATE_TOLERANCE)
+"""Thresholds for mechanisms in float64."""
+
+RESIDUAL_TOLERANCE_SINGLE = 1e-5
+"""`Thresholds.residual` in float32: five times the residual at which a sweep calls a pose closed, 2e-6."""
+RANK_TOLERANCE_SINGLE = 1e-3
+"""`Thresholds.rank` in float32: three times the root of one unit of rounding, 3.5e-4."""
+RATE_TOLERANCE_SINGLE = 1e-3
+"""`Thresholds.rate` in float32: that of the rank, since motions found with it are uncertain by as much."""
+SINGLE = Thresholds(RESIDUAL_TOLERANCE_SINGLE, RANK_TOLERANCE_SINGLE, RATE_TOLERANCE_SINGLE)
+"""Thresholds for mechanisms in float32."""
 
 SPREAD = 30.0
 """How large a singular value of a closure Jacobian (relative to the largest) may result from an error of the frames, as
@@ -54,7 +66,11 @@ Columns = Sequence[tuple[int, int]]
 def loop_jacobian(
     loops: Sequence[Sequence[tuple[int, int]]], columns: Sequence[tuple[int, int]], screws: Screws
 ) -> Float[np.ndarray, "equations columns"]:
-    """Six rows a loop of (joint, sign): the sum of its joints' twists, each in its direction of travel, is zero."""
+    """Assemble the closure Jacobian: for each loop six rows that say that the twists of its joints add up to zero.
+
+    `loops` are (joint, sign) in order of travel, `columns` are (joint, coordinate), and `screws` (6, columns) are the
+    unit twists of the coordinates, angular velocity first. A joint that is travelled backwards counts with sign -1.
+    """
     rows = np.zeros((len(loops), 6, len(columns)))
     of_joint: dict[int, list[int]] = {}
     for column, (joint, _) in enumerate(columns):
@@ -82,17 +98,17 @@ def null_space(
 def without(
     motions: Float[np.ndarray, "n columns"], resting: Sequence[int], thresholds: Thresholds
 ) -> Float[np.ndarray, "m columns"]:
-    """A basis of those motions in which some columns rest."""
+    """Return a basis of those combinations of motions in which the columns `resting` have a rate of zero."""
     values, mixes = _right(motions[:, list(resting)].T)
     return mixes[int((values > thresholds.rate).sum()) :] @ motions
 
 
 def independent(motions: Float[np.ndarray, "freedoms columns"], columns: Sequence[int], thresholds: Thresholds) -> int:
-    """How many of the rates of these columns the motions allow independently of each other."""
+    """Count the rates of these columns that the motions allow independently of each other."""
     return int((np.linalg.svd(motions[:, list(columns)], compute_uv=False) > thresholds.rate).sum())
 
 
 def _right(matrix: Float[np.ndarray, "rows columns"]) -> tuple[np.ndarray, Float[np.ndarray, "columns columns"]]:
-    """Singular values, and all right singular vectors; the left ones, which may be far more, are not worked out."""
+    """Compute singular values and all right singular vectors, one a row; the left ones may be many more."""
     _, values, directions = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
     return values, directions

@@ -1,4 +1,4 @@
-"""Joint-motion matrices (Table 2), and where they take the parts (Section 5.2), over many poses at once."""
+"""Compute joint-motion matrices (Table 2) and displacements of parts (Section 5.2), over many poses at once."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.structure import Structure
 
 Displacements = tuple[Float[Array | np.ndarray, "poses _"], ...]
-"""Of all joints, in the order of `Linkage.joints`: radians, and lengths in the unit of the mechanism."""
+"""For each joint of `Linkage.joints` its coordinates: radians, and lengths in the unit of the mechanism."""
 
 
 def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Displace all parts from their assembled pose, in the order of `linkage.parts`, in world coordinates."""
+    """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world."""
     return _transforms(linkage.structure, linkage.joints, displacements)
 
 
@@ -29,7 +29,8 @@ def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Flo
 def _transforms(
     structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Transforms of all parts, from the fixed ones along the tree: P_child = P_parent J, or J^-1 against the joint."""
+    """Compute the displacements of all parts along the tree from the fixed parts: P_child = P_parent J, or P_parent
+    J^-1 where the tree passes the joint from part 2 to part 1."""
     poses, dtype = displacements[0].shape[0], displacements[0].dtype
     found: dict[str, Rigid] = {}  # without the fixed parts
     for part, parent, joint, sign in structure.tree:
@@ -42,9 +43,10 @@ def _transforms(
 
 
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:
-    """Displacement J of part 2 relative to part 1, the product of `frames_1 T frames_2^-1` (Table 2), in the world.
+    """Compute the displacement J of part 2 relative to part 1, the product of all `frames_1 T frames_2^-1` (Table 2).
 
-    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism.
+    Columns of `q` are the joint's coordinates: radians, and lengths in the unit of the mechanism. Returns rotation and
+    translation in world coordinates, `[row, column, pose]`.
     """
     found, first = None, 0
     for frame, movement in enumerate(joint.movements):

@@ -1,4 +1,4 @@
-"""The names of single loops by the letters of their joints: planar dyad RRP, spherical dyad RRR, spatial loop RSSR.
+"""Name single loops by the letters of their joints: planar dyad RRP, spherical dyad RRR, spatial loop RSSR.
 
 R is a revolute, P a prismatic, H a helical, C a cylindrical, E a planar, U a universal and S a spherical pair; other
 joints are the pairs that they are made of, in brackets.
@@ -18,11 +18,11 @@ OF_ELEMENT = {"rotate": "R", "translate": "P", "screw": "H"}
 
 
 def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:
-    """The letter of a joint, of which only some coordinates move.
+    """Return the letter of a joint of which only the given coordinates are free.
 
-    A movement that is free as a whole has the letter of its lower pair. One of which a coordinate is driven is what its
-    other elementary motions are, leftmost factor first: a planar pair driven by its angle is (PP), driven by x it is
-    (PR), no C, whose axes are one.
+    A movement whose coordinates are all free has the letter of its lower pair. A movement with driven coordinates is
+    named by its remaining elementary motions, leftmost factor first: a planar pair driven by its angle is (PP), and one
+    driven by x is (PR), not C, since its two axes differ.
     """
     letters, first = "", 0
     for name in movements:
@@ -35,10 +35,11 @@ def letter(movements: Sequence[str], coordinates: Collection[int]) -> str:
 
 
 def loop_name(group: Group, letters: Mapping[int, str], kind: str) -> str:
-    """The name of a group of one loop, `kind` ("planar", "spherical", "Schoenflies", "spatial") first.
+    """Name a group of one loop, `kind` ("planar", "spherical", "Schoenflies", "spatial") first.
 
-    `letters` are those of the joints by number: of their unknown coordinates where they have any. A dyad hangs between
-    bodies whose places are known, and is named by its unknown joints alone; other loops are named by all their joints.
+    `letters` maps the number of a joint to its letter, for its unknown coordinates where it has any. A dyad connects
+    two bodies whose displacements are known, and is named by its unknown joints alone; other loops are named by all
+    joints.
     """
     (loop,) = group.loops
     is_dyad = kind in ("planar", "spherical") and len(group.unknowns) == group.rank == IN_SUBGROUP
@@ -46,8 +47,11 @@ def loop_name(group: Group, letters: Mapping[int, str], kind: str) -> str:
 
 
 def _pattern(group: Group, loop: Circuit, letters: Mapping[int, str], only_unknown: bool) -> str:
-    """The letters in order of travel, from the first joint behind a known one on; of both ways round the later one in
-    the alphabet, so that a dyad RRP is not called PRR as well. A loop begins with its known joint: RSSR."""
+    """Join the letters of the joints in order of travel, known joints first: RSSR.
+
+    The unknown joints begin behind a known one. Of the two directions of travel, the pattern is the one that is later
+    in the alphabet, so that a dyad RRP is not called PRR as well.
+    """
     joints = [joint for joint, _ in loop]
     begin = next((k for k in range(len(joints)) if joints[k] in group.joints and joints[k - 1] not in group.joints), 0)
     joints = [*joints[begin:], *joints[:begin]]

@@ -18,46 +18,49 @@ class SpinningPart(NamedTuple):
 
     name: str
     freedoms: int
-    """How many freedoms are the part's alone."""
+    """Number of freedoms in which only this part moves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Linkage:
     """Bodies held together by joints, in their assembled pose.
 
-    A pytree: its leaves are the frames and pitches of the joints, float arrays all; everything else is static, and
-    stays what it is where JAX takes a linkage apart and puts it together with other numbers. So a new geometry of the
-    same structure compiles nothing anew, and a gradient is a tree of the same structure.
+    A linkage is a pytree: its leaves are the frames and pitches of the joints, all of them float arrays. All else is
+    static, and is kept when JAX flattens a linkage and rebuilds it with other numbers. So a new geometry of the same
+    structure compiles nothing anew, and a gradient is a tree of the same structure.
     """
 
     joints: tuple[Joint, ...]
-    """As they were given; in the order of the columns of the incidence matrix."""
+    """The joints as they were given, in the order of the columns of the incidence matrix."""
     structure: Structure
     classes: tuple[LoopClass, ...]
-    """What is special about the loops of each loop group of `structure`, as the numbers of the joints had it when the
-    linkage was made: loops that leave their class later are not closed, which their poses' status says."""
+    """The class of each loop group of `structure`, found from the numbers of the joints when the linkage was made.
+    Loops that leave their class later do not close, and the statuses of their poses say so."""
     ideal: tuple[Joint, ...] = ()
-    """The nearest joints whose loops close throughout their motion, where those of `joints`, which disagree by more
-    than rounding, close at the assembled pose only; none where they do. Poses are found with these, and then brought to
-    the least residual of the joints that were given. See `jaxkin.mobility.alignment`."""
+    """The nearest joints whose loops close along a motion, if the loops of `joints` close in the assembled pose only
+    because the joints disagree by more than rounding; else empty. Poses are found with the joints in `ideal`, and then
+    brought to the least residual of those in `joints`. See `jaxkin.mobility.alignment`."""
     spinning: tuple[SpinningPart, ...] = ()
-    """Parts that only spin, as their solids tell."""
+    """Parts that only spin, found from the shapes of their solids."""
 
     @staticmethod
     def of(joints: Sequence[Joint], structure: Structure) -> Linkage:
-        """The linkage of some joints, its loop classes found from their numbers; general ones where JAX traces these,
-        or where they are of many mechanisms."""
+        """Make a linkage of joints, with its loop classes found from the numbers of these.
+
+        The classes are general (six equations a loop) where JAX traces the joints, and where their arrays hold many
+        mechanisms.
+        """
         classes = loop_classes(joints, structure) or (LoopClass(),) * len(structure.loop_groups)
         return Linkage(tuple(joints), structure, classes)
 
     def with_joints(self, joints: Sequence[Joint], ideal: Sequence[Joint] = ()) -> Linkage:
-        """The linkage with other joints in the same structure; while JAX traces these the loop classes stay."""
+        """Replace the joints in the same structure, and find loop classes anew; traced joints keep the classes."""
         classes = loop_classes(ideal or joints, self.structure) or self.classes
         return replace(self, joints=tuple(joints), ideal=tuple(ideal), classes=classes)
 
     @property
     def solved_joints(self) -> tuple[Joint, ...]:
-        """The joints whose loops are solved: those given, or `ideal` where these cannot move."""
+        """The joints whose loops are solved: `ideal` if there are such, else `joints`."""
         return self.ideal or self.joints
 
     @property

@@ -1,4 +1,4 @@
-"""The class of the loops of a loop group, found on the host while the joint frames are numbers."""
+"""Find the class of the loops of each loop group, on the host, from joint frames that are known numbers."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from jaxkin.topology.structure import Structure
 
 
 class LoopClass(NamedTuple):
-    """What is special about the loops of a structure element, so that they need fewer equations, or others."""
+    """Properties of the loops of a loop group by which they need fewer equations, or other ones, than six a loop."""
 
     plane: tuple[int, ...] | None = None
-    """Columns of the coordinates that act in the plane, where all joints move in parallel planes; else None."""
+    """Columns of the coordinates that act in the plane if all joints move in parallel planes; else None."""
     spins: tuple[tuple[int, int, int, int], ...] = ()
     """Rods that spin idly about the line through their two balls: the numbers of both balls, and for each ball +1, or
     -1 where the rod is part 1 of the ball's joint."""
@@ -33,10 +33,10 @@ class LoopClass(NamedTuple):
 
 
 def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopClass, ...] | None:
-    """Find the class of each structure element; None where the frames are traced, or those of many mechanisms."""
+    """Find the class of each loop group; None where frames are traced, or their arrays hold many mechanisms."""
     if not all(isinstance(joint.frames_1, np.ndarray | jax.Array) for joint in joints):
         return None
-    if traced(joints):  # by `grad` alone the numbers are there; of what is not traced `jit` would make a tracer
+    if traced(joints):  # under `grad` alone the numbers are known; inside `jit` this would trace numbers that are not
         joints = jax.lax.stop_gradient(tuple(joints))
     if any(traced(joint) or joint.frames_1.ndim != 3 for joint in joints):
         return None
@@ -56,9 +56,9 @@ def loop_classes(joints: Sequence[Joint], structure: Structure) -> tuple[LoopCla
 def renumbered(
     loop_class: LoopClass, loops: Sequence[Circuit], chosen: Sequence[Circuit], joints: Sequence[Joint]
 ) -> LoopClass:
-    """Number the loops of a class anew: `chosen` instead of `loops`, of the same joints.
+    """Renumber a class for the loops `chosen` in place of the loops `loops`, which pass the same joints.
 
-    Loops that are new among `chosen` are classified by the numbers of their joint frames.
+    A chosen loop that is not among `loops` is classified from the frames of its joints.
     """
     if tuple(chosen) == tuple(loops):
         return loop_class

@@ -1,8 +1,10 @@
-"""Which structure elements are planar, and which loops turn about one direction or point (host code, numbers only).
+"""Tell which loop groups are planar, and which loops turn about one direction or point (host code, numbers only).
 
-Joints that turn about one direction or slide at right angles to it form the planar subgroup, in which a loop needs
-three equations instead of six. Those that slide anywhere form the subgroup of Schoenflies, in which it needs four.
-Those that only turn, about axes through one point, form the spherical subgroup, in which it needs three.
+A loop whose joints generate a displacement subgroup needs as many equations as the subgroup has dimensions:
+
+- planar: all joints turn about one direction or slide at right angles to it; three equations;
+- Schoenflies: all joints turn about one direction or slide in any; four equations;
+- spherical: all joints turn, about axes through one point; three equations.
 """
 
 from __future__ import annotations
@@ -16,14 +18,16 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 
 PARALLEL = 1e-12
-"""Sine of the angle between directions that count as parallel: rounding, since the noise of files is taken out."""
+"""Sine of the angle between directions that count as parallel, and distance of points that count as one, over the size
+of the loops: rounding, since frames with the noise of files are aligned before (`mobility.alignment`)."""
 
 
 def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
-    """Find the coordinates of the joints, counted through, that act in one plane; None where there is no such plane.
+    """Find the columns of the coordinates that act in one plane; None where there is no such plane.
 
-    Translations along the normal are allowed and left out: they commute with all others. Where lengths were changed
-    along the normal such translations may be needed, and the structure element counts as spatial.
+    Columns are numbered from 0 through all coordinates of `joints`. Translations along the normal are allowed and left
+    out: they commute with all other motions, and rest. Where frames of a joint on its two parts differ along the
+    normal, because lengths were changed, such translations may be needed, and the loops count as spatial (None).
     """
     if traced(joints) or (axes := _axes(joints)) is None:
         return None
@@ -46,16 +50,17 @@ def plane_columns(joints: Sequence[Joint]) -> tuple[int, ...] | None:
 
 
 def turn_about_one_direction(joints: Sequence[Joint]) -> bool:
-    """Tell whether all joints that turn at all turn about one direction; no where the frames are traced."""
+    """Tell whether all rotations of the joints are about one direction; False where the frames are traced."""
     axes = None if traced(joints) else _axes(joints)
     return axes is not None and _one_direction(axes[0])
 
 
 def turn_about_one_point(joints: Sequence[Joint]) -> bool:
-    """Tell whether all joints turn about axes through one point, and nothing slides; no where the frames are traced.
+    """Tell whether all joints turn about axes through one point, without translations; False where frames are traced.
 
-    The axes on both parts of each joint count, and both must be as far from their frames to the point: so it is one
-    point of all parts, however far the joints turn. Axes of one direction only are planar, or Schoenflies.
+    The axes of each joint on part 1 and on part 2 both count. Along both axes the point must be equally far from the
+    origin of the frame, so that it is one point of both parts however far the joint turns. Joints whose axes all have
+    one direction are not spherical but planar.
     """
     axes = None if traced(joints) else _axes(joints)
     if axes is None or not axes[0] or axes[1] or _one_direction(axes[0]):
@@ -73,7 +78,7 @@ def turn_about_one_point(joints: Sequence[Joint]) -> bool:
 
 
 def _origins(joint: Joint) -> np.ndarray:
-    """Points on the axes of `_axes`, of each coordinate on both parts in turn."""
+    """List a point on each axis of `_axes`: (2 coordinates, 3), for each coordinate on part 1, then on part 2."""
     sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
     return np.array(
         [
@@ -86,11 +91,11 @@ def _origins(joint: Joint) -> np.ndarray:
 
 
 Axes = list[tuple[int, np.ndarray, np.ndarray]]
-"""Of coordinates, counted through, their axes on both parts."""
+"""(column of a coordinate, direction of its axis on part 1, direction on part 2), both unit vectors in the world."""
 
 
 def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
-    """What turns and what slides; None where there are balls or screws."""
+    """List the axes of rotations and the axes of translations; None where a joint is a ball or a screw."""
     turning: Axes = []
     sliding: Axes = []
     column = 0

@@ -1,4 +1,4 @@
-"""Rods between two balls, which spin about the line of the centres while all else rests (host code, numbers only)."""
+"""Find rods between two balls, which spin idly about the line of the centres (host code, numbers only)."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from jaxkin.joints.joint import Joint
 from jaxkin.topology.components import connected
 
 PARALLEL = 1e-5
-"""Sine of the angle between a line of centres and what slides along it, as numbers of six digits give it. The turn
-about the line is free whatever the angle: the rod is held by its balls."""
+"""Sine of the largest angle between a line of centres and the axis of a joint that slides along it: what rounding to
+six digits leaves. The spin about the line is free whatever the angle, because only the two balls hold the rod."""
 
 
 def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tuple[tuple[int, int, int, int], ...]:
     """Find the rods that spin idly, as `LoopClass.spins`. `body_of` gives the body of a part, one for all fixed parts.
 
-    A rod is one part, or several in a row that slide along the line only, such as the halves of a leg, held by two
-    balls and nothing else, on two different bodies: between two balls on the same body the turn of the rod is of use.
+    A rod is one part, or several parts in a row that slide along the line of centres only, such as the halves of a leg.
+    It is held by two balls and nothing else. The balls are on two different bodies: a part between two balls on one and
+    the same body is a hinge, and its rotation is no idle one.
     """
     ball_of, balls = {}, 0
     for index, joint in enumerate(joints):
@@ -53,7 +54,7 @@ def idle_spins(joints: Sequence[Joint], body_of: Mapping[str, Hashable]) -> tupl
 
 
 def _all_along(line: np.ndarray, slides: Sequence[Joint]) -> bool:
-    """Whether the line has a direction, and the joints slide along it."""
+    """Tell whether the line is longer than zero and the axes of all sliding joints are parallel to it."""
     length = float(np.linalg.norm(line))
     axes = [np.asarray(joint.frames_1[0], float)[:3, 2] for joint in slides]
     return length > 0 and all(np.linalg.norm(np.cross(axis, line)) <= PARALLEL * length for axis in axes)

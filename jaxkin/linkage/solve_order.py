@@ -1,10 +1,11 @@
-"""The order in which the loops of a structure element are solved, for given driven coordinates.
+"""Find the order in which the loops of a loop group are solved, for given driven coordinates.
 
-Parts whose place to each other is given by the drive, or solved, are contracted to one (`contracted_graph`), so that
-the order does not depend on a choice of loops. A group is a set of loops of the contracted graph that can be solved
-alone: the motions that it allows by itself are all left to it by the loops around it. In planar linkages with one drive
-the groups are the Assur groups. Ranks are counted, not joints, so that idle freedoms, redundant loops and loops in
-which only some joints are known are covered as well. The closure Jacobian, groups in order, is block lower triangular.
+Parts whose displacements relative to each other are driven, or solved already, are contracted to one
+(`contracted_graph`), so that the order does not depend on the choice of loops. A group is a set of loops of the
+contracted graph that can be solved alone: every motion that its own loops allow is also allowed by all other loops. In
+planar linkages with one drive the groups are the Assur groups. The test is on ranks and not on numbers of joints, so
+that it covers idle freedoms, redundant loops, and loops in which only some coordinates of a joint are known. With the
+groups in order, the closure Jacobian is block lower triangular.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from jaxkin.linkage.first_order import EQUATIONS, Columns, Thresholds, independe
 from jaxkin.topology.graph import Circuit
 
 _MAX_SETS = 2000
-"""Sets of loops that are tried at most before the rest of the loops is taken as one group. Elements of up to some ten
-loops need fewer than a hundred; the limit keeps a mesh of fifty loops below a second."""
+"""Largest number of sets of loops that are tried before all remaining loops are taken as one group. Loop groups of up
+to ten loops need fewer than a hundred; the limit keeps a mesh of fifty loops below a second."""
 
 
 @dataclass(frozen=True)
@@ -32,21 +33,21 @@ class Group:
     joints: tuple[int, ...]
     """The joints whose unknown coordinates are solved here."""
     unknowns: tuple[int, ...]
-    """Their columns."""
+    """Columns of these coordinates."""
     known_joints: tuple[int, ...]
-    """Joints on the loops whose coordinates are all known before."""
+    """Joints on the loops whose coordinates are all known before this group is solved."""
     loops: tuple[Circuit, ...]
-    """Closed circuits of joints, in order of travel: loops of the structure where these will do."""
+    """Closed circuits of joints, in order of travel: loops of the structure as far as these are independent."""
     rank: int
-    """Number of independent equations among those of the loops."""
+    """Number of independent equations of the loops for the unknowns."""
     after: tuple[int, ...]
-    """Numbers of the groups that must be solved before; of these only the ones that none of the others needs."""
+    """Numbers of the groups that must be solved directly before: without those that another of these groups needs."""
     merged: int = 1
-    """Number of groups that this one was made of, where they share freedoms: see `keep_freedoms_together`."""
+    """Number of groups that were merged into this one, because they share freedoms: see `keep_freedoms_together`."""
 
     @property
     def free(self) -> int:
-        """Number of unknown coordinates that the loops do not determine: least-norm steps move them least."""
+        """Number of freedoms that the loops of the group leave undetermined: least-norm steps keep them small."""
         return len(self.unknowns) - self.rank
 
 
@@ -58,12 +59,13 @@ def solve_order(
     driven: Collection[int],
     thresholds: Thresholds,
 ) -> tuple[Group, ...]:
-    """Find the groups of one structure element, each as small as was found, every group after those that it needs.
+    """Find the groups of a loop group, each as small as was found, every group after those that it needs.
 
-    `ends` are the parts of the joints by number, `loops` those of the structure, `screws` (6, columns) those of the
-    coordinates at a closed pose in world coordinates, `driven` the columns that are given. Single loops that can be
-    solved alone are always found; of larger sets at most `_MAX_SETS` are tried. The Jacobian is block lower triangular,
-    but for least-norm solutions of coordinates that are not determined: see `keep_freedoms_together`.
+    `ends` maps each joint to its two parts; `loops` are the loops of the structure; `columns` are (joint, coordinate);
+    `screws` (6, columns) are the twists of the coordinates at a closed pose, in world coordinates, angular velocity
+    first; `driven` are the columns that are given. Single loops that can be solved alone are always found; of larger
+    sets at most `_MAX_SETS` are tried. Solving group by group gives the solution of all equations at once, except where
+    coordinates stay undetermined: see `keep_freedoms_together`.
     """
     unknown = {joint: tuple(c for c, (owner, _) in enumerate(columns) if owner == joint) for joint in ends}
     unknown = {joint: tuple(c for c in found if c not in driven) for joint, found in unknown.items()}
@@ -99,7 +101,7 @@ def keep_freedoms_together(
 def _feels(
     groups: Sequence[Group], number: int, columns: Columns, screws: Screws, thresholds: Thresholds
 ) -> int | None:
-    """Find the first later group whose loops open while a group moves as its loops allow; None if all stay closed."""
+    """Find the first later group whose loops open when this group moves within its own freedoms; None if none does."""
     group = groups[number]
     if not group.free or number + 1 == len(groups):
         return None
@@ -120,7 +122,7 @@ def _needed(groups: Sequence[Group], number: int) -> set[int]:
 def _merged(
     groups: Sequence[Group], chosen: Sequence[int], columns: Columns, screws: Screws, thresholds: Thresholds
 ) -> list[Group]:
-    """Merge the chosen groups into one; in the order that is returned every group still follows those that it needs."""
+    """Merge the chosen groups into one, and order the groups so that each follows those that it needs."""
     first = [k for k in range(len(groups)) if k not in chosen]
     parts = [groups[k] for k in chosen]
     joints = tuple(sorted(joint for part in parts for joint in part.joints))
@@ -142,7 +144,7 @@ def _merged(
 
 
 def _direct(groups: Sequence[Group], after: Sequence[int]) -> tuple[int, ...]:
-    """Of the groups that one needs those that none of the others needs."""
+    """Drop from the groups `after` those that another of them needs, directly or not."""
     implied = {k for other in after for k in _needed(groups, other)}
     return tuple(sorted(set(after) - implied))
 
@@ -150,12 +152,12 @@ def _direct(groups: Sequence[Group], after: Sequence[int]) -> tuple[int, ...]:
 def order_by_counting(
     loops: Sequence[Circuit], unknown: Mapping[int, Sequence[int]], equations: Sequence[int | None]
 ) -> tuple[Group, ...]:
-    """Find the groups of one structure element by counting, for joint frames whose numbers are not there.
+    """Find the groups of a loop group by counting, for joint frames whose numbers JAX traces.
 
-    `unknown` are the unknown columns of each joint. A loop follows from the loops before it where it brings as many
-    unknown coordinates as it has `equations`; None where counting says nothing, as in space, where equations that seem
-    to fit are often redundant. All loops that follow from no others are one group, the last one. Ranks are those of
-    equations that are independent as far as they can be.
+    `unknown` maps each joint to its unknown columns. A loop is a group of its own if it brings as many unknown
+    coordinates as it has `equations`. For loops in space `equations` is None: counting cannot tell there, because
+    equations are often redundant. All loops that are no groups of their own are the last group. The ranks assume that
+    the equations are independent.
     """
     left, known, found = list(range(len(loops))), dict[int, int](), list[Group]()
     while left:
@@ -174,7 +176,7 @@ def order_by_counting(
 
 
 class _Order:
-    """What is known so far."""
+    """The state of the search for groups: which coordinates are known, and the groups found so far."""
 
     def __init__(
         self,
@@ -193,9 +195,9 @@ class _Order:
             if not found:
                 self.graph.contract(joint, None)
         self.open = [column for joint in self.remaining for column in unknown[joint]]
-        """Columns that are not known."""
+        """Columns of the undriven coordinates."""
         self.motions = self._open_motions()
-        """Rates that the loops leave to the open columns."""
+        """Basis of the rates (motions, columns) that keep the loops closed while all known coordinates rest."""
         self.sets_tried = 0
         self.loops, self.basis = loops, CycleSpace()
         self.given = [loop for loop in loops if not any(unknown[joint] for joint, _ in loop)]
@@ -204,7 +206,7 @@ class _Order:
             self.basis.add(loop)
 
     def _open_motions(self) -> Float[np.ndarray, "motions columns"]:
-        """A basis of the rates that keep all remaining loops closed while the known coordinates rest."""
+        """Compute a basis of the rates that keep all remaining loops closed while the known coordinates rest."""
         if not self.open:
             return np.zeros((0, len(self.columns)))
         jacobian = loop_jacobian(self.graph.circuits(self.remaining), self.columns, self.screws)
@@ -214,9 +216,11 @@ class _Order:
         return found
 
     def next(self) -> list[int]:
-        """The lightest set of joints found that can be solved alone; else all that hang together with the first.
+        """Choose the joints of the next group: the set with the fewest unknowns that was found to be solvable alone.
 
-        If that cannot either (circuits that share parts, but no joints, may need each other) all that is left.
+        If no set that was tried is solvable, the group is all circuits that are connected with the first one through
+        shared joints. If these are not solvable either (circuits that share parts, but no joints, may need each other),
+        it is all that is left.
         """
         weights = {joint: len(self.unknown[joint]) for joint in self.remaining}
         circuits = sorted(self.graph.lightest(weights), key=self._weight)
@@ -229,7 +233,7 @@ class _Order:
         return sorted(together if self._solvable(sorted(together)) else frozenset().union(*circuits))
 
     def _unions(self, circuits: list[frozenset[int]]) -> Iterator[frozenset[int]]:
-        """The circuits, then unions of two that share joints, of three, and so on, the lightest of a kind first."""
+        """Yield the circuits, then unions of two that share joints, of three, and so on, fewest unknowns first."""
         tried, level = set(circuits), circuits
         yield from circuits
         while level and self.sets_tried <= _MAX_SETS:
@@ -245,7 +249,7 @@ class _Order:
             yield from level
 
     def _solvable(self, joints: Sequence[int]) -> bool:
-        """Whether every motion that these loops allow alone is left to them by all others."""
+        """Tell whether the loops through these joints allow as many motions alone as with all other loops."""
         unknowns = [column for joint in joints for column in self.unknown[joint]]
         alone = len(unknowns) - self._rank(self.graph.circuits(joints), unknowns)
         return alone == independent(self.motions, unknowns, self.thresholds)
@@ -255,7 +259,7 @@ class _Order:
         return null_space(jacobian[:, list(unknowns)], self.thresholds.rank)[0]
 
     def solve(self, joints: Sequence[int]) -> None:
-        """Add the group of these joints, and contract them."""
+        """Add the group of these joints, and contract the joints in the graph."""
         unknowns = tuple(column for joint in joints for column in self.unknown[joint])
         circuits = self.graph.circuits(joints)
         loops = self._closed(joints, circuits)
@@ -270,14 +274,17 @@ class _Order:
         self.motions = without(self.motions, unknowns, self.thresholds)
 
     def rest(self) -> list[Group]:
-        """The loops of the structure that the groups do not imply, as a group without unknowns: all is given there."""
+        """Collect the loops of the structure that no group implies in a group without unknowns."""
         loops = (*self.given, *(loop for loop in self.loops if self.basis.add(loop)))
         known = sorted({joint for loop in loops for joint, _ in loop})
         return [Group((), (), tuple(known), loops, 0, tuple(range(len(self.groups))))] if loops else []
 
     def _closed(self, joints: Sequence[int], circuits: Sequence[Circuit]) -> tuple[Circuit, ...]:
-        """As many independent closed circuits as a group has: loops of the structure first, which are short and whose
-        residual users know, then circuits of the group with the known joints that they pass."""
+        """Choose as many independent closed circuits as the group has.
+
+        Loops of the structure come first, because they are short and users know their residuals; then circuits of the
+        contracted graph, closed by the known joints that they pass.
+        """
         ready = {joint for joint, found in self.unknown.items() if not found or joint not in self.remaining}
         ready.update(joints)
         whole = (loop for loop in self.loops if all(joint in ready for joint, _ in loop))

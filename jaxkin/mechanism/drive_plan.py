@@ -24,7 +24,7 @@ from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
-from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system, solved_coordinates
+from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
@@ -138,15 +138,15 @@ def _element(
     else:
         groups = ranked_groups(linkage, loop_group, driven, loop_class, freedoms)
     loops = [group.loops for group in groups]
-    system, columns = block_system(on_host or linkage, loop_group, driven, loop_class, loops)
+    system, columns = group_system(on_host or linkage, loop_group, driven, loop_class, loops)
     given = None
     if linkage.ideal:
-        every = block_system(linkage, loop_group, driven, LoopClass())
-        given = GivenLoops(*every, block_joints(linkage.joints, loop_group))
-    joints = block_joints(linkage.solved_joints, loop_group)
+        every = group_system(linkage, loop_group, driven, LoopClass())
+        given = GivenLoops(*every, group_joints(linkage.joints, loop_group))
+    joints = group_joints(linkage.solved_joints, loop_group)
     axes = None
     if on_host is not None and why_not_all(system) is None:
-        axes = assembled_axes(system, block_joints(on_host.solved_joints, loop_group))
+        axes = assembled_axes(system, group_joints(on_host.solved_joints, loop_group))
     return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, given)
 
 

@@ -14,7 +14,7 @@ from jaxkin.linkage.first_order import null_space
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.solve.closure.smallest_singular_value import smallest_singular_value
-from jaxkin.solve.system.from_linkage import Columns, block_joints, block_system
+from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -28,11 +28,11 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
     for number, (loop_group, loop_class) in enumerate(zip(linkage.structure.loop_groups, linkage.classes, strict=True)):
         inside = tuple(entry for entry in driven if entry[0] in loop_group.joints)
-        system, columns = block_system(linkage, loop_group, inside, loop_class)
+        system, columns = group_system(linkage, loop_group, inside, loop_class)
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
             least = jnp.minimum(
-                least, smallest_singular_value(system, rank, block_joints(linkage.solved_joints, loop_group), rows)
+                least, smallest_singular_value(system, rank, group_joints(linkage.solved_joints, loop_group), rows)
             )
     return least
 

@@ -1,9 +1,11 @@
-"""Align the frames of a mechanism, so that its loops close throughout a motion where rounded numbers keep them from it.
+"""Align joint frames, so that loops that close only in the assembled pose, because numbers were rounded, can move.
 
-Numbers from robot files, drawings and people have some six digits. What they leave of a planar four-bar is a spatial
-linkage that closes in its assembled pose only. Only such loops are touched: nothing is moved where the loops move as
-far as their freedoms promise. What is parallel, perpendicular, coaxial or concurrent within the noise is made exactly
-so; where that does not suffice, the nearest frames are taken with which the loops move.
+Frames from robot files and drawings have about six digits. With such frames a planar four-bar is a spatial linkage,
+whose loop closes in the assembled pose and in no other. Loops that move with the frames as given are left unchanged.
+For each other loop group two alignments are tried, the first that lets its loops move is taken:
+
+1. axes that are parallel, perpendicular, coaxial or concurrent within the noise become exactly so (`regularise.align`);
+2. the frames are moved by the smallest twists with which the loops close along a motion (`nearest_mobile`).
 """
 
 from __future__ import annotations
@@ -26,30 +28,32 @@ from jaxkin.mobility.nearest_mobile import nearest_mobile
 from jaxkin.topology.structure import LoopGroup
 
 SIX_DIGITS = 5e-6
-"""Radians, or lengths over the extent of the joints: the largest error of a number that is rounded to six digits."""
-PLAY = (1e-4, 1e-3)
-"""The same, of joints that disagree by more than rounding: what is more is design, or a mistake to be told as such."""
-_SINGLE = 6e-7
-"""Ten roundings of single precision, over the coordinate: what files leave of places far from the origin."""
+"""Default noise of frames, radians or lengths over `extent`: the largest error of a number rounded to six digits."""
+MISALIGNMENT_LEVELS = (1e-4, 1e-3)
+"""Misalignments that are tried after the noise, same units, to tell a user which joints disagree by more than rounding.
+A misalignment above 1e-3 is taken for design: it is larger than the errors of files and drawings."""
+_SINGLE_PRECISION_NOISE = 6e-7
+"""Error of an origin over its distance from the world origin: ten times the unit of rounding of float32, 6e-8. Some
+files are written in single precision, so that the error of an origin grows with that distance."""
 _ROUNDING = 1e-13
-"""Radians, or lengths over the extent of the joints: a change that is no more than the rounding of the arithmetic."""
-_NAMED = 0.5
-"""Joints are named that moved by more than this part of what the most moved one did."""
+"""Change of a frame, radians or lengths over `extent`, that counts as none: some 450 units of rounding of float64."""
+_MIN_NAMED_SHARE = 0.5
+"""A note names the joints that moved by more than this share of the largest move."""
 
 
 @dataclass(frozen=True)
 class Correction:
-    """How far frames were moved."""
+    """The largest changes of the frames of some joints."""
 
     angle: float
     """Largest change of a direction, radians."""
     length: float
-    """Largest change of a place, in the unit of the mechanism."""
+    """Largest change of an origin, in the unit of the mechanism."""
     joints: tuple[str, ...]
-    """Those that were moved the most."""
+    """Names of the joints whose frames changed the most: see `_MIN_NAMED_SHARE`."""
 
     def said(self, unit: str) -> str:
-        """How far, in words, lengths in the given unit."""
+        """Say the changes of directions and axes in words; `unit` is the name of the unit of length."""
         sizes = []
         if self.angle:
             sizes.append(f"directions were aligned by at most {self.angle:.1g} rad")
@@ -59,43 +63,48 @@ class Correction:
 
 
 def asked_noise(align: object) -> float:
-    """The noise that the option `align` asks for; ValueError where it is no such number."""
+    """Return the noise that the option `align` asks for, radians or lengths over `extent`; None asks for `SIX_DIGITS`.
+
+    Raises ValueError for anything but None or a number from 0 to the largest of `MISALIGNMENT_LEVELS`.
+    """
     if align is None:
         return SIX_DIGITS
-    if isinstance(align, bool) or not isinstance(align, int | float | np.number) or not 0 <= align <= PLAY[-1]:
+    largest = MISALIGNMENT_LEVELS[-1]
+    if isinstance(align, bool) or not isinstance(align, int | float | np.number) or not 0 <= align <= largest:
         raise ValueError(
-            f"align must be a number from 0 (move nothing) to {PLAY[-1]:g}, the largest misalignment, in radians or "
+            f"align must be a number from 0 (move nothing) to {largest:g}, the largest misalignment, in radians or "
             f"over the size of the mechanism, that is taken for rounding; got {align!r}"
         )
     return float(align)
 
 
 class Aligned(NamedTuple):
-    """A linkage whose frames were aligned where its loops need it."""
+    """A linkage whose frames were aligned where its loops need it to move."""
 
     linkage: Linkage
     notes: tuple[str, ...]
-    """By how much frames were moved, or would have to be, in words."""
+    """Sentences that say how far frames were moved, or would have to be moved for the loops to close."""
 
 
 def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
-    """Align the frames of loops that close at the assembled pose only; lengths of the notes are in the given unit.
+    """Align the joint frames of loop groups that close in the assembled pose only.
 
-    Where more than `noise` would be needed, the joints stay as they are, and the nearest ones that move become
-    `linkage.ideal`: what the poses of least residual are found from. Where JAX traces the joints, and for those in
-    single precision, nothing is done.
+    `noise` is the largest change of a frame, radians or lengths over `extent`. Loops that would need a larger change
+    keep the joints that were given; the aligned joints become `linkage.ideal`, from which a sweep finds the poses of
+    least residual. `unit`, the name of the unit of length, is written in the notes. A linkage is returned unchanged if
+    JAX traces its joints, if any of their numbers is not float64, and if any is NaN or infinite.
     """
     leaves = jax.tree.leaves(linkage.joints)
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
         return Aligned(linkage, ())
-    exact, ideal, play = list(linkage.joints), list(linkage.joints), noise
+    exact, ideal, largest = list(linkage.joints), list(linkage.joints), noise
     for loop_group in linkage.structure.loop_groups:
-        level, joints = _consistent(linkage, loop_group, noise)
+        level, joints = _aligned_group(linkage, loop_group, noise)
         for number, joint in zip(loop_group.joints, joints, strict=True):
             ideal[number] = joint
             if level <= noise:
                 exact[number] = joint
-        play = max(play, level)
+        largest = max(largest, level)
     notes = []
     if moved := _correction(linkage.joints, exact):
         notes.append(f"for the rounding of the numbers, {moved.said(unit)}")
@@ -106,63 +115,79 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
         "the loops close at the assembled pose only; they would close throughout if "
         f"{disagreement.said(unit)}, most of all of {listed([repr(name) for name in disagreement.joints])}: "
         "other poses are those of least residual (MISFIT); correct the numbers, or have them aligned with "
-        f"align={play:g}"
+        f"align={largest:g}"
     )
     return Aligned(linkage.with_joints(exact, ideal), tuple(notes))
 
 
-def _consistent(linkage: Linkage, loop_group: LoopGroup, noise: float) -> tuple[float, list[Joint]]:
-    """The joints with which the loops close throughout, and the noise that they were aligned for; 0 for none at all.
+def _aligned_group(linkage: Linkage, loop_group: LoopGroup, noise: float) -> tuple[float, list[Joint]]:
+    """Return the misalignment level at which the loops of a group could be made to move, and their joints then.
 
-    Loops that move at all have the freedoms of their own numbers: more play is looked for in those only that do not.
+    The levels are `noise` and the `MISALIGNMENT_LEVELS` above it; joints are in the order of `loop_group.joints`. The
+    level is 0 and the joints are those given where the loops move as they are given, and where no level helps. Levels
+    above `noise` are tried only for loops that do not move: loops that move keep the freedoms of the given numbers.
     """
     given = [linkage.joints[number] for number in loop_group.joints]
     loops = _closed_loops(linkage, loop_group, given)
-    for level in (noise, *(play for play in PLAY if play > noise)):
+    for level in (noise, *(level for level in MISALIGNMENT_LEVELS if level > noise)):
         found = beside(loops, level)
-        if found is None:
+        if found is None:  # no freedoms at this level
             continue
         if np.linalg.norm(found.residual) <= rounding(loops):
             if found.moved >= STILL:
                 return 0.0, given
-            continue
-        if joints := _made_exact(linkage, loop_group, level):
+            continue  # closed, but back at the assembled pose
+        if joints := _joints_that_move(linkage, loop_group, level):
             return level, joints
     return 0.0, given
 
 
-def _made_exact(linkage: Linkage, loop_group: LoopGroup, level: float) -> list[Joint] | None:
-    """The joints of a loop group moved by at most `level` so that its loops close throughout; None where that fails."""
+def _joints_that_move(linkage: Linkage, loop_group: LoopGroup, level: float) -> list[Joint] | None:
+    """Move the frames of a loop group by at most `level`, so that its loops close along a motion; None if that fails.
+
+    `level` is in radians and in lengths over `extent`, or over the characteristic length for `_nearest_mobile_joints`.
+    """
     given = [linkage.joints[number] for number in loop_group.joints]
-    related = _related(given, _noise(given, level))
-    for joints in (related, _mobile(linkage, loop_group, related, level), _mobile(linkage, loop_group, given, level)):
+    related = _with_exact_relations(given, _noise(given, level))
+    for joints in (
+        related,
+        _nearest_mobile_joints(linkage, loop_group, related, level),
+        _nearest_mobile_joints(linkage, loop_group, given, level),
+    ):
         if joints and _closes_throughout(linkage, loop_group, joints, level):
             return joints
     return None
 
 
 def _noise(joints: Sequence[Joint], level: float) -> Noise:
+    """Return the noise of a misalignment `level`, with lengths in the unit of the mechanism."""
     farthest = max(float(np.abs(side[:, :3, 3]).max()) for joint in joints for side in (joint.frames_1, joint.frames_2))
-    return Noise(level, level * extent(joints) + _SINGLE * farthest)
+    return Noise(level, level * extent(joints) + _SINGLE_PRECISION_NOISE * farthest)
 
 
 def extent(joints: Sequence[Joint]) -> float:
-    """The diagonal of the box around the origins of all frames."""
+    """Measure the diagonal of the axis-aligned box around the origins of all frames, in the unit of the mechanism."""
     origins = np.concatenate([side[:, :3, 3] for joint in joints for side in (joint.frames_1, joint.frames_2)])
     return float(np.linalg.norm(np.ptp(origins, axis=0)))
 
 
-def _related(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
-    """The joints with directions and places related as they are but for the noise."""
+def _with_exact_relations(joints: Sequence[Joint], noise: Noise) -> list[Joint]:
+    """Make axes that are parallel, perpendicular, coaxial or concurrent within the noise exactly so."""
     sides = [side for joint in joints for side in (joint.frames_1, joint.frames_2)]
     names = [name for joint in joints for _ in range(2) for name in joint.movements]
     frames = align(names, np.concatenate(sides), noise)[0]
-    rest = iter(np.split(frames, np.cumsum([len(side) for side in sides])[:-1]))
-    return [replace(joint, frames_1=next(rest), frames_2=next(rest)) for joint in joints]
+    pieces = iter(np.split(frames, np.cumsum([len(side) for side in sides])[:-1]))
+    return [replace(joint, frames_1=next(pieces), frames_2=next(pieces)) for joint in joints]
 
 
-def _mobile(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> list[Joint] | None:
-    """The joints with the nearest frames with which the loops move; None where they are farther than `level`."""
+def _nearest_mobile_joints(
+    linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float
+) -> list[Joint] | None:
+    """Move the frames by the smallest twists with which the loops close along a motion (`nearest_mobile`).
+
+    None where a twist exceeds `level`, radians or lengths over the characteristic length, and where a joint has
+    different frames on its two parts.
+    """
     if not all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints):
         return None
     loops = _closed_loops(linkage, loop_group, joints)
@@ -177,6 +202,7 @@ def _mobile(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], le
 
 
 def _closes_throughout(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint], level: float) -> bool:
+    """Tell whether the loops with these joints close, to rounding, beside the assembled pose in three directions."""
     loops = _closed_loops(linkage, loop_group, joints)
     for seed in range(3):
         found = beside(loops, level, seed)
@@ -186,7 +212,7 @@ def _closes_throughout(linkage: Linkage, loop_group: LoopGroup, joints: Sequence
 
 
 def _closed_loops(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Joint]) -> ClosedLoops:
-    """The loops of a loop group with these joints, all others as they are given."""
+    """Describe the loops of a group as numbers, with `joints` in place of the given ones of the group."""
     every = list(linkage.joints)
     for number, joint in zip(loop_group.joints, joints, strict=True):
         every[number] = joint
@@ -194,7 +220,7 @@ def _closed_loops(linkage: Linkage, loop_group: LoopGroup, joints: Sequence[Join
 
 
 def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | None:
-    """The largest changes of frames; None where there are none."""
+    """Measure the largest changes from the frames `given` to those `found`; None where no frame changed."""
     if not given:
         return None
     angles, lengths = np.zeros(len(given)), np.zeros(len(given))
@@ -209,5 +235,5 @@ def _correction(given: Sequence[Joint], found: Sequence[Joint]) -> Correction | 
     if not angles.any() and not lengths.any():
         return None
     shares = [each / each.max() if each.any() else each for each in (angles, lengths)]
-    named = [joint.name for joint, share in zip(given, np.maximum(*shares), strict=True) if share > _NAMED]
+    named = [joint.name for joint, share in zip(given, np.maximum(*shares), strict=True) if share > _MIN_NAMED_SHARE]
     return Correction(float(angles.max()), float(lengths.max()), tuple(named))

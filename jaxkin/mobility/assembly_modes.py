@@ -1,8 +1,9 @@
-"""Find other assembly modes: closed poses near the given pose that freedoms do not lead to each other (host code).
+"""Find other assembly modes near the given pose: closed poses that no motion of the mechanism connects (host code).
 
-Loops that are open may close in several ways: an elbow up or down, a rod crossed over another. Damped Newton steps from
-starts around the given pose find closed poses nearby. Each is then led, within its freedoms, as near as it goes to the
-closed pose that was found first. Where it arrives, the two are one assembly mode (one circuit of the mechanism).
+Open loops may close in several ways: an elbow up or down, a rod crossed over another. Damped Newton steps from starts
+around the given pose find closed poses nearby. From each of these the loops are then moved, within their freedoms, as
+near as possible to the closed pose that was found first. If the motion arrives there, the two poses are one assembly
+mode (one circuit of the mechanism).
 """
 
 from __future__ import annotations
@@ -18,26 +19,29 @@ from jaxkin.linkage.first_order import null_space
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel
 
 STARTS = 8
-"""Other starts from which each structure element is closed."""
+"""Number of other starts from which each loop group is closed."""
 NEAREST = 0.1
-"""Radians, or characteristic lengths: other starts are at least so far away, however little the loops had to move."""
+"""Least distance of other starts from the given pose, radians or characteristic lengths, however little the loops had
+to move to close."""
 APART = 1e-6
-"""Radians, or characteristic lengths, between poses that are not the same: far above what closure leaves."""
+"""Distance between two poses, radians or characteristic lengths, above which they differ: far above the residual of
+closed loops."""
 _STRIDE = 0.3
-"""The same, of the first steps on the way back."""
+"""Length of the first steps back to the first closed pose, radians or characteristic lengths."""
 _LEAST_STRIDE = 1e-3
-"""The same: where no longer step leads nearer, the way back is at its end."""
+"""Shortest length of steps back, radians or characteristic lengths: if it leads no nearer, no motion does."""
 _STEPS = 100
-"""Steps on the way back at most: ten radians at a tenth of one."""
+"""Largest number of steps back: enough for ten radians in steps of a tenth."""
 
 
 def closed_from_elsewhere(
     loops: ClosedLoops, q: Row, enough: float, held: Sequence[int] = ()
 ) -> list[tuple[Row, Travel]]:
-    """Coordinates with a gap of at most `enough` that other starts lead to, about as far from the given pose as `q`.
+    """Close the loops from other starts, as far from the given pose as the closed coordinates `q`.
 
-    The given pose is where the coordinates are zero: columns that are `held` stay there. The starts are the same each
-    time.
+    Returns the coordinates whose gap (`Travel.gap`) is at most `enough`, with what is met on the way around the loops
+    there. In the given pose all coordinates are zero; the columns `held` stay zero. The starts are the same in each
+    call.
     """
     rng, found, free = np.random.default_rng(0), [], np.ones(len(q))
     free[list(held)] = 0.0
@@ -50,11 +54,11 @@ def closed_from_elsewhere(
 
 
 def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[float]:
-    """How far from the closed coordinates `q` other assembly modes stay that starts around the given pose lead to.
+    """Measure the distances from the closed coordinates `q` to other assembly modes, one entry a start that found one.
 
-    Columns that are `held` are as they are given where the loops are closed; then they may move as all others.
-    Distances are the largest entries of the differences of the displacements of parts, in radians and characteristic
-    lengths.
+    The columns `held` stay zero while loops are closed from other starts, and may move afterwards, within the freedoms.
+    A distance is the largest entry of the differences between displacements of parts, rotation matrices and
+    translations over the characteristic length, when the loops have been moved as near to `q` as possible.
     """
     home = loops.travel(q).places
     distances = [
@@ -64,9 +68,9 @@ def other_modes(loops: ClosedLoops, q: Row, held: Sequence[int] = ()) -> list[fl
 
 
 def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose]) -> float:
-    """How far from the places `home` the parts stay that go there from closed coordinates, the loops kept closed.
+    """Move the parts from closed coordinates `q` towards the displacements `home`, and measure what distance is left.
 
-    Gauss-Newton steps on the differences of the displacements, within the freedoms; each is closed anew.
+    Gauss-Newton steps reduce the differences of the displacements within the freedoms; the loops are closed after each.
     """
     stride = _STRIDE
     apart = _differences(found.places, home)
@@ -79,7 +83,7 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
         step *= min(1.0, stride / max(float(np.linalg.norm(step)), 1e-300))
         trial, there = loops.closed(q + step)
         nearer = _differences(there.places, home)
-        # what has jumped to another mode on the way would tell nothing
+        # a step that jumped to another assembly mode would prove nothing
         stayed = np.linalg.norm(trial - q) <= 2.0 * np.linalg.norm(step) + APART
         if stayed and there.gap <= loops.thresholds.residual and np.linalg.norm(nearer) < np.linalg.norm(apart):
             q, found, apart, stride = trial, there, nearer, min(2.0 * stride, _STRIDE)
@@ -89,14 +93,14 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
 
 
 def _differences(places: Mapping[str, Pose], home: Mapping[str, Pose]) -> Float[np.ndarray, " entries"]:
-    """Twelve entries a row of parts: columns of the rotation, then the translation."""
+    """Subtract displacements, twelve entries a part: columns of the rotation, then the translation."""
     return np.concatenate([(places[part] - place)[:3].T.ravel() for part, place in home.items()])
 
 
 def _rates_of_places(
     loops: ClosedLoops, places: Mapping[str, Pose], screws: Screws
 ) -> Float[np.ndarray, "entries columns"]:
-    """Derivatives of these entries with respect to the coordinates, along the loops by which `travel` found them."""
+    """Differentiate the entries of `_differences` with respect to the coordinates, along the loops as `travel` does."""
     twists: dict[str, Screws] = {}
     for loop in loops.loop_group.loops:
         first, sign = loop[0]

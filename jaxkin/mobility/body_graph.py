@@ -1,7 +1,7 @@
-"""The bodies of a structure element and what its joints allow between them, as twists at one pose (host code).
+"""Describe the bodies of a structure element and the twists that joints allow between them, at one pose (host code).
 
-Parts that are welded to each other are one body. Joints outside of the element count too: they hold what hangs on its
-bodies. Twists are (w; v) in world coordinates about the centroid, lengths over the characteristic one.
+Parts that are welded to each other are one body. Joints outside of the element count too: they connect its bodies to
+others. Twists are (w; v) in world coordinates about the centroid, lengths over the characteristic length.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Constraints = Float[np.ndarray, "constraints 6"]
 
 
 class BodyGraph:
-    """Bodies by the name of the first row of parts in each, at the pose of `found.screws`.
+    """The bodies of a structure element, each named by its first row of parts, at the pose of `found.screws`.
 
-    Parts that are left out, such as those that only spin, hold nothing and are held by nothing.
+    Parts in `left_out`, such as those that only spin, hold no other part and are held by none.
     """
 
     def __init__(self, linkage: Linkage, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
@@ -40,7 +40,7 @@ class BodyGraph:
         body_of = {row: rows[0] for rows in groups for row in rows}
         pairs = [(body_of[one], body_of[other]) for one, other in ends]
         self.joints: dict[tuple[str, str], list[int]] = {}
-        """The joints of the element between two bodies, under either order of them."""
+        """(body, other body), in either order -> numbers of the joints of the element between them."""
         self._hanging: dict[str, list[int]] = {}
         for index, (one, other) in enumerate(pairs):
             if one == other:
@@ -52,7 +52,7 @@ class BodyGraph:
                 self._hanging.setdefault(one, []).append(index)
                 self._hanging.setdefault(other, []).append(index)
         self.neighbours: dict[str, list[str]] = {}
-        """The bodies of the element that each is joined to, but for those left out."""
+        """For each body of the element the bodies that it is joined to, without those left out."""
         for body, other in self.joints:
             self.neighbours.setdefault(body, []).extend([] if other in left_out else [other])
         self._all_joints, self._second = joints, {index: pair[1] for index, pair in enumerate(pairs)}
@@ -60,32 +60,32 @@ class BodyGraph:
         ground = body_of[found.fixed]
         with_ground = next(bodies for bodies in connected(self.parts_of, outside) if ground in bodies)
         self.carrier = next(body for body in self.neighbours if body in with_ground)
-        """The body by which the element hangs on the fixed parts, or the fixed parts themselves."""
+        """The body through which the element is connected to the fixed parts, or the body of the fixed parts."""
         self.movable = [body for body in self.neighbours if body != self.carrier and body not in left_out]
-        """The bodies but for the carrier and those left out."""
+        """The bodies of the element without the carrier and those left out."""
 
     def is_link(self, body: str) -> bool:
-        """Whether a body can be moved, is joined to two others and carries nothing."""
+        """Tell whether a body is movable, joined to two others, and joined to nothing outside the element."""
         return self.is_in_row(body) and body not in self._hanging
 
     def is_in_row(self, body: str) -> bool:
-        """Whether a body can be moved and is joined to two others within the element."""
+        """Tell whether a body is movable and joined to two others within the element."""
         return body in self.movable and len(self.neighbours[body]) == 2
 
     def beyond(self, link: str, before: str) -> str:
-        """The neighbour of a body in a row on its other side."""
+        """Return the second of the two neighbours of a body in a row, the one that is not `before`."""
         return next(other for other in self.neighbours[link] if other != before)
 
     def forbidden(self, body: str, other: str) -> Constraints:
-        """Constraints on the twist of one body relative to another that it is joined to."""
+        """Compute the constraints of all joints between two bodies on the twist of one relative to the other."""
         return np.concatenate([complement(self._screws(joint)) for joint in self.joints[body, other]])
 
     def allowed(self, body: str, other: str) -> Twists:
-        """An orthonormal basis of those that all joints between the two allow."""
+        """Compute an orthonormal basis of the twists that all joints between two bodies allow."""
         return self.free_of(self.forbidden(body, other))
 
     def held_outside(self, body: str) -> Constraints:
-        """Constraints on the twist of a body while all that hangs on it from outside the element rests."""
+        """Compute the constraints on the twist of a body by joints to bodies outside the element, which rest."""
         places = self._found.places
         back = moved(inverse(next(places[row] for row in self.parts_of[body] if row in places)), np.eye(6))
         rows = [
@@ -95,13 +95,13 @@ class BodyGraph:
         return np.concatenate([np.zeros((0, 6)), *rows])
 
     def relative(self, body: str, other: str, motions: Float[np.ndarray, "motions columns"]) -> Twists:
-        """A basis of the twists between two bodies, joined to each other, in some motions of the element."""
+        """Compute a basis of the twists between two bodies that are joined to each other, in motions of the element."""
         joint = self.joints[body, other][0]
         basis, sizes, _ = np.linalg.svd(self._screws(joint) @ motions[:, self._columns(joint)].T)
         return basis[:, : int((sizes > self._found.thresholds.rate).sum())]
 
     def rates(self, body: str, other: str, twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, " columns"]:
-        """Rates of the joints between two bodies that give the one this twist relative to the other."""
+        """Compute the rates of the joints between two bodies at which `body` has this twist relative to `other`."""
         found = np.zeros(len(self._found.columns))
         for joint in self.joints[body, other]:
             sign = 1 if self._second[joint] == body else -1
@@ -109,7 +109,7 @@ class BodyGraph:
         return found
 
     def free_of(self, rows: Constraints) -> Twists:
-        """An orthonormal basis of the twists that some constraints allow."""
+        """Compute an orthonormal basis of the twists that these constraints allow."""
         _, sizes, directions = np.linalg.svd(np.concatenate([rows, np.zeros((6, 6))]), full_matrices=False)
         return directions[int((sizes > self._found.thresholds.rate).sum()) :].T
 

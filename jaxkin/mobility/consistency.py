@@ -1,10 +1,10 @@
 """Tell whether loops move as far as their first-order freedoms promise, or close at the assembled pose only.
 
-Numbers that were rounded leave an overconstrained mechanism with singular values of the closure Jacobian that are
-neither zero nor of the size of the others. To first order, and at the assembled pose, such a mechanism seems to move or
-not to move, as the tolerance of the rank is chosen. What tells is a pose at a finite distance: the loops are brought
-there along all freedoms that the noise may hide, and closed without the directions that the noise may have brought
-about. What is left of the residual is the misfit of the mechanism.
+Rounded numbers leave the closure Jacobian of an overconstrained mechanism with singular values that are neither zero
+nor of the size of the others. At first order in the assembled pose, the tolerance of the rank then decides whether the
+mechanism seems to move. A pose at a finite distance decides it without a tolerance: the coordinates are displaced along
+all freedoms that the noise may hide, and the loops are closed by steps without the directions whose singular values may
+come from the noise. The residual that is left is the misfit of the loops.
 """
 
 from __future__ import annotations
@@ -17,13 +17,15 @@ from jaxkin.linkage.first_order import LARGEST_UNCERTAIN, SPREAD, null_space
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Rows
 
 STEPS = (0.3, 0.1, 0.03)
-"""Radians, or characteristic lengths, from the assembled pose: the first that closes is taken."""
+"""Displacements from the assembled pose, radians or characteristic lengths, tried in turn until the loops nearly close.
+The longest shows a misfit best, and loops that cannot move so far are tried nearer."""
 STILL = 0.1
-"""Part of the step: loops that come back nearer than this to the assembled pose have not moved."""
+"""Distance from the assembled pose, over the displacement, below which loops have not moved: closing them led back."""
 _ITERATIONS = 25
-"""Gauss-Newton steps at most from a pose to the one of least residual near it."""
+"""Largest number of Gauss-Newton steps from a pose to the nearest pose of least residual: convergence is quadratic, so
+loops that close need fewer."""
 _FAR = 0.03
-"""Residual over the step that is no misfit any more: the loops cannot be followed so far."""
+"""Residual over the displacement above which the pose is too far away: noise leaves misfits that are smaller."""
 
 
 class Beside(NamedTuple):
@@ -31,26 +33,30 @@ class Beside(NamedTuple):
 
     coordinates: Row
     residual: Rows
-    """What the joints cannot undo but by directions that the noise may have brought about."""
+    """Misfits of the loops (`Travel.residual`, six rows a loop) that only directions due to noise could reduce."""
     moved: float
-    """Distance of the coordinates from those of the assembled pose, over the step that was taken."""
+    """Largest change of a coordinate from the assembled pose, over the displacement that was tried (`STEPS`)."""
 
 
 def cutoff(noise: float) -> float:
-    """Singular values, over the largest, below which the rank is in doubt for frames that are `noise` radians off."""
+    """Return the singular value, over the largest, below which the rank is uncertain for frames that are `noise` off.
+
+    `noise` is in radians, or lengths over the characteristic length.
+    """
     return min(SPREAD * noise, LARGEST_UNCERTAIN)
 
 
 def rounding(loops: ClosedLoops) -> float:
-    """The residual of closed loops that rounding leaves: of the products of the joints, and of far origins."""
+    """Return the residual that rounding leaves of closed loops: of the products of joints, and of far origins."""
     eps = float(np.finfo(float).eps)
     return eps * (10.0 * np.sqrt(len(loops.loop_group.loops)) + 16.0 * float(np.abs(loops.centre).max()) / loops.length)
 
 
 def nearest_closed(loops: ClosedLoops, q: Row, least: float) -> tuple[Row, Rows]:
-    """The coordinates of least residual near to the given ones, and that residual.
+    """Find the coordinates of least residual near `q`; returns them with the misfits of the loops there, six rows each.
 
-    Gauss-Newton steps of least norm without the directions whose singular values are below `least` of the largest.
+    The steps are Gauss-Newton steps of least norm, without the directions whose singular values are below `least` times
+    the largest.
     """
     residual, jacobian, *_ = loops.travel(q)
     enough = rounding(loops) / 8
@@ -65,9 +71,10 @@ def nearest_closed(loops: ClosedLoops, q: Row, least: float) -> tuple[Row, Rows]
 
 
 def beside(loops: ClosedLoops, noise: float, seed: int = 0) -> Beside | None:
-    """A pose that all freedoms lead to which frames that are `noise` radians off may hide; None without freedoms.
+    """Displace the loops along all freedoms that frames with an error of `noise` may hide, and close them there.
 
-    The direction is generic, and the same for the same `seed`.
+    `noise` is in radians, or lengths over the characteristic length. The direction among the freedoms is generic, and
+    the same for the same `seed`. None if there are no freedoms, or if the assembled pose itself does not nearly close.
     """
     least = cutoff(noise)
     home, residual = nearest_closed(loops, np.zeros(len(loops.columns)), least)

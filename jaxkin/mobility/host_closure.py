@@ -1,4 +1,4 @@
-"""The loops of a structure element on the host: closed by Newton steps in numpy, whatever the device does (Eq. 10)."""
+"""Close the loops of a loop group on the host, by damped Newton steps in numpy and float64 (Eq. 10)."""
 
 from __future__ import annotations
 
@@ -17,60 +17,67 @@ from jaxkin.linkage.first_order import DOUBLE, SINGLE
 from jaxkin.topology.structure import LoopGroup, Structure
 
 _ITERATIONS = 200
-"""Steps at most: two dozen close loops that are half open, more are for those that cannot close."""
+"""Largest number of steps: two dozen close loops that are wide open, and the others are for loops that cannot close."""
 _LONGEST_STEP = 0.5
-"""Radians, or characteristic lengths: what a linear model of a rotation is good for."""
+"""Longest step, radians or characteristic lengths: farther away a linear model of a rotation is no longer good."""
 _STAGNANT = 1e-9
-"""Relative decrease of the merit in a step without more damping than at first, below which it is the least."""
+"""Relative decrease of the merit in one step below which the merit has reached its minimum, if the step is damped no
+more than the first one."""
 _ROUNDING = 1e-14
 """Residual, some 45 roundings of float64, below which a step gains nothing: the host computes in float64, also where
 the mechanism has `SINGLE` numbers."""
 _DAMPING_FLOOR = 1e-14
-"""Least damping of a step, relative to the mean square of the rows of J: the square of `DOUBLE.rank`, so that the host
-takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
+"""Least damping of a step, relative to the mean square of the rows of J: the square of `RANK_TOLERANCE`, so that the
+host takes the same singular values for zero as the solver (`correctors.levenberg_marquardt.damping_floor`)."""
 _LEAST_TRUST = 1e12
-"""Damping, over the square of the residual, at which no step lessens the residual: it is the least."""
+"""Ratio of the damping to the square of the residual above which the residual counts as stationary: even the short
+steps of so much damping do not reduce it."""
 
 Row = Float[np.ndarray, " columns"]
 Rows = Float[np.ndarray, " equations"]
 
 
 class Travel(NamedTuple):
-    """What is met on the way around the loops, in world coordinates."""
+    """The quantities found by travelling around the loops, in world coordinates about the centroid, lengths scaled."""
 
     residual: Rows
-    """Misfits of the loops as twists, six rows each."""
+    """Misfits of the loops as twists, six rows a loop: `vee(R - R^T)/2` of the rotation left open, then translation."""
     jacobian: Float[np.ndarray, "equations columns"]
-    """Their derivatives."""
+    """Derivatives of the misfits with respect to the coordinates."""
     screws: Screws
-    """Of the coordinates of all joints."""
+    """Unit twists (6, columns) of the coordinates of all joints, angular velocity first."""
     starts: tuple[Pose, ...]
     """Displacement of the part at which each loop starts."""
     left_open: Float[np.ndarray, "loops 4 4"]
-    """Displacement of the part at which each loop starts that is left when it has been travelled: none if closed."""
+    """For each loop the displacement that is left when it has been travelled: the identity if the loop is closed."""
     places: Mapping[str, Pose]
-    """Displacement of each row of parts from its assembled pose; that at which the first loop starts is at rest."""
+    """Displacement of each row of parts from the assembled pose; the part at which the first loop starts is at rest."""
 
     @property
     def gap(self) -> float:
-        """Square root of Eq. 12: over all twelve equations of all loops."""
+        """The residual norm: square root of Eq. 12, over all twelve equations of all loops."""
         return float(np.linalg.norm(self.left_open - np.eye(4)))
 
     @property
     def merit(self) -> float:
         """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2.
 
-        `residual` times the Jacobian is its gradient. `residual` alone vanishes at half a turn too.
+        The gradient of the merit is `jacobian.T @ residual`. Half the square of `residual` is no substitute, since
+        `residual` also vanishes where a rotation is left open by half a turn.
         """
         squares = (self.left_open - np.eye(4)) ** 2
         return float(0.25 * squares[:, :3, :3].sum() + 0.5 * squares[:, :3, 3].sum())
 
 
 class ClosedLoops:
-    """The loops of a structure element as numbers: frames from their centroid, over their root-mean-square distance."""
+    """The loops of a loop group as numbers, in scaled coordinates.
+
+    The origin is the centroid of the joint frames on part 1, and lengths are divided by the root-mean-square distance
+    of these from it, the characteristic length.
+    """
 
     def __init__(self, every: Sequence[Joint], structure: Structure, loop_group: LoopGroup) -> None:
-        """`every` are the joints whose loops are solved, all of the linkage; `loop_group` says which loops."""
+        """Take the loops of `loop_group`; `every` are all joints of the linkage."""
         joints = {index: every[index] for index in loop_group.joints}
         self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
@@ -94,21 +101,22 @@ class ClosedLoops:
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
         names = [name for joint in joints.values() for name in joint.coordinates]
         self.units = np.array([length if is_length(name) else 1.0 for name in names])
-        """Of each column: what its scaled coordinate is multiplied by."""
+        """For each column the factor from the scaled coordinate to that of the mechanism: 1 for angles."""
         self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values())
-        """Whether all joints have one frame on both of their parts: then the assembled pose is closed as it is given,
-        though frames that are rigid to some digits only leave a residual of their own."""
+        """Whether each joint has the same frame on both of its parts. Then the assembled pose is closed by
+        construction, also if frames that are orthonormal to a few digits only leave a residual."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
 
     def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
-        """Derivative of the misfits of the loops, six rows each in world coordinates about the centroid."""
+        """Differentiate the misfits of the loops: six rows a loop, in world coordinates about the centroid."""
         return self.travel(q)[1]
 
     def closed(self, q: Row, held: Sequence[int] = ()) -> tuple[Row, Travel]:
-        """The closed coordinates that damped Newton steps of least norm lead to, and what is met there.
+        """Close the loops from scaled coordinates `q` by damped Newton steps of least norm (Levenberg-Marquardt).
 
-        Steps that do not lessen the merit are refused and damped more (Levenberg-Marquardt), so that loops may begin
-        wide open; where they cannot close, those of least residual are found. Columns that are `held` stay.
+        A step that does not reduce the merit is refused and damped more, so that loops may begin wide open. Loops that
+        cannot close are brought to their least residual. The columns `held` keep their values. Returns the coordinates
+        and the quantities of the loops there.
         """
         found, trust, free = self.travel(q), 1.0, np.ones(len(q))
         free[list(held)] = 0.0
@@ -131,7 +139,7 @@ class ClosedLoops:
         return q, found
 
     def travel(self, q: Row) -> Travel:
-        """Travel all loops, from the part at which each starts, with these coordinates."""
+        """Travel around all loops at scaled coordinates `q`, each from the part at which it starts."""
         steps = {
             index: chain(movements, before, q[self.slices[index]], pitch, after)
             for index, (movements, before, after, pitch) in self.chains.items()
@@ -166,7 +174,7 @@ class ClosedLoops:
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:
-    """The x of least norm with J x = r, damping over the mean square of the rows of J."""
+    """Solve J x = r with least norm; `damping` is relative to the mean square of the rows of J."""
     gram = jacobian @ jacobian.T
     floor = damping * max(float(np.trace(gram)) / max(len(gram), 1), 1e-300)
     return jacobian.T @ np.linalg.solve(gram + floor * np.eye(len(gram)), right)

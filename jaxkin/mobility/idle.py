@@ -1,13 +1,15 @@
-"""Idle motions: passive parts that move about themselves while all other parts of the mechanism rest (host code).
+"""Find idle motions: passive parts that move about themselves while all other parts of the mechanism rest (host code).
 
-A part idles between two others or more, as a rod does between balls, a pin in two holes, a washer between two plates;
-between places on one and the same part its motion is of use. Nor does a part idle that would take another one along.
-Parts in a row idle together if what moves between them is carried into itself: the halves of a leg that slide along its
-line, but not a thigh and a shin with a knee between them, which swing. A ball may be written as three hinges with two
-small links, as in files of robots: the links go along. By its joints alone a shaft between two universal joints, with
-bearings in two different parts, is such a rod too.
+- A part with an idle motion is held by two or more other parts: a rod between balls, a pin in two holes, a washer
+  between two plates. A part that is held in several places by one and the same part is a hinge or a slide, and its
+  motion is not idle; neither is a motion that would carry another part along.
+- Parts in a row have an idle motion together if it carries the motions between them into themselves (their Lie brackets
+  with it vanish): the halves of a leg that slide along its line, but not a thigh and a shin with a knee between them.
+- A ball may be written as three hinges with two small links, as in files of robots; the links then move along.
+- A shaft between two universal joints, with bearings in two different parts, has an idle motion by its joints alone.
 
-All follows from the twists that joints allow: no basis of the motions, no name and no order of joints takes part.
+All this follows from the twists that joints allow, and does not depend on a basis of the motions, nor on names or the
+order of joints.
 """
 
 from __future__ import annotations
@@ -26,14 +28,14 @@ from jaxkin.mobility.loop_freedoms import LoopFreedoms
 
 @dataclass(frozen=True)
 class IdleMotion:
-    """One idle freedom: what moves, how, and between which parts."""
+    """One idle freedom: the parts that move, the kind of motion, and the parts that hold them."""
 
     parts: tuple[str, ...]
     """The parts that move; all others rest."""
     kind: str
     """"turns" about an axis, perhaps advancing along it, or "slides"."""
     between: tuple[str, ...]
-    """The parts that hold them, at rest."""
+    """The parts that hold the moving ones, at rest."""
     coordinates: tuple[str, ...]
     """Coordinates "joint.coordinate" in which the motion shows. Other motions may show in them too."""
 
@@ -44,30 +46,31 @@ class IdleMotion:
 
 @dataclass(frozen=True, eq=False)
 class _End:
-    """A way from a body that may idle to one that rests, straight or over the small links of a ball."""
+    """A connection from a body that may move idly to a body at rest, direct or over the small links of a ball."""
 
     bodies: tuple[str, ...]
-    """From the body over the links to the one that rests."""
+    """The body, the links in order, and the body at rest."""
     allowed: Twists
-    """Of each body relative to the next, side by side."""
+    """Twists that the joints allow each body relative to the next, (6, twists), side by side."""
     sizes: tuple[int, ...]
-    """Columns of each."""
+    """Number of columns of `allowed` for each pair of neighbouring bodies."""
     forbidden: Constraints
-    """On the twist of the first relative to the last."""
+    """Constraints on the twist of the first body relative to the last."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Row:
-    """Bodies that may idle together, and the ways to those that rest."""
+    """Bodies that may have an idle motion together, and their connections to bodies at rest."""
 
     bodies: tuple[str, ...]
     inner: Constraints
-    """On the twist of the row: by what hangs on it, and by what moves within it."""
+    """Constraints on the twist of the row by bodies that are joined to it from outside the element, and by the
+    condition that the twist carries the motions between the bodies of the row into themselves."""
     ends: tuple[_End, ...]
 
     @property
     def moving(self) -> tuple[str, ...]:
-        """All bodies that go along."""
+        """All bodies that move: those of the row and the small links of its ends."""
         return (*self.bodies, *(link for end in self.ends for link in end.bodies[1:-1]))
 
     @property
@@ -77,7 +80,7 @@ class _Row:
 
 
 class IdleMotions:
-    """The idle motions of one structure element. Parts that are left out hold nothing and are not looked at."""
+    """The idle motions of one structure element. Parts in `left_out` hold no other part and are not examined."""
 
     def __init__(self, linkage: Linkage, found: LoopFreedoms, left_out: Collection[str] = ()) -> None:
         self._linkage, self._found, self._left_out = linkage, found, set(left_out)
@@ -85,7 +88,7 @@ class IdleMotions:
 
     @property
     def carrier(self) -> frozenset[str]:
-        """The rows of parts by which the element hangs on the fixed parts, or those of the fixed parts themselves."""
+        """The rows of parts through which the element is connected to the fixed parts, or those of the fixed parts."""
         return frozenset(self._graph.parts_of[self._graph.carrier])
 
     @property
@@ -95,7 +98,7 @@ class IdleMotions:
 
     @property
     def motions(self) -> tuple[IdleMotion, ...]:
-        """What moves in them, one a freedom: of motions that are sums of others only the others."""
+        """One description for each idle freedom; motions that are linear combinations of others are left out."""
         return self._independent[0]
 
     @cached_property
@@ -115,9 +118,10 @@ class IdleMotions:
         return tuple(motions), basis
 
     def _by_size(self) -> list[tuple[_Row, Twists]]:
-        """Rows that can move while all others rest, and how: few bodies first, then those that can do more.
+        """List the rows that can move while all other bodies rest, with their twists, in the order of examination.
 
-        Of two that hold each other, as a washer and a block that slides on it, that which can do more is idle.
+        Rows of few bodies come first, and among these the rows with more freedoms: of two bodies that hold each other,
+        as a washer and a block that slides on it, the one with more freedoms counts as idle.
         """
         found = [
             (row, self._graph.free_of(np.concatenate([row.inner, *(end.forbidden for end in row.ends)])))
@@ -130,10 +134,10 @@ class IdleMotions:
         )
 
     def _is_between_bodies(self, row: _Row, idle: Float[np.ndarray, "idle columns"]) -> bool:
-        """Whether the bodies that hold a row are two at least, though links that do nothing but idle were gone.
+        """Tell whether at least two bodies hold a row, when links without motions other than idle ones are contracted.
 
-        A link that never moves against the next one, or only idly, is one body with it here: between that and another
-        place on the same body the row's motion is of use.
+        A link that never moves relative to the next body, or by idle motions `idle` only, counts as one body with it. A
+        row that is held in two places by one such body is a hinge or a slide, and its motion is not idle.
         """
         graph, held_by = self._graph, set()
         for end in row.ends:
@@ -148,7 +152,8 @@ class IdleMotions:
         return len(held_by - self._left_out) > 1
 
     def _rows(self) -> Iterator[_Row]:
-        """Single bodies, and rows of bodies with two neighbours each; with balls of several hinges, and without."""
+        """Yield single bodies, and rows of bodies with two neighbours each, each with direct ends and with ends over
+        the small links of a ball."""
         graph, seen = self._graph, set()
         for body in graph.movable:
             yield from self._held([body], graph.held_outside(body))
@@ -175,7 +180,7 @@ class IdleMotions:
                         yield from self._held(row, inner)
 
     def _held(self, bodies: Sequence[str], inner: Constraints) -> Iterator[_Row]:
-        """A row held by others, once over straight ends only and once over as many links as there are."""
+        """Yield the row of these bodies, once with direct ends and once with ends over as many links as possible."""
         pairs = [(body, other) for body, other in self._graph.joints if body in bodies and other not in bodies]
         row = _Row(tuple(bodies), inner, tuple(self._straight(*pair) for pair in pairs))
         if len(set(row.resting) - self._left_out) > 1:
@@ -184,16 +189,17 @@ class IdleMotions:
         apart = len(set(row.moving)) == len(row.moving) and not set(row.moving) & set(row.resting)
         if len(row.moving) == len(bodies) or not apart or len(set(row.resting) - self._left_out) < 2:
             return
-        # all about one point: not a rod, but a spherical linkage
+        # if all ends turn about one point, this is no rod but a spherical linkage
         if _centre(np.concatenate([end.allowed for end in row.ends], axis=1), self._found.thresholds.rate) is None:
             yield row
 
     def _straight(self, body: str, other: str) -> _End:
+        """Make the direct connection between two bodies that are joined."""
         allowed = self._graph.allowed(body, other)
         return _End((body, other), allowed, (allowed.shape[1],), self._graph.forbidden(body, other))
 
     def _over_links(self, body: str, other: str) -> _End:
-        """From a body over links as long as all turn about one and the same point."""
+        """Extend the connection from a body over links, as long as all joints passed turn about one point."""
         end = self._straight(body, other)
         while self._graph.is_link(end.bodies[-1]):
             last, before = end.bodies[-1], end.bodies[-2]
@@ -207,7 +213,7 @@ class IdleMotions:
         return end
 
     def _rates(self, row: _Row, twist: Float[np.ndarray, "6"]) -> Float[np.ndarray, " columns"]:
-        """Rates of unit size, of a row that moves with a twist while those that hold it rest."""
+        """Compute joint rates, of unit norm, of a row that moves with a twist while the bodies that hold it rest."""
         rates = np.zeros(len(self._found.columns))
         for end in row.ends:
             shares = np.linalg.lstsq(end.allowed, twist, rcond=1e-9)[0]
@@ -217,7 +223,7 @@ class IdleMotions:
         return rates / np.linalg.norm(rates)
 
     def _turns_and_slides(self, twists: Twists) -> Iterator[tuple[str, Float[np.ndarray, "twists 6"]]]:
-        """A basis of some twists in which as many as can be have no angular velocity, by kind."""
+        """Yield a basis of these twists by kind, with as few twists as possible that have an angular velocity."""
         _, sizes, mixes = np.linalg.svd(twists[:3], full_matrices=True)
         turning = int((sizes > self._found.thresholds.rate).sum())
         for kind, some in (("turns", mixes[:turning]), ("slides", mixes[turning:])):
@@ -225,6 +231,7 @@ class IdleMotions:
                 yield kind, some @ twists.T
 
     def _described(self, row: _Row, kind: str, rates: Float[np.ndarray, "motions columns"]) -> IdleMotion:
+        """Describe the motions of a row by the names of parts and coordinates; `rates` are those of its motions."""
         joints, rows_of, order = self._linkage.joints, self._graph.parts_of, self._linkage.structure.parts.index
         shows = [
             self._found.columns[k] for k in np.flatnonzero((np.abs(rates) > self._found.thresholds.rate).any(axis=0))
@@ -238,7 +245,7 @@ class IdleMotions:
 
 
 def _centre(twists: Twists, noise: float) -> Float[np.ndarray, "3"] | None:
-    """The point about which all of some twists turn, and no other: None where there is none."""
+    """Find the one point about which all these twists turn; None where there is no such point or more than one."""
     cross = np.concatenate([np.cross(np.eye(3), w).T for w in twists[:3].T])
     if np.linalg.matrix_rank(cross, tol=noise) < 3:
         return None
@@ -248,7 +255,7 @@ def _centre(twists: Twists, noise: float) -> Float[np.ndarray, "3"] | None:
 
 
 def _bracket(twists: Twists) -> Constraints:
-    """Constraints on a twist that carries the motions of some others into themselves: their Lie brackets vanish."""
+    """Compute the constraints on a twist that carries these twists into themselves: their Lie brackets vanish."""
     rows = np.zeros((twists.shape[1], 6, 6))
     for block, w, v in zip(rows, twists[:3].T, twists[3:].T, strict=True):
         block[:3, :3] = block[3:, 3:] = np.cross(np.eye(3), w)
@@ -257,6 +264,6 @@ def _bracket(twists: Twists) -> Constraints:
 
 
 def _complement(twists: Twists, noise: float) -> Constraints:
-    """An orthonormal basis of what some twists do not span."""
+    """Compute an orthonormal basis, one a row, of the complement of the span of these twists."""
     basis, sizes, _ = np.linalg.svd(twists)
     return basis[:, int((sizes > noise).sum()) :].T

@@ -1,4 +1,4 @@
-"""Drives that a mechanism cannot follow, or that leave it free, in words."""
+"""Tell in words which drives the loops of a mechanism cannot follow, and which freedoms a drive leaves undriven."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ class InfeasibleDrive:
     """A drive that the loops cannot follow."""
 
     why: str
-    """In words."""
+    """The reason in words, with what can be driven instead."""
     immobile: tuple[str, ...]
-    """The rows of parts of loops that have no freedom at all; none where another drive is what is needed."""
+    """The rows of parts of loops that have no freedom at all; empty where another drive is feasible."""
 
 
 def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> InfeasibleDrive | None:
-    """Tell why the loops cannot follow a drive of these coordinates; None where they can, or where it is not sure.
+    """Tell why the loops cannot follow a drive of these coordinates; None where they can, and where this is uncertain.
 
-    It is sure where the rates cannot be given at the assembled pose nor at a pose beside it: at a singular pose, where
-    the motion may branch, the drive is left to the solver. What is to be driven instead can be given at both poses,
-    where there is such.
+    A drive is infeasible only if its rates cannot be chosen independently, neither at the assembled pose nor at a pose
+    beside it. At a singular pose, where the motion may branch, the solver decides. The coordinates that are proposed
+    instead can be driven at both poses, if there are such coordinates.
     """
-    for found, columns in _driven_blocks(linkage, driven):
+    for found, columns in _driven_groups(linkage, driven):
         if _follows(found, columns):
             continue
         given = names(linkage, found, columns)
@@ -59,14 +59,17 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
 
 
 def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
-    """Whether the rates of these columns can be given, at the assembled pose or beside it."""
+    """Tell whether the rates of these columns can be chosen independently, at the assembled pose or beside it."""
     return any(
         independent(motions, columns, found.thresholds) == len(columns) for motions in (found.at_rest, found.motions)
     )
 
 
 def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
-    """The columns that can be driven, alone or as the angles of a ball: first those that can at the assembled pose."""
+    """List the groups of columns that can be driven, a single column or the angles of a ball.
+
+    Groups that can be driven at the assembled pose too come first.
+    """
     groups = dict.fromkeys(found.driven_together.values())
     movable = [group for group in groups if independent(found.motions, group, found.thresholds) == len(group)]
     surest = _surest(found, movable)
@@ -74,34 +77,35 @@ def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:
 
 
 def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence[tuple[int, ...]]:
-    """Those that can be driven at the assembled pose too, if there are such: not a slide at its dead centre."""
+    """Select the groups that can be driven at the assembled pose too (not a slide at its dead point); all if none
+    can."""
     at_rest = [group for group in choices if independent(found.at_rest, group, found.thresholds) == len(group)]
     return at_rest or choices
 
 
 def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
-    """The names of columns to choose from, the angles of a ball together."""
+    """List the names of columns to choose from, the angles of a ball together."""
     return listed([" with ".join(names(linkage, found, group)) for group in groups])
 
 
 def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[str, ...]:
-    """Coordinates that could be driven as well in the loops that a drive moves; idle ones are not among them."""
+    """Name the coordinates that a drive leaves free in the loops that it moves, without those of idle freedoms."""
     spinning = [part.name for part in linkage.spinning]
     return tuple(
         name
-        for found, columns in _driven_blocks(linkage, driven)
+        for found, columns in _driven_groups(linkage, driven)
         for name in names(linkage, found, drivable(linkage, found, columns, spinning))
     )
 
 
 def _loops_of(found: LoopFreedoms) -> str:
-    """The loops of a structure element by some of its parts."""
+    """Name the loops of a structure element by its parts."""
     parts = dict.fromkeys(part for pair in found.ends.values() for part in pair)
     return f"the mechanism of {listed([part for part in parts if part != found.fixed])}"
 
 
-def _driven_blocks(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
-    """The loops that hold a driven coordinate, with its columns; of loops that cannot be closed nothing is known."""
+def _driven_groups(linkage: Linkage, driven: Sequence[Coordinate]) -> Iterator[tuple[LoopFreedoms, list[int]]]:
+    """Yield the loop groups that hold driven coordinates, with the columns of these, if their loops can be closed."""
     for found in loop_freedoms(linkage):
         columns = [column for column, owner in enumerate(found.columns) if owner in driven]
         if columns and found.closes:

@@ -1,8 +1,7 @@
-"""The freedoms of the loops of a mechanism, on the host: screws of the joints at a closed pose that is not special.
+"""Find the first-order freedoms of the loops of a mechanism, at the assembled pose and at a generic pose beside it.
 
-First-order freedoms are read off at a pose. The assembled one may be singular (a parallelogram lying flat, a crank at
-its dead centre), so a second look is taken at a closed pose beside it. Host code in float64, whatever the device does:
-it compiles nothing and decides nothing by the precision of the device.
+The assembled pose may be singular (a parallelogram lying flat, a crank at its dead point), so the freedoms are computed
+at a second closed pose too. Host code in float64 whatever the precision of the device, without compilation.
 """
 
 from __future__ import annotations
@@ -23,24 +22,24 @@ from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel, least_norm
 from jaxkin.topology.structure import LoopGroup
 
 _STEP = 0.05
-"""How far the second look is taken from the assembled pose, in radians or characteristic lengths: far enough to leave a
-singular pose behind, near enough to close."""
+"""Distance of the second pose from the assembled pose, radians or characteristic lengths: far enough to be away from a
+singular pose, near enough to close."""
 
 
 class LoopFreedoms:
-    """What the loops of one structure element allow at first order; each look is taken when it is asked for.
+    """The first-order freedoms of the loops of one loop group, computed when they are asked for.
 
-    Lengths are over the characteristic length.
+    Lengths are over the characteristic length, and the origin is the centroid of the joint frames.
     """
 
     def __init__(self, linkage: Linkage, loop_group: LoopGroup) -> None:
         self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
         self.loop_group = loop_group
         self.columns = self._loops.columns
-        """(joint, coordinate) of each column: the coordinates of the element's joints in turn."""
+        """(joint, coordinate) of each column: the coordinates of the joints of the loop group in turn."""
         self.thresholds = self._loops.thresholds
         self.centre, self.length = self._loops.centre, self._loops.length
-        """The origin of all numbers here, and the characteristic length."""
+        """Origin in the world, and characteristic length in the unit of the mechanism."""
         self.ends = self._loops.ends
         """For each joint the rows of its parts, all fixed parts together."""
         column_of = {place: column for column, place in enumerate(self.columns)}
@@ -50,7 +49,7 @@ class LoopFreedoms:
             for group in linkage.solved_joints[index].driven_together
             for k in group
         }
-        """For each column those that can be driven with it only: the three angles of a ball."""
+        """For each column all columns that must be driven together with it, itself included: the angles of a ball."""
         self.fixed = linkage.structure.row_of[linkage.fixed[0]]
         """The row of the fixed parts."""
 
@@ -60,17 +59,18 @@ class LoopFreedoms:
 
     @property
     def closes(self) -> bool:
-        """Whether Newton's method closes the loops from the assembled pose: of others nothing is known."""
+        """Whether Newton's method closes the loops from the assembled pose: if not, their freedoms are unknown."""
         return self._loops.coincide or self._home[1].gap < self.thresholds.residual
 
     @property
     def assembled(self) -> Screws:
-        """Screws of the coordinates in world coordinates, at the assembled pose."""
+        """Twists of the coordinates (6, columns) at the assembled pose, in world coordinates."""
         return self._home[1].screws
 
     @property
     def screws(self) -> Screws:
-        """The same at a closed pose beside it; at the assembled one where none was found, or where the rank falls."""
+        """Twists of the coordinates (6, columns) at the generic pose: a closed pose beside the assembled one, or the
+        assembled pose itself where no such pose was found or the rank is lower there."""
         return self._generic[1]
 
     @cached_property
@@ -80,10 +80,10 @@ class LoopFreedoms:
 
     @cached_property
     def _generic(self) -> tuple[Row, Screws]:
-        """Coordinates and screws at a pose that is not special."""
+        """Find the scaled coordinates of the generic pose, and the twists of the coordinates there."""
         home, screws = self._home[0], self.assembled
         jacobian = loop_jacobian(self.loop_group.loops, self.columns, screws)
-        generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction in which nothing is special
+        generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction without symmetry
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         beside = found.screws
@@ -98,21 +98,21 @@ class LoopFreedoms:
 
     @cached_property
     def rank(self) -> int:
-        """Independent equations among them."""
+        """Number of independent equations among the rows of `jacobian`."""
         return self._decomposed[0]
 
     @cached_property
     def motions(self) -> Float[np.ndarray, "freedoms columns"]:
-        """An orthonormal basis of the rates that keep all loops closed."""
+        """An orthonormal basis of the rates that keep all loops closed at the generic pose."""
         return self._decomposed[1]
 
     @cached_property
     def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
-        """The same at the assembled pose, where there may be more of them."""
+        """An orthonormal basis of the rates that keep all loops closed at the assembled pose: perhaps more of them."""
         return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.thresholds.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
-        """The smallest displacement subgroup that holds these joints."""
+        """Find the smallest displacement subgroup that holds the motions of these joints."""
         columns = [column for column, (joint, _) in enumerate(self.columns) if joint in joints]
         return subgroup(self.assembled[:, columns], 10 * self.thresholds.rank)
 
@@ -123,5 +123,5 @@ class LoopFreedoms:
 
 @once_for_each
 def loop_freedoms(linkage: Linkage) -> tuple[LoopFreedoms, ...]:
-    """The freedoms of the structure elements with loops, in the order of `structure.loop_groups`."""
+    """Find the freedoms of all loop groups, in the order of `structure.loop_groups`."""
     return tuple(LoopFreedoms(linkage, loop_group) for loop_group in linkage.structure.loop_groups)

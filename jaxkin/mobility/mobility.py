@@ -1,7 +1,7 @@
-"""Mobility from the rank of the closure Jacobian, beside what counting gives (Gruebler 1917, Kutzbach 1929).
+"""Compute the mobility from the rank of the closure Jacobian, and by counting (Gruebler 1917, Kutzbach 1929).
 
-Counting alone is wrong for every overconstrained mechanism; with the equations of each loop's displacement subgroup in
-place of six it is right for planar and spherical ones, and still wrong for Bennett's.
+Counting six equations a loop is wrong for every overconstrained mechanism. Counting the equations of each loop's
+displacement subgroup is right for planar and spherical mechanisms, and still wrong for Bennett's linkage.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ class Mobility:
     freedoms: int
     """Independent displacements that all loops allow together."""
     idle_motions: tuple[IdleMotion, ...]
-    """Passive parts that move about themselves while all others rest, one entry a freedom."""
+    """The idle freedoms, one entry each: passive parts that move about themselves while all others rest."""
     redundant: int
     """Closure equations, six a loop, that follow from the others."""
     spinning: tuple[str, ...]
-    """Parts that only spin, such as screws and washers: all that they can do is idle. They are left at rest."""
+    """Parts that only spin, such as screws and washers: all their freedoms are idle, and they are left at rest."""
     spins: int
-    """Freedoms that belong to the parts that only spin; they are not among the idle ones."""
+    """Number of freedoms of the parts in `spinning`; these are not among `idle_motions`."""
     counted: int
     """Coordinates less six a loop: negative or too small where equations are redundant."""
     counted_in_subgroups: int
@@ -43,12 +43,12 @@ class Mobility:
     subgroups: tuple[Subgroup, ...]
     """The displacement subgroup of each loop."""
     drivable: tuple[str, ...]
-    """Coordinates whose displacements, given together, leave nothing but idle freedoms; one choice of several, joints
-    at the fixed parts first, or at the part by which loops hang on the others."""
+    """Coordinates that, driven together, leave only idle freedoms. Of several choices this one prefers joints at the
+    fixed parts, or at the part that connects the loops to the fixed parts."""
 
     @property
     def idle_freedoms(self) -> int:
-        """How many of the freedoms are idle."""
+        """Number of idle freedoms."""
         return len(self.idle_motions)
 
     @property
@@ -63,7 +63,7 @@ class Mobility:
 
     @property
     def counting(self) -> str:
-        """What counting gives, in words; empty where there are no loops to count."""
+        """The results of counting in words; empty where there are no loops."""
         if not self.subgroups:
             return ""
         text = f"counting gives {self.counted} with six equations a loop"
@@ -81,10 +81,11 @@ class Mobility:
 
 
 def mobility(linkage: Linkage, unit: str = "") -> Mobility:
-    """Freedoms from the rank of the closure Jacobian: the larger rank of the assembled pose and a closed one beside it.
+    """Compute the mobility from the rank of the closure Jacobian at the assembled pose and at a closed pose beside it.
 
-    At a singular pose (a parallelogram lying flat) the rank falls without a freedom being gained. ValueError where the
-    given pose is open: see `Mechanism.close`.
+    The larger of the two ranks counts: at a singular pose (a parallelogram lying flat) the rank is lower although the
+    mechanism has no further freedom. `unit` is the name of the unit of length, for messages. Raises ValueError where
+    the assembled pose is open: see `Mechanism.close`.
     """
     check_closed(linkage, unit, "mobility", "mobility()")
     every = loop_freedoms(linkage)
@@ -117,21 +118,22 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
 
 
 def names(linkage: Linkage, found: LoopFreedoms, columns: Iterable[int]) -> list[str]:
-    """The full names of coordinates by their columns."""
+    """Return the full names "joint.coordinate" of these columns."""
     chosen = (found.columns[column] for column in columns)
     return [f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[k]}" for joint, k in chosen]
 
 
 def moving_columns(found: LoopFreedoms, motions: Float[np.ndarray, "n columns"]) -> list[int]:
-    """The columns that some of the motions move."""
+    """List the columns that move in at least one of the motions."""
     return np.flatnonzero(np.abs(motions).max(axis=0, initial=0.0) > found.thresholds.rate).tolist()
 
 
 def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins: Collection[str]) -> list[int]:
-    """Columns that can be driven besides some others, until nothing is left but idle freedoms and parts that spin.
+    """Select columns to drive besides those `driven`, until only idle freedoms and spins of parts are left.
 
-    Joints at the part that carries the element come first, of these hinges and slides before balls. Columns in which
-    idle motions show are taken only where all others leave something: to give one may move nothing but what idles.
+    Joints at the part that connects the element to the fixed parts come first, and among these joints with fewer
+    coordinates (hinges and slides before balls). Columns in which idle motions show are selected only if all other
+    columns leave a freedom that is not idle: driving such a column may move nothing but an idle part.
     """
     idle = IdleMotions(linkage, found, spins)
     order = [k for k, (joint, _) in enumerate(found.columns) if not set(spins) & set(found.ends[joint])]
@@ -150,8 +152,10 @@ def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins
 
 
 def independent_subset(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
-    """Those of the columns, each in turn, that can be given besides the ones before; the angles of a ball are given
-    together."""
+    """Greedily select columns whose rates are linearly independent of each other and of the columns `given`.
+
+    The angles of a ball are selected together or not at all.
+    """
     taken: list[int] = []
     offered = list(columns)
     for column in offered:

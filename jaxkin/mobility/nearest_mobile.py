@@ -1,15 +1,16 @@
 """Find the nearest frames for which loops close throughout, where rounded numbers let them close at one pose only.
 
-Parallel, perpendicular, coaxial and concurrent axes are put right by `jaxkin.joints.regularise`. What is left are
-mechanisms that move for the sake of their lengths: a third bar as long as the two beside it, the twists and lengths of
-Bennett's linkage. Each frame `i` may be moved by a small twist `p_i`, on both of its parts alike. At poses `k` along
-the motion the loops have the residual `r_k`, and to first order
+Axes that should be parallel, perpendicular, coaxial or concurrent are aligned by `jaxkin.joints.regularise`. Other
+mechanisms move because of relations between their lengths: a parallelogram with a third bar as long as the two beside
+it, or Bennett's linkage with its lengths and twist angles. Each frame `i` may be moved by a small twist `p_i`, on both
+of its parts alike. At poses `k` along the motion the loops have the residual `r_k`, and to first order
 
     r_k + A_k p + J_k dq_k = 0.
 
-What the coordinates cannot undo is `N_k (r_k + A_k p) = 0`, with the rows of `N_k` orthonormal to the columns of `J_k`
-whose singular values are beyond doubt. The `p` of least norm that satisfies the equations of all poses is applied, and
-the poses are closed anew, until all residuals are at rounding.
+Changes `dq_k` of the coordinates cannot reduce the part `N_k (r_k + A_k p)`, which therefore has to be zero. The rows
+of `N_k` are orthonormal, and orthogonal to the left singular vectors of `J_k` whose singular values are not due to
+noise. The `p` of least norm that satisfies the equations of all poses is applied, and the poses are closed anew, until
+all residuals are at rounding.
 """
 
 from __future__ import annotations
@@ -24,22 +25,25 @@ from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 
 Twists = Float[np.ndarray, "frames 6"]
-"""World coordinates, lengths over the characteristic one: rotation, then the velocity of the origin."""
+"""Small twists of frames in world coordinates about the centroid, lengths over the characteristic length: rotation
+vector, then the displacement of the centroid."""
 
 _WALK = 4
-"""Poses in each direction of the motion: with both directions, more conditions than any linkage known has."""
+"""Number of poses in each direction of a motion: eight in all give more conditions than any known linkage needs."""
 _STRIDE = 0.15
-"""Radians, or characteristic lengths, from one of these poses to the next."""
+"""Distance of these poses from each other, radians or characteristic lengths: far enough for conditions that differ,
+near enough to close."""
 _DIRECTIONS = 6
-"""Directions of the motion in which poses are taken at most."""
+"""Largest number of directions in which poses are taken: those of three freedoms, forwards and backwards."""
 _ITERATIONS = 16
-"""Iterations at most. Convergence is quadratic, or linear where products of two errors are left."""
+"""Largest number of iterations: convergence is quadratic, or linear where products of two errors are left."""
 _COARSE = 1e-5
-"""Least singular value of the conditions, over the largest, that counts in the first two iterations: smaller ones come
-from the errors themselves."""
+"""Singular values of the conditions, over the largest, that are zero in the first two iterations: values below this are
+due to the errors of the frames."""
 _FINE = 1e-9
-"""The same in all later iterations, just above rounding: products of two errors are left (two axes out of parallel, in
-a linkage that would move with either), on which the iteration converges linearly."""
+"""Singular values of the conditions, over the largest, that are zero in all later iterations, just above rounding. What
+is left then are products of two errors (two axes that are not parallel, in a linkage that moves with either error
+alone), on which the iteration converges linearly."""
 
 
 def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
@@ -71,7 +75,7 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
 
 
 def _poses(loops: ClosedLoops, least: float) -> list[Row]:
-    """Poses of least residual along the freedoms of the assembled pose, forwards and backwards."""
+    """Find poses of least residual along the freedoms of the assembled pose, forwards and backwards."""
     home, _ = nearest_closed(loops, np.zeros(len(loops.columns)), least)
     _, free = null_space(loops.jacobian(home), least)
     found = []
@@ -88,13 +92,13 @@ def _poses(loops: ClosedLoops, least: float) -> list[Row]:
 
 
 def _held(jacobian: Float[np.ndarray, "equations columns"], least: float) -> Float[np.ndarray, "held equations"]:
-    """Orthonormal combinations of the equations that no coordinate changes."""
+    """Compute orthonormal combinations of the equations that no coordinate changes at first order, one a row."""
     directions, values, _ = np.linalg.svd(jacobian, full_matrices=True)
     return directions[:, int((values > least * values.max(initial=0.0)).sum()) :].T
 
 
 def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -> Float[np.ndarray, "equations twists"]:
-    """Derivative of the misfits of the loops with respect to twists of the frames.
+    """Differentiate the misfits of the loops with respect to twists of the frames, six columns a frame.
 
     A frame that moves by `p` on both sides changes its displacement D by `p D - D p`: by the twist `p - Ad_D p`.
     """
@@ -119,6 +123,7 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
 
 
 def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> None:
+    """Move frames, given as (joint, number of the frame), by small twists, in place and on both parts alike."""
     for (joint, number), twist in zip(frames, twists, strict=True):
         names, before, _, pitch = loops.chains[joint]
         before = before.copy()
@@ -127,7 +132,7 @@ def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> 
 
 
 def _moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:
-    """A frame after a small twist, orthonormal to rounding."""
+    """Move a frame by a small twist; its axes stay orthonormal to rounding."""
     turn, shift = twist[:3], twist[3:]
     cross = np.array([[0, -turn[2], turn[1]], [turn[2], 0, -turn[0]], [-turn[1], turn[0], 0]])
     result = frame.copy()

@@ -23,14 +23,15 @@ class Opening:
     parts: tuple[str, ...]
     """The parts of the loop, in order of travel."""
     joints: tuple[str, ...]
-    """Its joints."""
+    """Names of the joints of the loop, in order of travel."""
     length: float
-    """How far its two ends are apart at `joint`, in the unit of the mechanism."""
+    """Distance between the two ends of the loop at `joint`, in the unit of the mechanism."""
     angle: float
-    """The angle between them, radians."""
+    """Angle between the two ends of the loop, radians."""
     joint: str
     """The joint of the loop whose frames on its two parts are the farthest apart in the given pose."""
     unit: str
+    """Name of the unit of length."""
 
     def __str__(self) -> str:
         gap = f"{self.length:.2g} {self.unit}".rstrip()
@@ -41,7 +42,7 @@ class Opening:
 
 
 def opening(linkage: Linkage, unit: str = "") -> Opening | None:
-    """The loop that is open the most in the given pose; None where all close to rounding, or where JAX traces."""
+    """Find the loop that is open the most in the given pose; None where all loops close or JAX traces the linkage."""
     if traced(linkage):
         return None
     worst: Opening | None = None
@@ -56,7 +57,10 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
 
 
 def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
-    """Refuse to tell something of a pose that is open: ValueError with its size, and how to close it."""
+    """Raise ValueError if the given pose is open, with the size of the opening and how to close it.
+
+    `what` names the result that cannot be computed then, and `call` is the method call that computes it.
+    """
     if (found := opening(linkage, unit)) is not None:
         raise ValueError(
             f"{what} cannot be told of a pose that is not closed: {found}; close it first, mechanism.close() says how "
@@ -65,7 +69,7 @@ def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
 
 
 def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Opening:
-    """The loop of a structure element that is open the most at these scaled coordinates, and its worst joint."""
+    """Find the loop of a loop group that is open the most at scaled coordinates `q`, and its worst joint."""
     found = loops.travel(q)
     number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
     loop, left = loops.loop_group.loops[number], found.left_open[number]
@@ -84,7 +88,10 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
 
 
 def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
-    """How far the frames of a joint on its two parts are apart as they are given: by what it forbids, and in all."""
+    """Measure the distance between the frames of a joint on its two parts, as they are given.
+
+    The first number counts only what the joint forbids (zero if below the closure residual), the second one everything.
+    """
     names, before, after, pitch = loops.chains[joint]
     apart, screws = chain(names, before, np.zeros(freedoms(names)), pitch, after)
     skew = apart[:3, :3] - apart[:3, :3].T

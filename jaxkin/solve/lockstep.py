@@ -1,8 +1,8 @@
-"""Loops over many designs in lockstep: inside `vmap` one predicate decides for the whole batch.
+"""Run loops over many designs in lockstep: inside `vmap`, one predicate decides for the whole batch.
 
-With a predicate for each design of a batch, JAX would copy all that a loop carries, samples of the branch included, in
-each iteration, to undo the iteration for designs that are done. The loops of the solver leave poses that are done alone
-by themselves.
+With one predicate a design, JAX would copy the whole carry of a loop in each iteration, samples of the branch included,
+to undo the iteration for designs that are done. The loops of the solver do not need that: they themselves leave poses
+that are done unchanged.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 _DESIGNS = "designs of jaxkin"
-"""Name of the axis of the designs in a batch."""
+"""Name of the mapped axis of the designs in a batch, for collective operations."""
 _in_lockstep: ContextVar[bool] = ContextVar("_in_lockstep", default=False)
 """Whether JAX is tracing a batch of designs in lockstep."""
 
 
 def in_lockstep(function: Callable, in_axes: tuple[int | None, ...]) -> Callable:
-    """Map a function over designs as `vmap` does, with predicates of `any_in_lockstep` those of the whole batch."""
+    """Map a function over designs as `vmap` does; inside it, `any_in_lockstep` is over the whole batch."""
 
     def one(*args):
         token = _in_lockstep.set(True)
@@ -42,7 +42,7 @@ def any_in_lockstep(mask: Bool[Array, "..."]) -> Array:
 
 @jax.custom_batching.custom_vmap
 def write_row(table: Float[Array, "rows entries"], row: Float[Array, " entries"], at: Int[Array, ""]) -> Array:
-    """Overwrite row `at` of the table, which is the same number for all designs: so a batch is written in place too."""
+    """Overwrite row `at` of the table; `at` is the same for all designs of a batch, whose rows are written in place."""
     return lax.dynamic_update_slice(table, row[None], (at, 0))
 
 

@@ -8,9 +8,18 @@
 | 3 | UNREACHABLE | the residual is above the tolerance and stationary: no small displacement lessens it |
 | 4 | STALLED | none of these: the solver stopped on its way |
 
-The first row that holds is the status of the pose (`classify`). MISFIT replaces CLOSED after that, where the loops of
-joints that disagree were solved with the nearest joints that agree, and the residual of the joints that were given is
-above the tolerance. Of several structure elements the worst decides: see `SEVERITY`.
+`classify` gives a pose the status of the first row that holds. The status is then changed in these cases, in turn:
+
+- STALLED, whatever the residual: the trace of the branch ran out of steps before it got to the input of the pose
+  (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`continuation.step.reach`).
+- MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and
+  the residual of the given joints is above the tolerance (`correctors.least_residual`).
+- The worst of several structure elements: see `SEVERITY`.
+- NONFINITE: an input of the pose is NaN or infinite (`mechanism.sweep`, which solves for a finite input in its place).
+
+The reference methods (`reference_methods.minimise`: DFP, BFGS and others) do not use the table. They report CLOSED,
+STALLED and NONFINITE only: no JUMPED, because they trace no branch, so that a CLOSED pose may be on another branch; and
+no UNREACHABLE, because they do not test whether the residual is stationary.
 """
 
 from __future__ import annotations
@@ -24,7 +33,11 @@ from jaxtyping import Array, Bool, Float, Int
 
 
 class Status(IntEnum):
-    """Status of one pose, decided by the closure residual (Eq. 13), not by the convergence test of a solver."""
+    """What became of one pose.
+
+    Whether a pose counts as closed is decided by its closure residual (Eq. 13). Whether a solver counts its own
+    iteration as converged, because its steps became short, plays no part.
+    """
 
     CLOSED = 0
     UNREACHABLE = 1
@@ -35,7 +48,7 @@ class Status(IntEnum):
 
     @property
     def message(self) -> str:
-        """What the status means, and what to do about it."""
+        """Say in words what the status means, and what to do about it."""
         return _MESSAGES[self]
 
 
@@ -50,32 +63,38 @@ _MESSAGES = {
 }
 
 SEVERITY = (Status.CLOSED, Status.MISFIT, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
-"""All statuses from the best to the worst. A pose has the worst of the statuses of its structure elements: what makes
-it useless for one of them makes it useless for the mechanism."""
+"""All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its structure
+elements have: a pose that is useless for one element is useless for the mechanism."""
 
 Scalar = Float[Array, ""] | Float[np.ndarray, ""]
 
 
 class ClosureTolerance(NamedTuple):
-    """The closure residuals that a sweep asks for, lengths over the characteristic length. Traced, not static."""
+    """The residual norms that a sweep asks for (square root of Eq. 12, lengths over the characteristic length).
+
+    Both may be traced by JAX: another tolerance compiles nothing anew.
+    """
 
     max_residual: Scalar
-    """Largest residual of a closed pose."""
+    """Largest residual norm of a closed pose."""
     target_residual: Scalar
-    """Residual at which a pose is improved no further."""
+    """Residual norm at which correctors stop improving a pose."""
 
 
 def default_tolerance(dtype) -> float:
-    """Largest closure residual (Eq. 12, lengths over the characteristic length) of a closed pose: what rounding allows.
+    """Return the largest residual norm of a closed pose if the user asks for none: 1e-12, or 2e-6 in float32.
 
-    Rounding leaves about 1e-15 for each elementary motion in float64 (5e-7 in float32); the margin is for loops of many
-    joints.
+    Residual norms are square roots of Eq. 12, lengths over the characteristic length. Rounding leaves about 1e-15 for
+    each elementary motion in float64 (5e-7 in float32); the rest is a margin for loops of many joints.
     """
     return 1e-12 if jnp.finfo(dtype).bits == 64 else 2e-6
 
 
 def rounding_residual(dtype, units: int) -> float:
-    """`units` times the unit of rounding, but at most a tenth of the default tolerance: float32 has few to spare."""
+    """Return a residual norm of `units` units of rounding of `dtype`, but at most a tenth of `default_tolerance`.
+
+    The limit counts in float32, where the default tolerance is only 17 units of rounding.
+    """
     return min(units * float(jnp.finfo(dtype).eps), 0.1 * default_tolerance(dtype))
 
 
@@ -85,10 +104,11 @@ def classify(
     same_branch: Bool[Array, " poses"],
     max_residual: Scalar | float | None = None,
 ) -> Int[Array, " poses"]:
-    """Decide the status of poses by the table of this module.
+    """Decide the status of each pose by the table of this module.
 
-    `residual_norm` is the square root of Eq. 12; `stationary` says where no small displacement lessens it;
-    `max_residual` is the largest residual of a closed pose, by default `default_tolerance`.
+    `residual_norm` is the square root of Eq. 12, lengths over the characteristic length; `stationary` says at which
+    poses no small displacement lessens it; `same_branch` says which poses, if closed, are on the branch of the
+    assembled pose; `max_residual` is the largest residual norm of a closed pose, by default `default_tolerance`.
     """
     closed = residual_norm <= (default_tolerance(residual_norm.dtype) if max_residual is None else max_residual)
     status = jnp.where(stationary, Status.UNREACHABLE.value, Status.STALLED.value)

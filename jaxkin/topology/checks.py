@@ -8,6 +8,10 @@ from collections.abc import Iterable, Sequence
 from jaxkin._names import nearest
 from jaxkin.topology.graph import Graph
 
+MAX_MERGED = 3
+"""Fixed parts that the name of their row names one by one: the paper's examples have two, and of the eighty fixed parts
+of an assembly that was drawn with its bolts nobody reads the names in every loop."""
+
 
 def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:
     """Refuse names that repeat or are unknown, a joint between a part and itself, and no fixed part: ValueError."""
@@ -64,8 +68,10 @@ def check_connected(graph: Graph, rows: Sequence[str], root: int) -> None:
 
 
 def merged_name(parts: Iterable[str], fixed: Iterable[str]) -> str:
-    """Name the row that stands for all fixed parts, in the order of the parts: "p1&p9"."""
-    return "&".join(part for part in parts if part in set(fixed))
+    """Name the row that stands for all fixed parts, in the order of the parts: "p1&p9", of many "p1&87 more"."""
+    held = set(fixed)
+    names = [part for part in parts if part in held]
+    return "&".join(names) if len(names) <= MAX_MERGED else f"{names[0]}&{len(names) - 1} more"
 
 
 def _refuse_repeats(what: str, names: Iterable[str]) -> None:

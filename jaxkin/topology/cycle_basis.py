@@ -1,10 +1,13 @@
-"""A cycle basis of short loops that all travel each joint in one direction: replaces the search of Section 4.1.
+"""Find a basis of short loops in which any two loops travel a common joint in the same direction.
 
-Loops that share joints are strongly orientable (Robbins 1939), by an ear decomposition: start with a short circuit and
-add ears. An ear is a path of new joints that leaves the joints directed so far and comes back to them. Of the two
-directions of an ear, it takes that in which the directed joints close it to the shorter circuit. Every circuit has at
-least one joint that no earlier circuit has, so the circuits are independent; an ear can always be found and closed, so
-they are a basis. The search takes polynomial time for every mechanism.
+The construction replaces the trial of loop directions in Section 4.1 of the paper. The graph of a loop group has no
+bridge, so each joint can be given one direction such that the directed graph is strongly connected (Robbins 1939).
+
+The directions come from an ear decomposition. An ear is a path of joints without a direction whose two end rows, and no
+rows between, lie on joints that have one; the first ear is a circuit. The joints of an ear take the direction of travel
+along it, and a directed path between its end rows closes it to a circuit of the basis. Of the two directions of travel,
+the one with the shorter circuit is taken. Every circuit has a joint that no earlier one has, so the circuits are
+independent; the ears use up all joints, so the circuits are a basis. The search takes polynomial time.
 """
 
 from __future__ import annotations
@@ -16,15 +19,18 @@ from jaxkin.topology.chords import reversed_circuit
 from jaxkin.topology.graph import Circuit, Graph, WalkStep
 
 _MAX_TRIALS = 1000
-"""Bounds the number of starting parts tried, times the number of joints of the loop group. All parts of a small group
-are tried, one part of a large one; the basis with the fewest joints in all its loops is taken."""
+"""Upper bound on (number of starting rows tried) x (number of joints of the loop group); one row is always tried.
+
+Bounds the time that a large group takes; in a group of up to some 30 joints every row is tried."""
 
 
 def directed_circuits(graph: Graph, loop_group: tuple[int, ...], upper: int) -> tuple[Circuit, ...]:
-    """Find a cycle basis of a loop group: short loops, all in one direction, the shortest first.
+    """Find a cycle basis of short loops for a loop group, such that each joint is travelled in one direction only.
 
-    As for the chords of Eq. (3), the last joint of the group is travelled from part 1 to part 2. `loop_group` holds
-    joints; `upper` is the row at which the search starts first.
+    `loop_group` holds the columns of the joints, rising. The ear decomposition is tried from the row `upper`, then from
+    other rows of the group (see `_MAX_TRIALS`); the basis with the fewest joints summed over its loops is returned, the
+    shortest loop first. As the chords of Eq. (3) do, the last joint of the group fixes the sign: it is travelled from
+    part 1 to part 2.
     """
     around: dict[int, list[tuple[WalkStep, int]]] = {}
     for joint in loop_group:
@@ -40,37 +46,43 @@ def directed_circuits(graph: Graph, loop_group: tuple[int, ...], upper: int) -> 
 
 
 def _ears(graph: Graph, around: dict[int, list[tuple[WalkStep, int]]], start: int) -> list[Circuit]:
-    """Find the circuits of an ear decomposition: at each stage the shortest, of equally short the one of shortest ear.
+    """Build an ear decomposition greedily from the row `start`, and return the circuit that closes each ear.
 
-    The queue holds the steps out of the directed joints, each with the length of the circuit that it begins, as
-    measured at an earlier stage. A step is measured again when it comes up, and is queued anew when a new circuit
-    passes the row that it leaves, since its own circuit may be shorter then.
+    Each round takes the candidate circuit of least priority: (length of the circuit, length of its ear, `order` of the
+    row at which it starts), lengths in joints. `around` gives for each row the steps that leave it, each with the row
+    that it leads to.
+
+    A candidate is queued as its first step, from a row that is on directed joints along a joint without a direction.
+    The priority in the queue may be out of date: with more joints directed, a circuit can become longer (it must
+    follow their directions) or shorter (its ear ends sooner). So a candidate is searched anew when it is popped, and
+    goes back unless it still comes first; and the steps from all rows of a new circuit are queued again ahead of
+    all others, so that they are searched anew too.
     """
-    leaving: dict[int, list[tuple[WalkStep, int]]] = {start: []}
+    leaving: dict[int, list[tuple[WalkStep, int]]] = {start: []}  # directed steps out of each row that has any
     directed: set[int] = set()
-    reached = {start: 0}
+    order = {start: 0}  # rows on directed joints -> how many came before
     queue = [(0, 0, 0, step) for step, _ in around[start]]
     circuits: list[Circuit] = []
     while queue:
-        _, _, age, step = heappop(queue)
+        _, _, rank, step = heappop(queue)
         if step.joint in directed:
             continue
         circuit = _shortest(graph, around, leaving, step)
-        measure = (len(circuit), sum(joint not in directed for joint, _ in circuit), age)
-        if queue and measure > queue[0][:3]:
-            heappush(queue, (*measure, step))
+        priority = (len(circuit), sum(joint not in directed for joint, _ in circuit), rank)
+        if queue and priority > queue[0][:3]:
+            heappush(queue, (*priority, step))
             continue
         circuits.append(circuit)
         for step in circuit:
             if step.joint not in directed:
                 directed.add(step.joint)
                 leaving.setdefault(graph.tail(step), []).append((step, graph.head(step)))
-                reached.setdefault(graph.tail(step), len(reached))
+                order.setdefault(graph.tail(step), len(order))
         for step in circuit:
             row = graph.tail(step)
             for other, _ in around[row]:
                 if other.joint not in directed:
-                    heappush(queue, (0, 0, reached[row], other))
+                    heappush(queue, (0, 0, order[row], other))
     return circuits
 
 
@@ -80,25 +92,27 @@ def _shortest(
     leaving: dict[int, list[tuple[WalkStep, int]]],
     first: WalkStep,
 ) -> Circuit:
-    """Find the shortest circuit that begins with the step `first` out of the directed joints (breadth-first search).
+    """Find the shortest circuit that begins with the step `first`, by breadth-first search.
 
-    Where it meets a directed joint again, it follows the direction of that joint. `around` holds all steps that leave a
-    row, `leaving` the directed ones; each step comes with the row that it leads to.
+    The step `first` takes a joint without a direction. From a row on directed joints the circuit follows these in their
+    direction (`leaving`), from other rows it may take any step (`around`). Both give for a row the steps that leave it,
+    each with the row that it leads to.
     """
     start, row = graph.tail(first), graph.head(first)
-    came = {row: first}
+    arrived_by = {row: first}
     queue: deque[int] = deque()
-    ways = [way for way in (leaving[row] if row in leaving else around[row]) if way[0].joint != first.joint]
-    while True:  # from the first row any step but the one back
-        for step, other in ways:
-            if other not in came:
-                came[other] = step
+    onward = leaving[row] if row in leaving else around[row]
+    onward = [(step, other) for step, other in onward if step.joint != first.joint]  # not straight back along `first`
+    while True:
+        for step, other in onward:
+            if other not in arrived_by:
+                arrived_by[other] = step
                 queue.append(other)
-        if start in came:
+        if start in arrived_by:
             break
         row = queue.popleft()
-        ways = leaving[row] if row in leaving else around[row]
-    steps = [came[start]]
+        onward = leaving[row] if row in leaving else around[row]
+    steps = [arrived_by[start]]
     while steps[-1] != first:
-        steps.append(came[graph.tail(steps[-1])])
+        steps.append(arrived_by[graph.tail(steps[-1])])
     return tuple(reversed(steps))

@@ -1,4 +1,8 @@
-"""The structure of a mechanism: incidence, independent loops, and the order in which parts are placed (Section 4)."""
+"""The structure of a mechanism (Section 4 of the paper), from its parts and joints alone, without any geometry.
+
+`Structure` holds the incidence matrix, independent loops, the tree of structure elements, and the order in which parts
+are placed. In this module a row means a row of the incidence matrix: a part, or all fixed parts together.
+"""
 
 from __future__ import annotations
 
@@ -23,10 +27,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LoopGroup:
-    """The loops of one structure element: they share joints and are solved together."""
+    """The loops of one structure element. They are coupled by common joints and solved as one system."""
 
     joints: tuple[int, ...]
-    """Columns of the joints of its loops, rising."""
+    """Columns in `incidence` of the joints of these loops, rising."""
     loops: tuple[Circuit, ...]
     """Each loop as (joint, sign) in order of travel: +1 where a joint is travelled from part 1 to part 2, else -1."""
 
@@ -35,35 +39,42 @@ class LoopGroup:
 class Structure:
     """Parts, joints, loops and structure elements of a mechanism, by name; made by `structure`.
 
-    The fields are the arguments of `structure`, and alone determine equality and hash. All else is computed from them
-    once, when it is first asked for.
+    The fields hold the arguments of `structure`; equality and hash depend on them only. The properties are computed
+    from the fields on first use.
     """
 
     part_names: tuple[str, ...]
-    """All parts."""
+    """Names of all parts, the fixed ones too, in the given order."""
     joints: tuple[str, ...]
     """Names of the joints: the columns of `incidence` and `cycles`."""
     joint_parts: tuple[tuple[str, str], ...]
-    """For each joint part 1 and part 2."""
+    """For each joint the names of part 1 and part 2."""
     fixed: tuple[str, ...]
     """The parts that do not move."""
     chords: tuple[str, ...] | None
-    """The joints that the spanning tree leaves out, one for each loop; None for short loops."""
+    """Names of the joints that the spanning tree leaves out, one for each loop; None to use the basis of short loops
+    that `cycle_basis` finds, without a spanning tree."""
 
     @cached_property
     def row_of(self) -> Mapping[str, str]:
-        """For each part the name of its row in `incidence`: its own name, or that of the row of all fixed parts."""
+        """Map each part to the name of its row in `incidence`: its own name, or that of the row of all fixed parts."""
         merged = merged_name(self.part_names, self.fixed)
         return {part: merged if part in self.fixed else part for part in self.part_names}
 
     @cached_property
     def parts(self) -> tuple[str, ...]:
-        """Names of the rows of `incidence`: the parts; the fixed ones are one row, "p1&p9", where the first is."""
+        """Names of the rows of `incidence`, in the order of `part_names`.
+
+        All fixed parts share one row, such as "p1&p9", which stands at the place of the first of them.
+        """
         return tuple(dict.fromkeys(self.row_of.values()))
 
     @property
     def incidence(self) -> Int[np.ndarray, "parts joints"]:
-        """Eq. (2): +1 for part 1, -1 for part 2. A joint between two fixed parts has a column of zeros."""
+        """The incidence matrix, Eq. (2): +1 for part 1 of a joint, -1 for part 2, 0 for other rows.
+
+        A joint between two fixed parts has a column of zeros.
+        """
         matrix = np.zeros((len(self.parts), len(self.joints)), int)
         for joint, (row1, row2) in enumerate(self._graph.ends):
             matrix[row1, joint] += 1
@@ -72,7 +83,10 @@ class Structure:
 
     @property
     def cycles(self) -> Int[np.ndarray, "loops joints"]:
-        """Eq. (5): +1 where a loop travels a joint from part 1 to part 2, -1 against it. No column holds both."""
+        """The loop matrix, Eq. (5): +1 where a loop travels a joint from part 1 to part 2, -1 from part 2 to part 1.
+
+        No column holds both +1 and -1, since any two loops travel a common joint in the same direction.
+        """
         matrix = np.zeros((len(self.loops), len(self.joints)), int)
         for row, loop in zip(matrix, self.loops, strict=True):
             for joint, sign in loop.joints:
@@ -81,27 +95,29 @@ class Structure:
 
     @cached_property
     def loops(self) -> tuple[Loop, ...]:
-        """The independent loops, element by element: the rows of `cycles` (Tables 3, 5 and 7)."""
+        """The independent loops in the order of `loop_groups`: the rows of `cycles` (Tables 3, 5 and 7)."""
         return tuple(self._loop(circuit) for circuits in self._circuits for circuit in circuits)
 
     @cached_property
     def elements(self) -> tuple[StructureElement, ...]:
-        """The tree of Fig. 4, level by level from the element that holds the fixed parts."""
+        """The structure elements: the tree of Fig. 4, level by level from the element that holds the fixed parts."""
         return named(self._nodes, self.parts, self.joints)
 
     @cached_property
     def loop_groups(self) -> tuple[LoopGroup, ...]:
-        """The elements with loops, in the order of `elements`."""
+        """The loops of each structure element that has loops, in the order of `elements`."""
         return tuple(
             LoopGroup(node.joints, loops) for node, loops in zip(self._nodes, self._circuits, strict=True) if loops
         )
 
     @cached_property
     def tree(self) -> tuple[tuple[str, str, int, int], ...]:
-        """(part, parent, joint, sign) for each part that is not fixed, each after its parent: P_part = P_parent J^sign.
+        """Rows (part, parent, joint, sign) by which all parts that are not fixed are placed: P_part = P_parent J^sign.
 
-        P is the displacement of a part and J that of the joint, given by its column. The order is that of Section 5.2,
-        level by level of `elements`: first the parts below the joints of the level, then those of its loops.
+        P is the 4x4 displacement of a part, J that of the joint, whose column in `incidence` is given; sign is +1 where
+        the parent is part 1 of the joint, else -1. A parent is fixed or comes in an earlier row. The order is that of
+        Section 5.2, by the levels of the element tree: within a level, first the part that hangs on each bridge joint
+        (a joint in no loop), then the parts along each loop.
         """
         steps = []
         for _, level in groupby(zip(self._nodes, self._circuits, strict=True), key=lambda pair: pair[0].depth):
@@ -141,6 +157,7 @@ class Structure:
 
     @cached_property
     def _circuits(self) -> tuple[tuple[Circuit, ...], ...]:
+        """The loops of each element of `_nodes`, none for a part in no loop; ValueError for unsuitable chords."""
         chords = None if self.chords is None else [self.joints.index(chord) for chord in self.chords]
         return loop_data(self._graph, self._nodes, chords)
 
@@ -157,13 +174,15 @@ def structure(
 ) -> Structure:
     """Make the structure of a mechanism from its parts, joints (name, part 1, part 2) and fixed parts.
 
-    `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3), which
-    travels it from part 1 to part 2; some loops are reversed so that all travel each joint in one direction. By default
-    the loops are short, found in one direction (`cycle_basis`), the last joint of each element from part 1 to part 2.
+    `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3). The
+    loop travels its chord from part 1 to part 2, or is reversed where that makes all loops travel a common joint in
+    the same direction. Without `chords`, a basis of short loops of that kind is found (`cycle_basis`), in which the
+    last joint of each loop group is travelled from part 1 to part 2.
 
-    A joint between two fixed parts is a loop by itself: it is closed at rest only. Raises ValueError for names that
-    repeat or are unknown, a joint between a part and itself, no fixed part, parts that no chain of joints ties to the
-    fixed ones, and chords that belong to no spanning tree or whose loops cannot have one direction.
+    A joint between two fixed parts is a loop of one joint, which closes only while the joint stays at rest. Raises
+    ValueError for names that repeat or are unknown, a joint between a part and itself, no fixed part, parts that no
+    chain of joints connects to a fixed one, chords that do not leave a spanning tree, and chords whose loops no
+    reversal gives common directions.
     """
     check_names(parts, joints, fixed)
     names = tuple(name for name, _, _ in joints)

@@ -111,3 +111,10 @@ def test_other_files_are_refused_in_one_line(tmp_path: Path, text: str, said: st
 def test_numbers_and_units_that_cannot_be_are_refused(tmp_path: Path, at: str, unit: str) -> None:
     with pytest.raises(ValueError, match=r"arm\.xml"):
         read_export(written(tmp_path, instance("b", "P", FRAME.format(at)), unit=unit))
+
+
+@pytest.mark.parametrize("rotation", ["1 0 0 0 1 0 0 0 -1", "2 0 0 0 2 0 0 0 2", "1 0 0 0 1 0 0 1 0"])
+def test_mirrored_and_scaled_instances_are_refused_by_name(tmp_path: Path, rotation: str) -> None:
+    place = f"<Transform><Rotation>{rotation}</Rotation><Translation>0 0 0</Translation></Transform>"
+    with pytest.raises(ValueError, match=r"arm\.xml: 'b': expected a rotation"):
+        read_export(written(tmp_path, instance("b", "P", place)))

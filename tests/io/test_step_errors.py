@@ -193,7 +193,7 @@ def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
 @pytest.mark.long
 def test_memory_is_bounded(tmp_path, capfd, monkeypatch):
     """Some 250 MB of address space for the program, as much again for the points: a limit between the two."""
-    monkeypatch.setattr(step_convert, "MEMORY", 400 << 20)
+    monkeypatch.setattr(step_convert, "STEP_MEMORY", 400 << 20)
     monkeypatch.setattr(step_convert, "MEMORY_PER_BYTE", 0)
     file = tmp_path / "bad.step"
     file.write_text(with_lines(FILLET, *(f"#{100000 + k} = CARTESIAN_POINT('',(0.,0.,0.));" for k in range(600_000))))

@@ -13,7 +13,7 @@ import pytest
 from jaxkin.joints.pairs import prismatic, revolute
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mobility.alignment import PLAY, SIX_DIGITS
+from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS, SIX_DIGITS
 from jaxkin.solve.status import Status, default_tolerance
 from reference import mechanisms, overconstrained
 from reference.rounding import EVERY, placed, rounded, schmidt_coupling, spherical_wrist, tilted
@@ -164,7 +164,7 @@ def test_loops_that_move_are_left_as_they_are(build):
     """Small numbers that are design: RCCC, Bennett's linkage, a crank that is a little shorter."""
     mechanism = build()
     assert not mechanism.notes and not mechanism.linkage.ideal
-    tried = Mechanism.build(fixed=list(mechanism.fixed), joints=mechanism.all_joints, align=PLAY[-1])
+    tried = Mechanism.build(fixed=list(mechanism.fixed), joints=mechanism.all_joints, align=MISALIGNMENT_LEVELS[-1])
     assert all(one is other for one, other in zip(tried.all_joints, mechanism.all_joints, strict=True))
 
 

@@ -8,7 +8,7 @@ import jax
 import jax.numpy as jnp
 
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
@@ -20,5 +20,5 @@ def loop_system(mechanism: Mechanism, driven: Iterable[tuple[str, int]], **loop_
     (group,), (found,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     names = [mechanism.all_joints[joint].name for joint in group.joints]
     places = tuple((group.joints[names.index(name)], number) for name, number in driven)
-    system, _ = block_system(mechanism.linkage, group, places, found._replace(**loop_class))
-    return system, jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, group))
+    system, _ = group_system(mechanism.linkage, group, places, found._replace(**loop_class))
+    return system, jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, group))

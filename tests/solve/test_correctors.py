@@ -15,7 +15,7 @@ from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.system.equation_blocks import equation_blocks
-from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 from jaxkin.solve.system.state import assembled, drive, retract
 from reference.mechanisms import planar_fourbar
 
@@ -28,8 +28,8 @@ def problem(mechanism, loop_class=None, driven=("A",)):
     (group,), (own,) = mechanism.structure.loop_groups, mechanism.linkage.classes
     names = [joint.name for joint in mechanism.all_joints]
     inputs = tuple((names.index(name), 0) for name in driven)
-    system, _ = block_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
-    joints = jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, group))
+    system, _ = group_system(mechanism.linkage, group, inputs, own if loop_class is None else loop_class)
+    joints = jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, group))
     return system, loop_geometry(system, *joints)[0]
 
 

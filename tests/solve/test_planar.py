@@ -14,7 +14,7 @@ from jaxkin.linkage.planes import plane_columns
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
 from jaxkin.solve.status import Status
-from jaxkin.solve.system.from_linkage import block_joints, block_system
+from jaxkin.solve.system.from_linkage import group_joints, group_system
 from jaxkin.solve.system.state import State
 from reference.catalogue import jansen, oldham, scotch_yoke
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
@@ -24,10 +24,13 @@ PLANAR = [planar_fourbar, slider_crank, jansen, oldham, scotch_yoke]
 
 def both(mechanism):
     """The same loops as planar ones and as loops in space, with their geometries."""
-    (block,), (form,) = mechanism.structure.loop_groups, mechanism.linkage.classes
-    for chosen in (form, LoopClass()):
-        system, _ = block_system(mechanism.linkage, block, ((block.joints[0], 0),), chosen)
-        yield system, loop_geometry(system, *jax.tree.map(jnp.asarray, block_joints(mechanism.all_joints, block)))[0]
+    (loop_group,), (loop_class,) = mechanism.structure.loop_groups, mechanism.linkage.classes
+    for chosen in (loop_class, LoopClass()):
+        system, _ = group_system(mechanism.linkage, loop_group, ((loop_group.joints[0], 0),), chosen)
+        yield (
+            system,
+            loop_geometry(system, *jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, loop_group)))[0],
+        )
 
 
 @pytest.mark.long

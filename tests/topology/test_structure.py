@@ -71,3 +71,10 @@ def test_the_text_shows_the_tree_and_the_loops() -> None:
         "    l1: ground&wall - D - rocker - C - coupler - B - crank - A - ground&wall",
         "  part handle (by E)",
     ]
+
+
+def test_the_row_of_many_fixed_parts_has_a_short_name():
+    walls = [f"wall {k}" for k in range(9)]
+    joints = [(f"J{k}", wall, "link") for k, wall in enumerate(walls)]
+    found = structure([*walls, "link"], joints, walls)
+    assert found.parts == ("wall 0&8 more", "link") and found.row_of["wall 5"] == "wall 0&8 more"

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
@@ -62,9 +60,3 @@ def _crossed(
 def boxes_meet(one: Part, other: Part, margin: float = 0.0) -> bool:
     """Whether the boxes of two parts overlap, or are nearer to each other than a margin."""
     return bool(np.all(one.box[0] <= other.box[1] + margin) and np.all(other.box[0] <= one.box[1] + margin))
-
-
-def embedded(part: Part, others: Sequence[Part]) -> list[tuple[float, str]]:
-    """Find the parts in whose material a part stands, with the share of its corners there; the deepest first."""
-    found = [(share_inside(part, other), other.name) for other in others if boxes_meet(part, other)]
-    return sorted(((share, name) for share, name in found if share >= MIN_INSIDE), reverse=True)

@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.bores import bores
-from jaxkin.assembly.inference.embedded import embedded
+from jaxkin.assembly.inference.embedded import MIN_INSIDE, boxes_meet
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -22,7 +22,8 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     result = []
     for part in (known.solids[name] for name in known.names if name in fastening):
         others = [each for each in known.parts if each is not part and frozenset((each.name, part.name)) not in related]
-        for share, host in embedded(part, others)[:1]:
+        found = [(known.measured.share_inside(part, each), each.name) for each in others if boxes_meet(part, each)]
+        for share, host in sorted(((share, name) for share, name in found if share >= MIN_INSIDE), reverse=True)[:1]:
             text = f"{part.name!r} stands in the material of {host!r}, {share:.0%} of its corners"
             evidence = Evidence(EvidenceKind.ENCLOSED, (("share inside", share),), text)
             result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))

@@ -17,14 +17,14 @@ from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies
 from jaxkin.contacts.contact import Contacts
-from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 
 
 def infer(
-    parts: Sequence[Part],
+    measured: Measured,
     contacts: Contacts,
     fixed: Sequence[str],
     rigid: Sequence[Sequence[str]] = (),
@@ -39,11 +39,11 @@ def infer(
     Apart from these comes what would stop slides that exact contacts allow: for those slides that are of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     """
-    known = Known(parts, contacts, fixed, rigid, joints, ignored, clearance)
+    known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
     rolling = bearings(known)
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
-    fastening = fasteners(parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
+    fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
     fastening -= {name for each in rolling for name in (each.outer, each.inner)}
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}

@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.geometry.part import Part, size
+from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -18,8 +18,6 @@ from jaxkin.topology.components import connected
 
 CANDIDATES = 6
 """Parts that a part may be nearest to, by their boxes: those that are measured."""
-CORNERS = 12
-"""Corners of a part, the nearest to the box of the other one, from which distances are measured."""
 NEAR = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
@@ -96,22 +94,6 @@ def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[float, s
         gaps[numbers == numbers[index]] = np.inf
         part = known.parts[index]
         for other in np.argsort(gaps, kind="stable")[:CANDIDATES].tolist():
-            if gaps[other] <= limit and (distance := _distance(part, known.parts[other])) <= limit:
+            if gaps[other] <= limit and (distance := known.measured.distance(part, known.parts[other])) <= limit:
                 found.append((distance, part.name, known.parts[other].name))
     return sorted(found, key=lambda each: (each[0], known.order[each[2]], known.order[each[1]]))
-
-
-def _distance(one: Part, other: Part) -> float:
-    """Distance between two parts: of some corners of either from the triangles of the other."""
-    return min(_from_corners(one, other), _from_corners(other, one))
-
-
-def _from_corners(one: Part, other: Part) -> float:
-    from trimesh.triangles import closest_point
-
-    corners = one.triangles.reshape(-1, 3)
-    away = np.linalg.norm(np.maximum(np.maximum(other.box[0] - corners, corners - other.box[1]), 0.0), axis=1)
-    corners = corners[np.argsort(away, kind="stable")[:CORNERS]]
-    triangles = np.repeat(other.triangles[None], len(corners), axis=0).reshape(-1, 3, 3)
-    points = np.repeat(corners, len(other.triangles), axis=0)
-    return float(np.linalg.norm(closest_point(triangles, points) - points, axis=1).min())

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
-from jaxkin.assembly.inference.axes import common_axes
-from jaxkin.assembly.inference.bores import bores
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.measured import Measured
 from jaxkin.contacts.contact import Contacts
-from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
@@ -21,7 +19,7 @@ class Known:
 
     def __init__(
         self,
-        parts: Sequence[Part],
+        measured: Measured,
         contacts: Contacts,
         fixed: Sequence[str],
         rigid: Sequence[Sequence[str]],
@@ -29,8 +27,8 @@ class Known:
         ignored: Collection[Pair] = (),
         clearance: float | None = None,
     ):
-        self.parts, self.contacts, self.fixed = parts, contacts, tuple(fixed)
-        self.solids = {part.name: part for part in parts}
+        self.measured, self.parts, self.contacts, self.fixed = measured, measured.parts, contacts, tuple(fixed)
+        self.solids = {part.name: part for part in self.parts}
         self.names = tuple(self.solids)
         self.order = {name: place for place, name in enumerate(self.names)}
         self.rigid = [tuple(group) for group in rigid]
@@ -38,8 +36,7 @@ class Known:
         self.touching = {frozenset(contact.parts) for contact in contacts}
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
-        self.bores = {part.name: bores(part) for part in parts}
-        found = common_axes([bore for own in self.bores.values() for bore in own], clearance)
+        self.bores, found = measured.bores, measured.axes(clearance)
         self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
 
     @property

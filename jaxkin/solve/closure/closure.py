@@ -1,4 +1,4 @@
-"""Evaluate the closure of loops (Eq. 10 to 12): residual and Jacobian, with only the equations that the loops need.
+"""Evaluate the closure equations of loops (Eq. 10 to 12): residual, Jacobian and norms.
 
 A loop whose joints all move in parallel planes has three equations (`planar`), any other at most six (`spatial`), of
 the twelve of Eq. 11. The residual norm, which decides whether a pose is closed (Eq. 13), is always over all twelve.
@@ -25,18 +25,23 @@ Given = Array | np.ndarray
 
 
 class Closure(NamedTuple):
+    """The closure equations of a loop system at many poses, lengths over the characteristic length."""
+
     residual: Float[Array, "equations poses"]
-    """Of loops in space: rotation of those that are not cut at a ball, translation of all but rods, and for each rod
-    the difference of its length from that between its balls. Of planar loops: turn and two translations of each."""
+    """The equations that the loops need. Loops in space: rotations of the loops that are not cut at a ball, then
+    translations of all but those cut at a rod, then for each rod the difference between the lengths of its two chains
+    (rows as in `LoopSystem.sections`). Planar loops: for each loop its rotation and two translations."""
     jacobian: Float[Array, "equations columns poses"]
+    """Derivative of `residual` with respect to the columns of the loop system, driven columns included."""
     merit: Float[Array, " poses"]
-    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: nearby half the square of `residual`."""
+    """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: near closure half the square of
+    `residual`."""
     residual_norm: Float[Array, " poses"]
     """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
 
 
 def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
-    """Evaluate residual, Jacobian and norms of all loops, lengths over the characteristic length."""
+    """Evaluate residual, Jacobian and norms of all loops at a state, lengths over the characteristic length."""
     if isinstance(geometry, Planar):
         residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x)
         return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
@@ -49,9 +54,10 @@ def loop_geometry(
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of the loops from the frames of the joints, and the characteristic length.
 
-    All arguments have one entry a joint. The origin is moved to the centroid of the frames on part 1, and lengths are
-    divided by the root-mean-square distance of these from it (the characteristic length), so that no result depends on
-    unit or origin. Both are held constant in derivatives, in which they cancel.
+    All arguments have one entry a joint, in the unit of the mechanism. The origin is moved to the centroid of the
+    frames on part 1, and lengths are divided by the root-mean-square distance of these frames from the centroid (the
+    characteristic length), so that no result depends on unit or origin. Centroid and characteristic length are
+    constants in derivatives, in which they cancel.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
     origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in frames_1]))
@@ -67,11 +73,14 @@ def loop_geometry(
 
 
 def scaled_geometry(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
-    """The geometry over the characteristic length, and the factors from its coordinates to those of the mechanism."""
+    """Compute the scaled geometry, and for each column the factor from its scaled coordinate to that of the mechanism.
+
+    The factor is 1 for angles and the characteristic length for lengths.
+    """
     geometry, length = loop_geometry(system, *joints)
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 
 def free_jacobian(system: LoopSystem, evaluation: Closure) -> Float[Array, "equations columns poses"]:
-    """Set the columns of driven coordinates to zero: least-norm steps do not move these."""
+    """Return the Jacobian with the columns of driven coordinates zero: least-norm steps then do not move these."""
     return jnp.where(is_driven(system), 0.0, evaluation.jacobian)

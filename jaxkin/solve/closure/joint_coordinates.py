@@ -1,9 +1,10 @@
 """Convert between joint coordinates (Table 2) and the state of the solver.
 
-In the state balls are quaternions. So are the two pairs of movements that lock where a ball has rolled a quarter turn.
-Of a ball on a plane, (d), the turn about the normal and the two angles become one ball. Of a ball on a ball, (p), the
-line of centres turns about axes at right angles to it; its turn about itself changes nothing. The angles computed here
-give the same displacement as the quaternions to rounding, also where the two frames deviate a little from Table 1.
+In the state the rotations of balls are quaternions. Two contact states have pairs of movements whose angles lock where
+a ball has rolled a quarter turn, and are quaternions too. For a ball on a plane, (d), the rotation about the normal and
+the two angles become one ball. For a ball on a ball, (p), the line of centres rotates about axes at right angles to it;
+its rotation about itself changes nothing. The angles computed here give the same displacement as the quaternions, to
+rounding, even where the two frames of such a pair deviate slightly from Table 1.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
 
 Frames = tuple[Float[Array, "_ 4 4"], ...]
-"""One entry a joint, on the side of part 1 or of part 2, as in `Joint`."""
+"""For each joint its frames on one of its parts, as `frames_1` or `frames_2` of `Joint`."""
 
 
 def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
-    """Compute the rotation matrices of all balls, by number, without passive spin of rods.
+    """Compute the rotation matrices of all balls, by number, without the idle spins of rods.
 
     A ball at which a loop is cut gets the rotation that closes the loop.
     """
@@ -31,14 +32,15 @@ def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
     return remove_spin_from_rotations(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
 
 
-def remove_passive_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
-    """Remove the passive spin of all rods: the result is a smooth function of the input, unlike the solver's state."""
+def remove_idle_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
+    """Remove the idle spins of all rods: the result is a smooth function of the input, unlike the solver's state."""
     if not isinstance(geometry, Spatial) or not system.spinning:
         return state
     return remove_spin_from_state(system, geometry.lines, _all_turns(system, geometry, state), state)
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
+    """Compute the rotation matrices of all balls, by number, with the idle spins of rods."""
     rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
     turns = {ball: rotations[:, :, number] for number, ball in enumerate(system.turned_balls)}
     return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
@@ -47,13 +49,13 @@ def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
 def joint_coordinates(
     system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates, turns: dict[int, Rotations]
 ) -> Coordinates:
-    """Compute the displacements of all joints from `x`, in the unit of the frames, and the rotations of the balls.
+    """Compute the coordinates of all joints: `x`, with the entries of balls replaced by the angles of their rotations.
 
-    The entries of `x` that belong to balls are replaced by their angles.
+    `x` is in radians and in the unit of the frames; `turns` holds the rotation of each ball, by number.
     """
     turns = dict(turns)
     pairs = []
-    for (joint, frame), (ball, columns) in reversed(system.places.items()):  # those that lock stand last
+    for (joint, frame), (ball, columns) in reversed(system.places.items()):  # pairs that lock stand last
         if columns[0] in system.driven:
             continue
         if len(columns) == 2:
@@ -74,13 +76,13 @@ def joint_coordinates(
 
 
 def unwrap_ball_angles(system: LoopSystem, x: Coordinates) -> Coordinates:
-    """Unwrap the angles of balls by multiples of 2 pi, so that they do not jump from pose to pose."""
+    """Unwrap the angles of balls by multiples of 2 pi, so that the angles do not jump from pose to pose."""
     which = np.flatnonzero(turning(system))
     return x.at[which].set(jnp.unwrap(x[which], axis=-1), unique_indices=True) if which.size else x
 
 
 def as_state(system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordinates) -> State:
-    """Compute the state from the displacements `x` of all joints: the inverse of `joint_coordinates`."""
+    """Compute the state from the coordinates `x` of all joints: the inverse of `joint_coordinates`."""
     turns = []
     for (joint, frame), (ball, columns) in system.places.items():
         if ball not in system.turned_balls:
@@ -102,7 +104,11 @@ def as_state(system: LoopSystem, frames_1: Frames, frames_2: Frames, x: Coordina
 
 
 def _line(between: Float[Array, "3 4"], line: Rotations, ball: Rotations) -> tuple[Array, Rotations]:
-    """Compute theta, phi of the line of centres of (p), and the rotation of its ball that goes with these angles."""
+    """Compute theta and phi of the line of centres of (p), and the rotation of the ball behind the line.
+
+    `between` is the pose of the ball's frame relative to that of the line. The spin of the line about itself is moved
+    into the rotation of the ball.
+    """
     a, b, c = centre = between[:3, 3]
     x, y, z = jnp.einsum("ijp,j->ip", line, centre)
     square = x * x + z * z
@@ -119,7 +125,10 @@ def _line(between: Float[Array, "3 4"], line: Rotations, ball: Rotations) -> tup
 
 
 def _on_plane(between: Float[Array, "3 4"], ball: Rotations) -> tuple[Array, Float[Array, "2 poses"]]:
-    """Compute theta, phi and the turn about the normal of (d), and by what that turn changes the displacements x, y."""
+    """Compute theta, phi and psi about the normal of (d), and the change of its displacements x and y by psi.
+
+    `between` is the pose of the ball's frame relative to that of the plane.
+    """
     inner = between[:3, :3]
     turn = jnp.einsum("ij,jkp->ikp", inner, ball)
     wx, wy, wz = turn[:, 0]
@@ -146,7 +155,7 @@ def _direction(sin: Array, cos: Array, undefined: Array) -> Array:
 
 
 def _rotated_origin(angle: Float[Array, " poses"], between: Float[Array, "3 4"]) -> Float[Array, "2 poses"]:
-    """Rotate the origin of the second frame of a pair about z: its x and y."""
+    """Rotate the origin of the second frame of a pair about z of the first one, and return its x and y."""
     cos, sin, (x, y) = jnp.cos(angle), jnp.sin(angle), between[:2, 3]
     return jnp.stack([cos * x - sin * y, sin * x + cos * y])
 

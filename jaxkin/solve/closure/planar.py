@@ -1,9 +1,10 @@
 """Evaluate the closure of planar loops (Eq. 10): every joint turns about the normal of one plane, or slides in it.
 
-A loop has three equations instead of six: the turns add up to zero, and so do the links, each at its absolute angle.
-The angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines of the angles (for links
-that slide, also in their products with the coordinate), so that a loop is two products of matrices. Coordinates along
-the normal (those of cylindrical joints) commute with all of this: they stay, and are no columns of the system.
+A loop has three equations instead of six: its rotations add up to zero, and so do the vectors of its links, each at its
+absolute angle. The absolute angles are sums of coordinates. Residual and Jacobian are linear in the cosines and sines
+of these angles (for links that slide also in the products of cosines and sines with the sliding coordinate), so that a
+loop is evaluated by two products of matrices. Coordinates along the normal (those of cylindrical joints) commute with
+all motions in the plane: they rest, and are no columns of the system.
 """
 
 from __future__ import annotations
@@ -24,16 +25,17 @@ from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
 MIN_UNROLLED_SUM_POSES = 512
-"""Poses from which on the sum over the terms is written out, for the vector units to run through, where it is faster
-than a product of matrices; for fewer poses it is not worth the time that it takes to compile."""
+"""Number of poses from which on the sum over the terms is written out as straight-line code over the poses, which is
+then faster than a product of matrices. For fewer poses the gain is less than the time to compile the code."""
 MAX_UNROLLED_SUM_TERMS = 32
-"""Terms of a sum that is written out, at most: compile time grows with their number."""
+"""Largest number of terms of a sum that is written out: compile time grows with the number."""
 
 
 class Planar(NamedTuple):
     """Constants of the loops in the plane, lengths divided by the characteristic length.
 
-    The terms are the cosines of the links, their sines, both times what the link slides if any does, and one.
+    The terms of a loop are the cosines of the absolute angles of its links, the sines, both multiplied by the sliding
+    coordinates of the links (if the system has any), and the number one.
     """
 
     sense: Float[Array, "loops links"]
@@ -41,9 +43,9 @@ class Planar(NamedTuple):
     moved: Float[Array, "loops 2 terms"]
     """Coefficients of the terms in the end point of the loop: the links from joint to joint in the assembled pose."""
     jacobian: Float[Array, "loops rows terms"]
-    """Coefficients of the terms in the derivatives of the turn and of both translations by the coordinates."""
+    """Coefficients of the terms in the derivatives of rotation and both translations with respect to all columns."""
     begun: Float[Array, "2 loops"]
-    """Cosine and sine of the rotation left open in the assembled pose: 1 and 0 unless dimensions were changed."""
+    """Cosine and sine of the rotation that is left open in the assembled pose: 1 and 0 unless lengths were changed."""
     off: Float[Array, ""]
     """Squared residual out of the plane (Eq. 12), which no motion in the plane can close."""
 
@@ -51,9 +53,10 @@ class Planar(NamedTuple):
 def planar_closure(
     system: LoopSystem, geometry: Planar, x: Float[Array, "columns poses"]
 ) -> tuple[Array, Array, Array, Array]:
-    """Evaluate residual (turn and two translations a loop), Jacobian, and squares of rotation and translation (Eq. 12).
+    """Evaluate residual, Jacobian, and the squares of rotation and of translation in Eq. 12, as in `closure.Closure`.
 
-    See `closure.Closure`.
+    Shapes: (equations, poses), (equations, columns, poses), (poses,), (poses,). A loop has three equations: the sine of
+    the rotation that is left open, and two translations.
     """
     poses = x.shape[-1]
     padded = jnp.concatenate([x, jnp.zeros_like(x[:1])])
@@ -66,7 +69,7 @@ def planar_closure(
     begun_cos, begun_sin = geometry.begun[..., None]
     rest_cos = cos * begun_cos - sin * begun_sin
     rest_sin = sin * begun_cos + cos * begun_sin
-    # a turn changes four of the nine entries of a rotation matrix; not 2 - 2 cos, which cancels
+    # a rotation in the plane changes four of the nine entries; 2 - 2 cos would lose digits by cancellation
     rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
     jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
     return (
@@ -78,7 +81,7 @@ def planar_closure(
 
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
-    """Compute the end points of the loops in the plane: `Planar.moved` times the terms (translation part of Eq. 10)."""
+    """Compute the end points of the loops in the plane, `Planar.moved` times the terms: the translations of Eq. 10."""
     if (
         terms[0].shape[-1] < MIN_UNROLLED_SUM_POSES
         or sum(some.shape[0] * some.shape[1] for some in terms) > MAX_UNROLLED_SUM_TERMS
@@ -89,7 +92,7 @@ def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Floa
 
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:
-    """Compute the constants in the plane of the first joint that turns from the constants in space."""
+    """Compute the constants in the plane from those in space; the normal is the axis of the first rotation."""
     table, kept = chain_tables(system), _kept(system)
     loops = np.arange(len(system.loops))
 
@@ -137,7 +140,12 @@ def _by_terms(
     coordinate: Float[Array, "loops links columns"],
     first: Float[Array, "2 loops"],
 ) -> tuple[Float[Array, "loops 2 terms"], Float[Array, "loops rows terms"]]:
-    """Compute `Planar.moved` and `.jacobian` from links, directions of slides, and the first point of each loop."""
+    """Compute `Planar.moved` and `Planar.jacobian`.
+
+    `turns` is the derivative of the absolute angle of each link with respect to the columns, `links` and `slides` are
+    the vectors of the links and the directions in which they slide in the assembled pose, `coordinate` marks the column
+    of each link, and `first` is the first point of each loop.
+    """
 
     def rotating(vectors: Array) -> list[Array]:
         """Compute the coefficients of cosine and sine of the angle of each link in a vector that turns with it."""
@@ -146,7 +154,7 @@ def _by_terms(
 
     parts = [links, slides] if _slides(system) else [links]
     moving = jnp.concatenate([by for vectors in parts for by in rotating(vectors)], axis=-1)
-    # a turn moves the links behind it at right angles to their direction
+    # a rotation moves all later links at right angles to their direction
     behind = jnp.concatenate([turns] * (2 * len(parts)), axis=1)
     derivative = jnp.einsum("dlt,ltc->ldct", jnp.stack([-moving[1], moving[0]]), behind)
     if _slides(system):
@@ -162,29 +170,31 @@ def _by_terms(
 
 
 def _sums(angles: Float[Array, "loops links poses"]) -> Float[Array, "loops links poses"]:
-    """Sum the relative angles of the links to absolute ones; written out, since links are few."""
+    """Add up the relative angles of the links to absolute angles, by straight-line code, since links are few."""
     return jnp.stack(list(accumulate(jnp.moveaxis(angles, 1, 0))), axis=1)
 
 
 def _slides(system: LoopSystem) -> bool:
+    """Tell whether any coordinate of the system is a length."""
     return any(system.is_length)
 
 
 class _Kept(NamedTuple):
-    """The elementary motions of the loops that lie in the plane."""
+    """The elementary motions of each loop that act in the plane."""
 
     step: np.ndarray
-    """(links, loops): numbers of the steps; padded with the number of steps where a loop is shorter."""
+    """(links, loops): row of each motion in `chain_tables`; shorter loops are padded with the number of rows."""
     turner: np.ndarray
     """(links, loops): column of the coordinate by which a link turns; the number of columns if there is none."""
     slider: np.ndarray
     """(links, loops): column of the coordinate by which a link slides; the number of columns if there is none."""
     reference: tuple[int, int]
-    """Step and loop of a turn, whose axis is the normal."""
+    """Row and loop in `chain_tables` of the rotation whose axis is the normal."""
 
 
 @lru_cache(maxsize=256)
 def _kept(system: LoopSystem) -> _Kept:
+    """Select the elementary motions that act in the plane from the tables of the system."""
     table = chain_tables(system)
     inside = table.column < system.columns
     chosen = [np.flatnonzero(column) for column in inside.T]

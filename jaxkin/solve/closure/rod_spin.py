@@ -1,9 +1,10 @@
-"""Remove the passive spin of rods between two balls: the rotation about the line of their centres, which no loop fixes.
+"""Remove the idle spin of rods between two balls: the rotation about the line of their centres, which no loop fixes.
 
-Least-norm steps leave some spin behind. Of all spins the one is chosen at which the balls turn least from the assembled
-pose: with the quaternion `(w, v)` of either ball and the line `n`, fixed in the rod, the sum of their `|v|^2` is least.
-After a spin by `phi` the sum is a constant less `(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and
-`b = sum w^2 - (v.n)^2`. So equal inputs give equal poses by whatever path, also after a thousand turns.
+Least-norm steps leave some spin, which depends on the path. It is replaced by the spin at which both balls are rotated
+least from the assembled pose. With the quaternion `(w, v)` of each ball and the unit vector `n` along the line, fixed
+in the rod, this spin minimises the sum of `|v|^2` over both balls. A further spin by `phi` makes the sum a constant
+less `(b cos phi - a sin phi)/2`, where `a = sum 2 w v.n` and `b = sum w^2 - (v.n)^2`. So equal inputs give equal poses,
+whatever path led to them.
 """
 
 from __future__ import annotations
@@ -22,11 +23,12 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Rotations, State, matrix, multiply
 
 Lines = Float[Array, "spins 2 3"]
-"""For each rod the unit vector from ball to ball, in the frames of both balls on the rod, signed as the spin."""
+"""For each rod the unit vector from its first to its second ball, in the frames of both balls on the rod. The sign is
+that of the spin: reversed at a ball whose joint has the rod as part 1."""
 
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
-    """Compute the lines from the frames of the joints: all frames on part 1, joint by joint, then all on part 2."""
+    """Compute the lines from the frames of all joints: first those on part 1, joint by joint, then those on part 2."""
     of_ball, first = [], 0
     for chain in system.chains:
         of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
@@ -42,14 +44,14 @@ def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
 def _spins(
     system: LoopSystem, lines: Lines, turns: Mapping[int, Rotations]
 ) -> tuple[list[tuple[int, int]], Float[Array, "4 ends poses"]]:
-    """Compute number and side of both balls of each rod, and the quaternions about the line that remove its spin."""
+    """Compute (number, side) of both balls of each rod, and for each of these the quaternion that removes the spin."""
     ends = [(ball, side) for one, other, *sides in system.spins for ball, side in zip((one, other), sides, strict=True)]
     turn = jnp.stack([turns[ball] for ball, _ in ends], axis=2)
     n = lines.reshape(-1, 3).T[..., None]
     along = reduce(add, (n[i] * each for i, each in enumerate(vee(turn))))
     aside = [turn[i, i] - n[i] * reduce(add, (turn[i, j] * n[j] for j in range(3))) for i in range(3)]
     a, b = (each[::2] + each[1::2] for each in (along, 0.5 * reduce(add, aside)))
-    undefined = a * a + b * b < 1e-30  # both balls have made half a turn about an axis at right angles to the line
+    undefined = a * a + b * b < 1e-30  # both balls are rotated by half a turn about an axis at right angles to the line
     phi = -jnp.arctan2(jnp.where(undefined, 0.0, a), jnp.where(undefined, 1.0, b))
     cos, sin = (jnp.repeat(each, 2, axis=0) for each in cos_sin(0.5 * phi))
     return ends, jnp.concatenate([cos[None], sin * n])

@@ -1,7 +1,9 @@
-"""Compute the smallest singular value of the closure Jacobian that is not zero everywhere: the distance to singularity.
+"""Compute the smallest singular value of the closure Jacobian that is not zero at all poses: the distance to
+singularity.
 
-A pose whose residual norm is `r` is right to about `r` over this value, and its derivatives grow as one over it. At a
-dead point or a change point it is zero: there rounding of the closure leaves its square root in the pose.
+The error of a pose with residual norm `r` is about `r` divided by this value, and the derivatives of the pose grow as
+the reciprocal of the value. At a dead point or a change point the value is zero, and the error of a pose is about the
+square root of the residual norm.
 """
 
 from __future__ import annotations
@@ -22,9 +24,10 @@ from jaxkin.solve.system.loop_system import LoopSystem
 def smallest_singular_value(
     system: LoopSystem, rank: int, joints: Joints, displacements: Float[Array, "columns poses"]
 ) -> Float[Array, " poses"]:
-    """Compute the singular value number `rank` (from 1, descending) of the Jacobian by the free coordinates.
+    """Compute the singular value number `rank` (from 1, descending) of the Jacobian with respect to free coordinates.
 
-    Displacements are in radians and lengths of the mechanism; the value is for radians and characteristic lengths.
+    `displacements` are in radians and lengths of the mechanism; the singular value is that of the Jacobian for radians
+    and lengths over the characteristic length.
     """
     system = system.uncut
     geometry, lengths = scaled_geometry(system, joints)

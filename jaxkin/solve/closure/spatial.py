@@ -1,15 +1,19 @@
 """Evaluate the closure of loops in space (Eq. 10 and 11): residual and Jacobian of all poses at once.
 
-The steps (elementary motions) of a loop are composed one by one to its displacement `R, t`. Each step gives one column
-of the Jacobian: the twist of the end of the loop. Of the twelve equations of Eq. 11 at most six are
-independent: `vee(R - R^T)/2` and `t`. Their Gauss-Newton step is that of all twelve with the rotation rows weighted by
-sqrt(1/2). The vector `vee` also vanishes at half a turn, so a pose is accepted on all twelve (`merit`). A loop that is
-cut at a ball begins behind it and ends before it: of its equations `t` is left, and `R` is undone by the ball. One that
-is cut at both balls of a rod is two chains from ball to ball, of equal length `|t|`. Of a loop that turns about one
-direction only, all `vee` have that: their length along it is one equation in place of three.
+The steps (elementary motions) of a loop are composed one by one to its displacement, rotation `R` and translation `t`.
+Each step gives one column of the Jacobian: the twist of the end of the loop at a unit rate of the step. Of the twelve
+equations of Eq. 11 at most six are independent: `vee(R - R^T)/2 = 0` and `t = 0`. Their Gauss-Newton step is that of
+all twelve with the rotation rows weighted by sqrt(1/2). They are not enough to accept a pose, since `vee` also vanishes
+at half a turn; the residual norm is therefore over all twelve. Some loops need fewer equations:
 
-The steps are data of one compiled loop, not code of their own: compile time does not grow with the mechanism, and the
-compiler cannot compute the chain anew for every column, as it does with straight-line code. Poses stand last.
+- A loop that is cut at a ball begins behind the ball and ends before it. It keeps `t = 0`; the ball takes up any `R`.
+- A loop that is cut at both balls of a rod is two chains from ball to ball, which must have equal lengths `|t|`.
+- In a loop that turns about one direction only, `vee` is along that direction: its component there is one equation.
+- In a loop that turns about one point, the rotation implies the translation: see `_about_points`.
+
+The steps are data of one compiled loop (`lax.scan`) and not straight-line code. Compile time therefore does not grow
+with the mechanism, and the compiler cannot compute the chain anew for every column, as it does with straight-line code.
+The poses are the last axis of all arrays.
 """
 
 from __future__ import annotations
@@ -36,12 +40,13 @@ class Spatial(NamedTuple):
     """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
 
     between: Float[Array, "steps chains 4 4"]
-    """The constant pose before each step."""
+    """The constant pose of the frame of each step relative to the frame behind the step before."""
     end: Float[Array, "chains 4 4"]
-    """The constant pose behind the last step."""
+    """The constant pose of the end of the chain relative to the frame behind its last step."""
     pitch: Float[Array, " joints"]
+    """Advance of the screws of each joint for a full turn."""
     lines: Lines
-    """Lines of the passive spins: see `rod_spin`."""
+    """Lines of the idle spins, unit vectors: see `rod_spin`."""
     centres: Float[Array, "3 spherical"]
     """Points about which the spherical loops turn, of `LoopSystem.sections`."""
 
@@ -49,12 +54,13 @@ class Spatial(NamedTuple):
 def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
     """Evaluate residual, Jacobian, and the squares of rotation and translation in Eq. 12: see `closure.Closure`.
 
-    Columns follow `LoopSystem`, those of balls turn about world axes.
+    Shapes: (equations, poses), (equations, columns, poses), (poses,), (poses,). Rows are in the order of
+    `LoopSystem.sections`. Columns are those of `LoopSystem`; the columns of a ball are rotations about world axes.
     """
     rotation, translation, twists = _travel(system, geometry, state)
     table, poses, sections = chain_tables(system), state.x.shape[-1], system.sections
     free, spherical, schoenflies, ends = (np.array(loops, int) for loops in sections[:-1])
-    # not 3 - trace: that cancels and cannot fall below the square root of the rounding error
+    # 3 - trace would lose digits by cancellation: its root does not fall below the root of rounding
     uncut = np.sort(np.concatenate([free, spherical, schoenflies]))
     turned = rotation[:, :, uncut] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
     residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
@@ -73,7 +79,7 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
         residual += [*_of_loops(weighted)]
         rows.append(slopes)
     if schoenflies.size:
-        # the twist of a joint that turns is about the one direction of the loop
+        # the direction of the loop is the axis of any of its rotations
         turning = len(twists) // len(table.turn) * np.argmax(table.turn > 0, axis=0)
         direction = twists[turning[schoenflies], :3, schoenflies]
         turns = _of_loops(vee(rotation[:, :, schoenflies].swapaxes(0, 1)))
@@ -97,11 +103,13 @@ def _about_points(
     translation: Float[Array, "3 loops poses"],
     slopes: Float[Array, "columns loops 3 poses"],
 ) -> tuple[Float[Array, "3 loops poses"], Float[Array, "columns loops 3 poses"]]:
-    """Three equations of loops about points `c` that pose the same least-squares problem as all six.
+    """Reduce the six equations of loops that turn about points `c` to three with the same least-squares solution.
 
-    There `t = (1 - R) c`, whose derivative by a turn w is `d x w` with `d = R c = c - t`. So the gradient of half the
-    sum of squares is `vee + t x c`, and the normal matrix that of the turns with the weight `1 + d^2 - d d^T`, whose
-    root S is `s - d d^T / (1 + s)` with `s^2 = 1 + c^2`.
+    In such a loop `t = (1 - R) c`. The derivative of `t` with respect to a rotation vector `w` is `d x w`, with
+    `d = R c = c - t`. So half the sum of the six squares has the gradient `vee + t x c` with respect to `w`, and its
+    normal matrix is the weight `1 + d^2 - d d^T`. The root of the weight is `S = s - d d^T / (1 + s)`, with
+    `s^2 = 1 + c^2`. Returns the residuals `S^-1 (vee + t x c)` and their derivatives, `S` times the `slopes` of the
+    rotation.
     """
     d = centres - translation
     s = jnp.sqrt(1 + jnp.sum(centres**2, axis=0))
@@ -112,13 +120,14 @@ def _about_points(
 
 
 def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 poses"]:
+    """Move the axis of the loops to the front."""
     return jnp.moveaxis(vectors, 1, 0)
 
 
 def _of_rods(
     rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
 ) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
-    """Compute the difference in length of both chains between the balls of a rod, and its derivatives."""
+    """Compute the difference between the lengths of both chains of each rod, and its derivatives."""
     apart = translation[:, rods]
     length = lengths(apart)
     along = jnp.moveaxis(apart / length, 0, 2)
@@ -127,7 +136,7 @@ def _of_rods(
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:
-    """Compute the rotation matrix, [row, column], of each ball at which a loop is cut that closes the loop.
+    """Compute for each ball at which a loop is cut the rotation, [row, column], that closes the loop, by ball number.
 
     The spin of a rod that is cut at both balls is arbitrary.
     """
@@ -135,9 +144,9 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
         return {}
     table = chain_tables(system)
     rotation, translation, _ = _travel(system, geometry, state)
-    closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of what the chain turns, [row, column]
+    closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of the rotation of the chain, [row, column]
     if table.rods.size:
-        # the second ball turns the second chain against the first one, which leaves the first ball to close the loop
+        # the second ball makes the two chains point in opposite directions; the first ball closes the loop
         first, second = table.rods
         wanted = -jnp.sum(rotation[:, :, first] * translation[None, :, first], axis=1)
         turn = turn_between(translation[:, second], wanted)
@@ -154,7 +163,10 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
 def _travel(
     system: LoopSystem, geometry: Spatial, state: State
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
-    """Displacement of the ends of the chains, and the twists that the rows give to them: `ChainTables.source`."""
+    """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
+
+    Twists are numbered as in `ChainTables.source`, with a zero twist behind the last one.
+    """
     table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
     chains = len(table.begin)
     turn, slide, screw, sign, side = (
@@ -172,7 +184,7 @@ def _travel(
         turned = jnp.stack([cos * rotation[0] + sin * rotation[1], cos * rotation[1] - sin * rotation[0], rotation[2]])
         if ball is not None:
             turned = _product(turned, ball)
-        # a ball's turn is perturbed on its left, on the side of part 1; a line of centres on its right
+        # the rotation of a ball is perturbed on its left, about axes of part 1; that of a line of centres on its right
         axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
@@ -193,7 +205,7 @@ def _travel(
 
 
 def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
-    """Compute the rotation matrices [column, row] of the balls of the steps; the identity for all other steps."""
+    """Compute the rotation matrix [column, row] of each step that is a ball; the identity for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
     turns = jnp.concatenate([state.turns, still])[table.ball]
@@ -209,11 +221,12 @@ def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains
 
 
 def _product(a: Rotation, b: Rotation) -> Rotation:
+    """Multiply rotation matrices [column, row]."""
     return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
 
 
 def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
-    """Compute the constants of the loops from the frames of the joints: on part 1, on part 2, and the identity."""
+    """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
     table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
     turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
@@ -224,7 +237,7 @@ def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pit
 
 
 def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Array, "3 spherical"]:
-    """The point nearest to all axes of each spherical loop, by the frames on the first parts of its joints."""
+    """Compute the point nearest to all axes of each spherical loop, from the frames on part 1 of its joints."""
     centres = [jnp.zeros((3, 0), frames.dtype)]
     for loop in system.sections.spherical:
         axes = system.axes(joint for joint, _ in system.loops[loop])

@@ -1,7 +1,7 @@
-"""Trace the branch of the assembled pose: to either end of a range, at as few samples as are safe.
+"""Trace the branch of the assembled pose to both ends of a range, in as few steps as are safe.
 
-Where the input is an angle and the mechanism comes back after a full turn of it, which shows where the forward and the
-backward front meet, one turn is all that is traced.
+If the input is an angle, the forward and the backward front meet a full turn apart (`MEETING`). If they are in the same
+pose there, the mechanism repeats after a full turn of the input, and no more than one turn is traced.
 """
 
 from __future__ import annotations
@@ -22,30 +22,32 @@ from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State
 
 LEAST_MAX_STEPS = 1024
-"""Steps to either side of the assembled pose that `max_steps=None` allows at least: a full turn takes some 25, and some
-50 for each of its limits."""
+"""Least number of steps to either side of the assembled pose that `max_steps=None` allows: a full turn takes about 25,
+and about 50 more for each of its limits."""
 COUNTED_POSES = 1024
-"""Poses for which `max_steps=None` allows more steps, at most: of longer ranges a step passes several
+"""Largest number of poses for which `max_steps=None` allows further steps: in longer ranges one step passes several
 poses."""
 STEPS_A_POSE = 2
-"""Steps that `max_steps=None` allows for each of these poses of a single input."""
+"""Steps that `max_steps=None` allows for each pose of a single input, up to `COUNTED_POSES`."""
 STEPS_A_POSE_OF_SEVERAL = 12
-"""The same for several inputs: in any order they take some eight steps a pose."""
+"""Steps that `max_steps=None` allows for each pose of several inputs, up to `COUNTED_POSES`: inputs in random order
+take about eight steps a pose."""
 MAX_STEPS_TO_LIMITS = 48
-"""Steps after which a range whose limits are not followed is given up: nine of ten that have no limit take no more."""
+"""Largest number of steps if limits are not followed: nine of ten ranges without a limit take no more."""
 SAME_POSE = 1e-9
-"""Largest difference of coordinates, radians or characteristic lengths, of two fronts in one pose, in float64."""
+"""Largest difference of coordinates, radians or characteristic lengths, of two fronts in one pose in float64: far above
+the residual to which poses of the trace are closed, about 1e-14."""
 SAME_POSE_SINGLE = 1e-4
-"""The same in float32."""
+"""Largest difference of coordinates of two fronts in one pose in float32, radians or characteristic lengths."""
 
 
 class _Trace(NamedTuple):
-    """What changes from step to step."""
+    """The carry of the loop over the steps."""
 
     fronts: Fronts
     count: Int[Array, ""]
     limits: Float[Array, "2"]
-    """Where the fronts first met a limit; infinite where they have met none."""
+    """Distance along the path at which each front first met a limit; -inf and inf where it has met none."""
     parted: Bool[Array, ""]
     """Whether the fronts, a full turn apart, were found in different poses."""
     table: Float[Array, "samples entries"]
@@ -54,9 +56,9 @@ class _Trace(NamedTuple):
 def trace_branch(problem: ContinuationProblem, values: Float[Array, " poses"]) -> BranchSamples:
     """Sample the branch from the assembled pose to the least and the greatest of `values`, distances along the path.
 
-    Where the input is an angle and one end is not reached, the other is extended to a full turn from there: a range of
-    a full turn may come back, behind an unreachable interval, to poses on the other side of the assembled one. With
-    `follow_limits=False` both fronts end at limits, and after a few steps.
+    If the input is an angle and one front meets a limit, the other front goes on to a full turn from that limit: poses
+    behind the limit may be reached from the other side. With `follow_limits=False` of the problem, both fronts stop at
+    limits, and after `MAX_STEPS_TO_LIMITS` steps.
     """
     system, dtype = problem.system, values.dtype
     room = _max_steps(problem, values.shape[0])
@@ -106,7 +108,7 @@ def trace_branch(problem: ContinuationProblem, values: Float[Array, " poses"]) -
 
 
 def _max_steps(problem: ContinuationProblem, poses: int) -> int:
-    """Steps to either side of the assembled pose, at most, for a number of poses."""
+    """Return the largest number of steps to either side of the assembled pose for a number of poses."""
     if problem.options.max_steps is not None:
         return problem.options.max_steps
     each = STEPS_A_POSE if len(problem.system.driven) == 1 else STEPS_A_POSE_OF_SEVERAL
@@ -114,7 +116,7 @@ def _max_steps(problem: ContinuationProblem, poses: int) -> int:
 
 
 def _same_pose(problem: ContinuationProblem, state: State) -> Bool[Array, ""]:
-    """Tell whether two fronts are in one pose, apart from full turns of coordinates and from spins of rods."""
+    """Tell whether two fronts are in the same pose, up to full turns of coordinates and idle spins of rods."""
     system = problem.system
     same = SAME_POSE if jnp.finfo(state.x.dtype).bits == 64 else SAME_POSE_SINGLE
     rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - winding(system, state)))

@@ -1,8 +1,8 @@
-"""The branch as samples: poses with slopes, between which any pose is predicted by cubic interpolation.
+"""Keep samples of the branch, poses with slopes, and predict any pose between them by cubic interpolation.
 
-An angle comes back after a full turn. Where the mechanism does so too, one turn of samples serves all turns; and a
-value beyond an unreachable interval, a whole number of turns away from where the motion got without one, is that same
-pose.
+An input that is an angle repeats after a full turn. If the mechanism repeats with it, one turn of samples serves all
+turns. And an input beyond an unreachable interval that differs by whole turns from an input that was reached without
+crossing one is the same pose as that one.
 """
 
 from __future__ import annotations
@@ -24,38 +24,41 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rate, retract, turning
 
 EXTRAPOLATED = 1e-3
-"""Distance beyond the last samples, radians or characteristic lengths, that a prediction still covers: the end of a
-range and the last sample may differ by rounding, and what is wrongly covered is found out by its residual."""
+"""Distance beyond the first or last sample, radians or characteristic lengths, that predictions still cover. The end of
+a range and the last sample may differ by rounding; a pose that is wrongly covered shows by its residual."""
 MEETING = (3.0 - TURN, 3.0)
-"""Where the backward and the forward front meet, radians: a full turn apart, near half a turn from the assembled pose,
-but not at it, where designers put change points."""
+"""Inputs at which the backward and the forward front meet, radians: a full turn apart, and near half a turn from the
+assembled pose but not at half a turn, where change points are common in designs."""
 
 
 class BranchSamples(NamedTuple):
-    """Samples of the branch in rising order of their distance along the path, in the middle the assembled pose."""
+    """Samples of the branch, sorted by distance along the path, with the assembled pose in the middle."""
 
     at: Float[Array, " samples"]
-    """Distance along the path (the input itself if it is a single one); infinite before the first and behind the
-    last."""
+    """Distance along the path (the input itself if it is a single one); -inf before the first sample, inf behind the
+    last one."""
     table: Float[Array, "samples entries"]
-    """All numbers of a sample in one row, so that it is written, and read, at one stroke: see `sample_rows`."""
+    """All numbers of a sample in one row, written and read by one operation: see `sample_rows`."""
     first: Int[Array, ""]
+    """Row of the first sample."""
     last: Int[Array, ""]
+    """Row of the last sample."""
     repeats: Bool[Array, ""]
-    """Whether the mechanism is where it began after a full turn of the input."""
+    """Whether the mechanism repeats after a full turn of the input."""
     winding: Float[Array, " columns"]
-    """By how much its coordinates are then larger, radians."""
+    """Increase of each coordinate over a full turn of the input, radians: a multiple of 2 pi."""
     complete: Bool[Array, ""]
     """Whether the samples cover the whole range, and the range has no limit."""
 
 
 class Prediction(NamedTuple):
-    """Where the search for a pose begins, and the status of the pose if the search ends nearby."""
+    """Predicted poses: where the correctors start."""
 
     state: State
     status: Int[Array, " poses"]
+    """Status of each pose if it is corrected to closure near its prediction."""
     covered: Bool[Array, " poses"]
-    """Whether the samples reach as far as the input."""
+    """Whether the samples reach as far as the input of the pose."""
 
 
 class _Sample(NamedTuple):
@@ -67,7 +70,7 @@ class _Sample(NamedTuple):
 
 
 def sample_rows(system: LoopSystem, fronts: Fronts) -> Float[Array, "fronts entries"]:
-    """Write the fronts as rows: distance, coordinates, turns of the balls, derivatives of both, and the status."""
+    """Write each front as a row: distance, coordinates, quaternions of balls, derivatives of both, and the status."""
     slope = rate(system, fronts.state, fronts.slope)
     which = _stored_columns(system)
     states = [part for x, turns in (fronts.state, slope) for part in (x[which], turns)]
@@ -76,12 +79,12 @@ def sample_rows(system: LoopSystem, fronts: Fronts) -> Float[Array, "fronts entr
 
 
 def _stored_columns(system: LoopSystem) -> np.ndarray:
-    """Columns of coordinates in use: balls with a quaternion, of which there may be many, use none."""
+    """List the columns whose coordinates are stored: all but those of balls, whose rotations are quaternions."""
     return np.flatnonzero(~turning(system))
 
 
 def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " poses"]) -> _Sample:
-    """Read the samples of these numbers, which are within bounds."""
+    """Read the samples in the rows `number`, which must be within bounds."""
     at, column = jnp.split(samples.table.at[number].get(mode="promise_in_bounds").T, [1])
     which, balls = _stored_columns(system), len(system.turned_balls)
     half = len(which) + 4 * balls
@@ -96,12 +99,12 @@ def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " pos
 
 
 def winding(system: LoopSystem, state: State) -> Float[Array, " columns"]:
-    """The whole turns, radians, by which the coordinates of the second of two fronts exceed those of the first."""
+    """Compute the whole turns, radians, that each coordinate of the second of two fronts has gained on the first."""
     return jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round((state.x[:, 1] - state.x[:, 0]) / TURN))
 
 
 def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " poses"]) -> Prediction:
-    """Predict the poses at these distances along the path; the driven coordinates are not set to the inputs."""
+    """Predict the poses at distances `values` along the path; the driven coordinates are not set to the inputs."""
     if system.periodic:
         values = _wrapped(samples, values)
         turns = jnp.where(samples.repeats, jnp.ceil((values - MEETING[1]) / TURN), 0.0)
@@ -122,10 +125,12 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
 def _trusted_side(
     left: _Sample, right: _Sample, values: Float[Array, " poses"]
 ) -> tuple[Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
-    """Tell whether both neighbours of a value are on one branch; if it belongs to the left one; if its own is closed.
+    """Choose the neighbouring samples from which the pose at each value is predicted.
 
-    Where the neighbours differ there is a limit between them: the motion was followed up to the inner one, the one
-    nearer the assembled pose, and at the outer one the loops close again.
+    Returns whether both neighbours are closed with one status, so that the pose is interpolated between them; whether
+    the pose otherwise belongs to the left neighbour; and whether the pose gets the status of its neighbour (if not, it
+    is JUMPED where it closes). If the neighbours differ, there is a limit between them: the motion was followed to the
+    inner neighbour, which is nearer to the assembled pose, and the loops may close again at the outer one.
     """
     left_closed, right_closed = is_closed(left.status), is_closed(right.status)
     between = left_closed & (left.status == right.status)
@@ -140,11 +145,11 @@ def _trusted_side(
 
 
 def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
-    """Wrap each value by multiples of 2 pi into the interval that was followed without a limit, where it can be."""
+    """Wrap each value by multiples of 2 pi into the interval traced without a limit; keep it if that is impossible."""
     followed = (samples.table[:, -1] == Status.CLOSED.value) & jnp.isfinite(samples.at)
     least = jnp.min(jnp.where(followed, samples.at, jnp.inf))
     most = jnp.max(jnp.where(followed, samples.at, -jnp.inf))
-    # an end of the range that was reached is no limit
+    # the end of the range is not a limit if it was reached
     least = jnp.where(least <= samples.at[samples.first], -jnp.inf, least - NEAR_LIMIT)
     most = jnp.where(most >= samples.at[samples.last], jnp.inf, most + NEAR_LIMIT)
     down = values - TURN * jnp.ceil(jnp.maximum(values - most, 0.0) / TURN)
@@ -153,7 +158,7 @@ def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Ar
 
 
 def _interpolated(system: LoopSystem, left: _Sample, right: _Sample, values: Float[Array, " poses"]) -> State:
-    """Interpolate between two samples by a cubic, the turns of balls brought back to unit quaternions."""
+    """Interpolate between two samples by a cubic; the quaternions of balls are normalised."""
     width = right.at - left.at
     t = (values - left.at) / jnp.where(width > 0, width, 1.0)
     state = hermite(left.state, left.slope, right.state, right.slope, width, t)

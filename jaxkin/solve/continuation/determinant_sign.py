@@ -1,7 +1,7 @@
-"""The ratio of the determinants of two Jacobians: a negative one tells that a singular pose lies between two poses.
+"""Compute the ratio of the determinants of two Jacobians: if it is negative, a singular pose lies between two poses.
 
-Where two branches nearly meet, a long step of the continuation leads straight on to the other branch. Both ends are
-closed poses; but between them a determinant has changed its sign.
+Where two branches nearly meet, a long step of the continuation may lead straight on to the other branch. The poses at
+both ends are closed, but the determinant of a block of the Jacobian has changed its sign between them.
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ from jaxkin.solve.system.equation_blocks import EquationBlock
 Square = Float[Array, "n n poses"]
 
 DIAGONAL = 0.1
-"""Times the root of the unit of rounding and the squared norm of the Jacobian: added to the diagonal of the products of
-Jacobians, so that rows or columns for which the Jacobian lacks rank do not decide the sign by rounding."""
+"""Shift of the diagonal of the products of Jacobians, over the squared norm of the Jacobian times the root of the unit
+of rounding. Without a shift, rounding decides the sign where the Jacobian lacks rank."""
 
 
 def determinant_ratio(before: Matrix, after: Matrix, blocks: Sequence[EquationBlock]) -> Float[Array, "blocks poses"]:
-    """The determinant of each block of the Jacobian `after` over that of `before`: negative where its sign changed.
+    """Divide the determinant of each block of the Jacobian `after` by that of `before`: negative where the sign
+    changed.
 
-    Both are (equations, columns, poses). A block that need not be square is compared by `det(J0^T J1) / det(J0^T J0)`,
-    or by `det(J0 J1^T) / det(J0 J0^T)` if it has more columns than rows.
+    Both Jacobians are (equations, columns, poses). Blocks need not be square: with J0 before and J1 after, the ratio is
+    `det(J0^T J1) / det(J0^T J0)`, or `det(J0 J1^T) / det(J0 J0^T)` if there are at least as many columns as rows.
     """
     none = jnp.zeros((0, before.shape[-1]), before.dtype)
     ratios = [_block_ratio(before[np.ix_(*block)], after[np.ix_(*block)])[None] for block in blocks]
@@ -35,6 +36,7 @@ def determinant_ratio(before: Matrix, after: Matrix, blocks: Sequence[EquationBl
 
 
 def _block_ratio(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
+    """Compute the ratio of one block, (rows, columns, poses)."""
     rows, columns, _ = before.shape
     eps = float(jnp.finfo(before.dtype).eps)
     shift = DIAGONAL * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
@@ -47,10 +49,10 @@ def _block_ratio(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
 
 
 def ratio_of_determinants(one: Square, other: Square) -> Float[Array, " poses"]:
-    """The determinants of `one` over those of `other`, both (n, n, poses).
+    """Divide the determinants of `one` by those of `other`, both (n, n, poses).
 
-    `other` is positive definite and `one` is near it, or has changed the sign of its determinant: elimination without
-    pivoting does, and no library is called, whose import would take as long as a small sweep.
+    Elimination without pivoting suffices: `other` is positive definite, and `one` is near `other` or has a determinant
+    of the other sign. A library routine is not used, because to import it takes as long as a small sweep.
     """
     n, _, poses = one.shape
     both = jnp.concatenate([one, other], axis=-1)
@@ -63,7 +65,7 @@ def ratio_of_determinants(one: Square, other: Square) -> Float[Array, " poses"]:
         matrix, ratio = carry
         pivot = matrix[0, 0]
         rest = matrix[1:, 1:] - matrix[1:, :1] * (matrix[0, 1:] / pivot)
-        # a ratio of pivots at a time: the determinants of large matrices would leave the range of numbers
+        # multiply ratios of pivots one by one: determinants of large matrices would overflow or underflow
         return jnp.pad(rest, ((0, 1), (0, 1), (0, 0))), ratio * (pivot[:poses] / pivot[poses:])
 
     return lax.fori_loop(0, n, eliminate, (both, jnp.ones(poses, one.dtype)))[1]

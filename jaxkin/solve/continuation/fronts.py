@@ -1,6 +1,6 @@
-"""The fronts of the continuation: the ends of the branch that has been traced so far, which advance in lockstep.
+"""Hold the fronts of the continuation: the ends of the branch traced so far, which advance in lockstep.
 
-Two fronts, forwards and backwards, trace a range; `reach` has one for every target.
+Two fronts trace a range, one backwards and one forwards from the assembled pose; `step.reach` has one front a target.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, assembled
 
 FIRST_STEP = 1e-3
-"""Step from the assembled pose, and from the far side of an unreachable interval, radians or characteristic lengths:
-nothing is known there of how the slope changes."""
+"""Length of the first step from the assembled pose, and from the far side of an unreachable interval, radians or
+characteristic lengths: short, since there is no slope yet from which to predict."""
 
 CLOSING = 0
-"""Stage of a front that is at the assembled pose, yet to be closed."""
+"""Stage of a front at the assembled pose before its loops are closed."""
 FOLLOWING = 1
-"""Stage of a front that follows the motion."""
+"""Stage of a front that follows a branch."""
 BEYOND_LIMIT = 2
 """Stage of a front in an unreachable interval."""
 RESTING = 3
@@ -35,44 +35,49 @@ RESTING = 3
 
 @dataclass(frozen=True, eq=False)
 class ContinuationProblem(ClosureProblem):
-    """What is traced: loops that stay closed while their inputs follow a path."""
+    """The problem of the continuation: keep loops closed while their inputs follow a path."""
 
     path: InputPath
+    """Inputs as a function of the distance along the path."""
     follow_limits: Bool[Array, ""] | bool = True
     """Whether fronts go on beyond limits, with the damped corrector; if not, they stop there."""
 
 
 class Fronts(NamedTuple):
-    """The ends of the branch that has been traced so far."""
+    """The ends of the branch that has been traced so far, one entry a front."""
 
     state: State
     status: Int[Array, " fronts"]
     residual_norm: Float[Array, " fronts"]
+    """Square root of Eq. 12, lengths over the characteristic length; perhaps extrapolated (see `step.substep`)."""
     jacobian: Float[Array, "equations columns fronts"]
+    """Closure Jacobian at `state`, or one Newton step before it where the residual norm is extrapolated."""
     at: Float[Array, " fronts"]
     """Distance along the path: the input itself if it is a single one."""
     slope: Float[Array, "columns fronts"]
-    """Derivative of the coordinates with respect to the distance."""
+    """Derivative of the coordinates with respect to the distance along the path."""
     before: State
-    """The state one step back."""
+    """The state one accepted step back."""
     before_tangent: State
-    """Derivative of that state with respect to the distance."""
+    """Derivative of `before` with respect to the distance along the path."""
     width: Float[Array, " fronts"]
-    """Distance, with its sign, from that state to this."""
+    """Distance along the path, with its sign, from `before` to `state`."""
     determinant_ratio: Float[Array, "blocks fronts"]
-    """Determinants of the Jacobian here over those one step back."""
+    """Determinant of each block of the Jacobian at `state` over that at `before`."""
     has_before: Bool[Array, " fronts"]
+    """Whether `before` is a pose of the same branch, from which to predict."""
     along_tangent: Bool[Array, " fronts"]
-    """Whether the next step is predicted by the tangent alone: the curve through two states failed."""
+    """Whether the next step is predicted along the tangent, because the curve through two states was refused."""
     step: Float[Array, " fronts"]
     """Length of the next step."""
     stage: Int[Array, " fronts"]
+    """CLOSING, FOLLOWING or BEYOND_LIMIT."""
     anchored: Bool[Array, " fronts"]
-    """Whether the loops have been closed at all: the pose that closes first is on the branch of the assembled pose."""
+    """Whether the loops have been closed before: the first pose that closes is on the branch of the assembled pose."""
 
 
 def assembled_fronts(system: LoopSystem, fronts: int, dtype) -> Fronts:
-    """Make a number of fronts that are all at the assembled pose, yet to be closed."""
+    """Make fronts that are all at the assembled pose, whose loops are still to be closed."""
     state = assembled(system, fronts, dtype)
     zeros = jax.tree.map(jnp.zeros_like, state)
     return Fronts(
@@ -95,10 +100,10 @@ def assembled_fronts(system: LoopSystem, fronts: int, dtype) -> Fronts:
 
 
 def arrived(fronts: Fronts, target: Float[Array, " fronts"]) -> Bool[Array, " fronts"]:
-    """Tell which fronts are at their target, with the assembled pose closed before."""
+    """Tell which fronts are at their target and have left the stage CLOSING."""
     return (fronts.at == target) & (fronts.stage != CLOSING)
 
 
 def stopped_at_limit(fronts: Fronts, follow_limits: Bool[Array, ""] | bool) -> Bool[Array, " fronts"]:
-    """Tell which fronts have met a limit that is not to be followed."""
+    """Tell which fronts stop because they have met a limit and limits are not to be followed."""
     return (fronts.stage == BEYOND_LIMIT) & ~jnp.asarray(follow_limits)

@@ -1,10 +1,10 @@
-"""The path of several inputs: a smooth curve through all poses in the order in which they are given.
+"""Lay a smooth curve through several inputs at all poses, in the order in which the poses are given.
 
 Along a polyline the continuation would have to begin anew at every corner; along a smooth curve one step may pass many
-poses. Each input is a piecewise cubic of the arc length of the polyline. Its slope at a pose is that of the parabola
-through three neighbouring poses, limited to three times the slope of either chord if both rise or fall, which makes the
-cubic monotone (Fritsch and Carlson 1980). Where an input turns back, the cubic overshoots by a seventh of the chord at
-most.
+poses. Each input is a piecewise cubic of the length of the polyline. Its slope at a pose is that of the parabola
+through three neighbouring poses. If both chords at the pose rise, or both fall, the slope is limited to three times the
+slope of either chord, which makes the cubic monotone (Fritsch and Carlson 1980). Where an input turns back, the cubic
+overshoots by at most a seventh of the chord.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 InputPath = Callable[[Float[Array, " fronts"]], tuple[Float[Array, "driven fronts"], Float[Array, "driven fronts"]]]
-"""The inputs at given distances along the path, and their derivatives with respect to the distance."""
+"""A function from distances along the path to the inputs there, and their derivatives with respect to the distance."""
 
 
 def curve_through(inputs: Float[Array, "driven poses"]) -> tuple[Float[Array, " poses"], InputPath]:
-    """The distance of each pose along the path, which begins at the assembled pose (inputs of zero), and the path.
+    """Compute the distance of each pose along the path, and the path, which begins at the assembled pose (inputs zero).
 
-    `inputs` are in radians and characteristic lengths; the distance is their Euclidean norm, added up along the chords.
+    `inputs` are in radians and characteristic lengths. The distance is the sum of the Euclidean lengths of the chords.
     """
     corners = jnp.concatenate([jnp.zeros_like(inputs[:, :1]), inputs], axis=1)
     change = jnp.diff(corners, axis=1)
@@ -45,9 +45,9 @@ def curve_through(inputs: Float[Array, "driven poses"]) -> tuple[Float[Array, " 
 def _corner_slopes(
     chords: Float[Array, "driven chords"], lengths: Float[Array, " chords"]
 ) -> Float[Array, "driven corners"]:
-    """Slopes of the path at its corners, from the slopes of the chords on either side.
+    """Compute the slopes of the path at its corners from the slopes of the chords on either side.
 
-    A chord of no length (a repeated pose) has no slope: that of the chord on the other side is taken.
+    A chord of length zero (a repeated pose) has no slope: that of the chord on the other side is taken.
     """
     length_before, length_after = lengths[:-1], lengths[1:]
     left = jnp.where(length_before > 0, chords[:, :-1], chords[:, 1:])
@@ -55,7 +55,7 @@ def _corner_slopes(
     repeated = length_before + length_after == 0
     parabola = (length_after * left + length_before * right) / jnp.where(repeated, 1.0, length_before + length_after)
     stride = jnp.maximum(jnp.abs(left) * length_before, jnp.abs(right) * length_after)
-    # the limit where an input turns back: its overshoot is then a fraction of the longer of both chords
+    # where an input turns back, this limit keeps the overshoot to a fraction of the longer of both chords
     at_turning = stride / jnp.where(repeated, 1.0, jnp.maximum(length_before, length_after))
     monotone = 3 * jnp.minimum(jnp.abs(left), jnp.abs(right))
     limit = jnp.where(left * right > 0, monotone, at_turning)

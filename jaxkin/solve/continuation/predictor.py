@@ -1,8 +1,8 @@
-"""Where the next pose of a branch is expected: the cubic through the last two poses, their secant, or the tangent.
+"""Predict the next pose of a branch: by the cubic through the last two poses, their secant, or the tangent.
 
-The secant carries the motion through change points, where a plain warm start leaves the branch and no tangent is
-unique. The cubic is off by the fourth power of the step. The tangent is for a branch of which one pose is known, and
-for places where the curve through two poses failed.
+The cubic, through two poses with their slopes, has an error of the fourth power of the step. The secant leads through
+change points, where the tangent is not unique and a start from the last pose itself leaves the branch. The tangent is
+for branches of which one pose is known, and for places where a prediction from two poses was refused.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.system.state import State, difference
 
 SMOOTH = 0.25
-"""Distance of a cubic from its chord, over the length of the chord, above which its slopes are not trusted: at a change
-point the tangent is not unique, and the slope found there may be that of the other branch."""
+"""Distance of a cubic from its chord, over the length of the chord, above which the chord replaces the cubic. At a
+change point the tangent is not unique, and the slope computed there may be that of the other branch."""
 
 
 def predict_state(
@@ -29,8 +29,8 @@ def predict_state(
 ) -> State:
     """Extrapolate from `state` by the distance `moved` along the path.
 
-    `before` is the state a distance `width` back; both tangents are derivatives with respect to the distance. Where
-    `along_tangent` holds, `before` is left alone. The turns of balls are not normalised.
+    `before` is the state at a distance `width` back along the path; both tangents are derivatives with respect to that
+    distance. Where `along_tangent` holds, `before` is not used. The quaternions of balls are not normalised.
     """
     s = moved / width
 
@@ -56,10 +56,10 @@ def hermite(
     width: Float[Array, " poses"],
     t: Float[Array, " poses"],
 ) -> State:
-    """Interpolate two states, a distance `width` apart, at the fraction `t` between them by a cubic.
+    """Interpolate between two states, a distance `width` apart, at the fraction `t` of it, by a Hermite cubic.
 
-    Slopes are derivatives with respect to the distance. Where the cubic strays from the chord, the chord is taken. The
-    turns of balls are not normalised.
+    Slopes are derivatives with respect to the distance. Where the cubic is too far from the chord (`SMOOTH`), the chord
+    is taken. The quaternions of balls are not normalised.
     """
     weights = ((1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * width, t * t * (3 - 2 * t), t * t * (t - 1) * width)
 

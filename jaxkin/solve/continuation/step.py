@@ -1,14 +1,18 @@
-"""One step of the continuation from the assembled pose towards a target, as long as it is safe.
+"""Take one step of the continuation: predict a pose along the input path, correct it, then accept or refuse it.
 
-A step is predicted (`predictor`), corrected, and taken only if the corrected pose is near the prediction and no
-determinant of the Jacobian has changed its sign: where two branches nearly meet, a long step would lead straight on to
-the other branch. After a refused step the tangent is tried instead of the curve through two poses, by turns with it,
-and the step is shortened. Where the shortest step fails, the motion has a limit. Beyond a limit the damped corrector
-alone goes on, towards the least residual; where the loops close again behind such an unreachable interval, the pose has
-JUMPED: no motion of the input led there. (The sign of a determinant would not tell: two circuits can share it.)
+Follow the branch: a step is accepted if the corrected pose is near its prediction and no determinant of a block of the
+closure Jacobian has changed its sign. Without the test of signs, a long step where two branches nearly meet would lead
+straight on to the other branch. A refused step is repeated with a shorter length. The curve through the last two poses
+and the tangent at the last pose predict in turn after refusals, since either may fail where the other does not.
 
-All fronts (`fronts`) take their steps together. Each step evaluates the closure at one place, which keeps the compiled
-code small.
+Meet a limit: where a step along the tangent is refused at the shortest length, the motion has a limit. Beyond the limit
+only the damped corrector goes on, towards poses of least residual (an unreachable interval).
+
+Jump: where the loops close again behind an unreachable interval, the pose is JUMPED, because no motion of the input
+leads there. The sign of a determinant could not tell this: poses on two circuits can have the same sign.
+
+All fronts (`fronts`) step together, as the last axis of the arrays. The correctors of a step evaluate the closure of
+all fronts at one place in the code, which keeps the compiled program small.
 """
 
 from __future__ import annotations
@@ -50,71 +54,88 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, difference, drive, driven_rate, rate, retract
 
 LONGEST_STEP = 0.3
-"""Longest step, radians or characteristic lengths: a full turn takes twenty-one of them."""
+"""Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""
 SHORTEST_STEP = 1e-6
-"""Shortest step, radians or characteristic lengths: where it fails too, the motion has a limit. The coordinates go as
-the root of the distance from a limit, so they are followed to 1e-3 of it."""
+"""Shortest step, radians or characteristic lengths: if a step of this length is refused, the motion has a limit. There
+coordinates change as the square root of the distance from the limit, so they are followed to about 1e-3 of its pose."""
 SHORTEST_FIRST_STEP = 1e-10
-"""Shortest step from the assembled pose, in place of `SHORTEST_STEP`: a mechanism may be assembled so near a limit."""
+"""Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
-"""Step beyond a limit, radians or characteristic lengths: half the longest step, since no predictor leads there."""
+"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`, since nothing is predicted
+there and the corrector starts from the last pose."""
 NEAR_LIMIT = 4 * SHORTEST_STEP
-"""Distance from a limit to which the motion is followed at least: steps that are refused are shortened threefold."""
+"""Largest distance, radians or characteristic lengths, from the last pose before a limit to a target that may still be
+on this side of the limit. The limit is about one refused step away; refused steps are shortened to a third
+(`REFUSED_FACTOR`), so the one refused before that may have been three times as long as `SHORTEST_STEP`."""
 CROSSING = 1e-3
-"""Longest step that may pass from one branch to another that crosses it: at a change point, or where two branches miss
-each other by less than this, as they do for lengths that are off by 1e-6."""
+"""Longest step, radians or characteristic lengths, that is accepted although a determinant changes its sign or falls to
+zero. At a change point, where two branches cross, the determinant changes its sign on the branch itself. Lengths with
+relative errors of 1e-6 turn the crossing into two branches about 1e-3 apart, the root of the error."""
 
 WANTED_DEVIATION = 0.1
-"""Deviation of the corrected pose from its prediction that the step length is controlled for, over the travel."""
+"""Ratio of deviation to travel that the step length is chosen for, less than half of `MAX_DEVIATION`. The deviation is
+the distance of a corrected pose from its prediction; the travel is the predicted change of the pose (`_Attempt`)."""
 MAX_DEVIATION = 0.25
-"""Deviation at which a step is refused, over the travel: farther away the pose may be on another branch."""
+"""Ratio of deviation to travel above which a step is refused: the corrected pose may be on another branch."""
 MAX_TRAVEL = 1.0
-"""Largest predicted change of a coordinate, radians or characteristic lengths: beside a limit the tangent, where it is
-nearly infinite, leads anywhere."""
+"""Largest travel of a step, radians or characteristic lengths: beside a limit slopes are nearly infinite, and so is the
+change that a tangent predicts."""
 UNKNOWN_TRAVEL = 80.0
-"""Travel over the step length where no slope is known: a first step of 1e-3 may be off by 0.02."""
+"""Ratio of travel to step length where no slope is known: a first step of 1e-3 may then deviate by 0.02 (with
+`MAX_DEVIATION`) from the pose that it started from."""
 DEVIATION_ROUNDINGS = 50
-"""Units of rounding by which a corrected pose may differ from its prediction however short the step is."""
+"""Deviation that is always accepted, in units of rounding: the travel of very short steps is rounding itself."""
 REFUSED_FACTOR = 0.35
-"""Factor of the step length after a step that was refused."""
+"""Length of the next step over that of a step that was refused."""
 GROWTH = (0.5, 4.0)
-"""Smallest and largest factor of the step length after a step that was taken."""
+"""Smallest and largest ratio of the length of the next step to that of an accepted step."""
 
 TARGET_ROUNDINGS = 64
-"""Units of rounding in the residual of a pose on the branch: it is a place to begin from, and needs no more."""
+"""Residual norm, in units of rounding, to which poses of the trace are corrected. These poses are starting points of
+predictions, which need no higher accuracy."""
 MAX_START_DISTANCE = 0.1
-"""Distance from the assembled pose, radians or characteristic lengths, above which its closure by Newton's method is
-not trusted: the damped corrector, which stays nearer, closes it instead."""
+"""Distance, radians or characteristic lengths, by which Newton's method may move the assembled pose to close it. If the
+method moves it farther, the damped corrector closes the assembled pose instead, since it stays nearer."""
 
 
 class _Attempt(NamedTuple):
-    """A step as it is tried, before it is corrected."""
+    """The predicted step of each front, before its correction."""
 
     closing: Bool[Array, " fronts"]
+    """Whether the front is at the assembled pose, which this step closes."""
     following: Bool[Array, " fronts"]
+    """Whether the front follows the branch."""
     beyond: Bool[Array, " fronts"]
+    """Whether the front is beyond a limit."""
     moved: Float[Array, " fronts"]
-    """Change of the distance, with its sign."""
+    """Change of the distance along the input path, with its sign."""
     at: Float[Array, " fronts"]
+    """Distance along the input path at the end of the step."""
     direction: Float[Array, "driven fronts"]
+    """Derivative of the inputs with respect to that distance, at the end of the step."""
     tangent: State
+    """Derivative of the state with respect to that distance, at the beginning of the step."""
     predicted: State
+    """State at the end of the step as predicted, with its inputs set."""
     sloped: Bool[Array, " fronts"]
-    """Whether the prediction made use of a slope."""
+    """Whether the prediction used a slope; if not, the predicted state is that of the beginning with new inputs."""
     travel: Float[Array, " fronts"]
-    """Largest predicted change of a coordinate, or what stands for it where no slope is known."""
+    """Largest predicted change of a coordinate, or of a ball's turn as an angle, and at least the step length; where no
+    slope is known, `UNKNOWN_TRAVEL` times the step length."""
 
 
 def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, " fronts"]) -> Fronts:
     """Take one step of every front that has not arrived; a front whose step is refused stays where it is.
 
-    A state is closed to some units of rounding, no better, and its residual may be extrapolated instead of measured.
+    `target` is the distance along the input path at which each front is to arrive. States are closed to a residual norm
+    of `TARGET_ROUNDINGS` units of rounding. `Fronts.residual_norm` may be extrapolated from that of the iteration
+    before, and then is not measured at `Fronts.state`.
     """
     system = problem.system
     attempt = _attempt(problem, fronts, target)
     found = _corrected(problem, attempt)
     distance = jnp.abs(attempt.moved)
-    # a target nearer than the shortest step, just inside a limit
+    # Such a target may be on this side of the limit: closed, its pose is CLOSED and not JUMPED.
     beside_limit = attempt.beyond & (fronts.status == Status.CLOSED.value) & (distance <= NEAR_LIMIT)
     status = classify(found.residual_norm, found.stationary, ~fronts.anchored | beside_limit)
     closed = is_closed(status)
@@ -125,14 +146,14 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
     lost = attempt.following & ~good & fronts.along_tangent & (distance <= shortest)
 
-    uncertain = attempt.closing | attempt.beyond  # their statuses are found anew
+    uncertain = attempt.closing | attempt.beyond  # fronts not on the branch: each step decides their status anew
     entered = uncertain & closed
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
     return Fronts(
         state=select_poses(final, found.state, fronts.state),
-        status=jnp.where(uncertain, status, fronts.status),  # a branch is kept while it is followed
+        status=jnp.where(uncertain, status, fronts.status),  # a front on the branch stays CLOSED or JUMPED
         residual_norm=jnp.where(final, found.residual_norm, fronts.residual_norm),
         jacobian=jnp.where(final, found.closure.jacobian, fronts.jacobian),
         at=jnp.where(final, attempt.at, fronts.at),
@@ -181,7 +202,10 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
-    """Bring the predicted states to closure by Newton's method, or where that fails by the damped corrector."""
+    """Correct predicted states by Newton's method, and by the damped corrector those that Newton's method leaves open.
+
+    With `follow_limits=False` of the problem the damped corrector does not run.
+    """
     options, predicted = problem.options, attempt.predicted
     target_residual = rounding_residual(predicted.x.dtype, TARGET_ROUNDINGS)
     state, closed, residual_norm = newton(problem, predicted, target_residual, extrapolate_residual=True)
@@ -205,16 +229,18 @@ def _accepted(
     closed: Bool[Array, " fronts"],
     ratio: Float[Array, "blocks fronts"],
 ) -> tuple[Bool[Array, " fronts"], Float[Array, " fronts"], float]:
-    """Tell which fronts that follow the motion keep their branch; the deviation from the prediction, and its rounding.
+    """Tell which fronts that follow the branch have made an acceptable step.
 
-    A step is accepted if it closes near the prediction (without a slope: within a tiny step) and crosses no singular
-    pose. `ratio` holds the determinants of the Jacobian at the end of the step over those at its beginning.
+    A step is accepted if its pose is closed and near the prediction, if the prediction is not too far away, and if the
+    step crosses no singular pose. `ratio` is the determinant of each block of the Jacobian at the end of the step over
+    that at the beginning. Returns the accepted fronts, the deviation of each corrected state from its prediction, and
+    the deviation that is due to rounding (both radians or characteristic lengths).
     """
     distance = jnp.abs(attempt.moved)
     deviation = difference(state, attempt.predicted)
     slack = DEVIATION_ROUNDINGS * float(jnp.finfo(deviation.dtype).eps)
-    # a determinant that would fall to zero on the way, though it has kept its sign, may have passed an interval that
-    # cannot be reached: extrapolated linearly from the last two steps
+    # Extrapolate each determinant linearly from the last two poses. If it falls to zero within the step, the step may
+    # have passed over an unreachable interval, with two changes of sign, although the signs at its ends agree.
     falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.width < 0)
     crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
@@ -224,9 +250,10 @@ def _accepted(
 def _next_step(
     fronts: Fronts, attempt: _Attempt, good: Bool[Array, " fronts"], deviation: Float[Array, " fronts"]
 ) -> Float[Array, " fronts"]:
-    """Length of the next step, for which the deviation from the prediction is to be `WANTED_DEVIATION`.
+    """Choose the length of the next step such that the ratio of deviation to travel becomes `WANTED_DEVIATION`.
 
-    The deviation of a cubic goes as the fourth power of the step, its ratio to the travel as the third.
+    `deviation` is without rounding. The deviation of a cubic predictor is proportional to the fourth power of the step
+    length and the travel to the first, so their ratio to the third.
     """
     growth = jnp.cbrt(WANTED_DEVIATION * attempt.travel / jnp.maximum(deviation, 1e-30))
     growth = jnp.clip(jnp.where(attempt.sloped, growth, 2.0), *GROWTH)
@@ -237,9 +264,11 @@ def _next_step(
 def reach(
     system: LoopSystem, geometry: Geometry, targets: Float[Array, "driven fronts"], options: SolverOptions
 ) -> tuple[State, Int[Array, " fronts"], Float[Array, " fronts"]]:
-    """Reach each target from the assembled pose in a straight line; returns states, statuses and residuals.
+    """Move the inputs from the assembled pose to each target in a straight line, one front a target.
 
-    `targets` are inputs in radians and characteristic lengths.
+    `targets` are inputs in radians and characteristic lengths. Returns the states, their statuses, and their residual
+    norms (square root of Eq. 12 over all twelve equations, lengths over the characteristic length), measured at these
+    states.
     """
     distance = jnp.max(jnp.abs(targets), axis=0, initial=0.0)
     direction = targets / jnp.where(distance > 0, distance, 1.0)
@@ -259,7 +288,12 @@ def reach(
 def input_slopes(
     system: LoopSystem, state: State, closed: Closure, direction: Float[Array, "driven poses"]
 ) -> Float[Array, "columns poses"]:
-    """Derivative of all coordinates of closed states while the inputs change in a direction (least norm)."""
+    """Differentiate the coordinates of closed states with respect to the distance along the input path.
+
+    `direction` is the derivative of the inputs with respect to that distance, and `closed` the closure at `state`. With
+    the driven part `dx_d` of the derivative given, the rest solves `J dx = -J dx_d` with least norm: coordinates that
+    the loops leave undetermined stay at rest. Rows of free balls are rotation vectors, as in `retract`.
+    """
     change, columns = driven_rate(system, state, direction)
     right = jnp.sum(closed.jacobian * columns[None], axis=1)
     return change - solve_blocks(closed.jacobian, right, damping_floor(right.dtype), equation_blocks(system))

@@ -11,7 +11,7 @@ others must not have:
 | `correctors.least_residual` | cutoff at the play | loops do not close: a damped step would follow the play |
 | `mobility.host_closure` | as `levenberg_marquardt` | numpy, one pose: analyses before a sweep compile nothing |
 | `mobility.consistency` | as `least_residual` | the same in numpy, with a cutoff from the noise of the frames |
-| `dimensions.rearrange` | its own | unknowns are positions of features, not coordinates of joints |
+| `dimensions.placement` | its own | unknowns are positions of features, not coordinates of joints |
 | `design.least_squares` | Nielsen's rule, within bounds | unknowns are dimensions; a residual is a whole sweep |
 | `mobility.assembly_modes` | steps are shortened | within the freedoms of closed loops, towards given places |
 | `joints.screws.misfit` | cutoff at 1e-10 | one chain that is to make a given displacement: there is no loop |

@@ -1,1 +1,1 @@
-"""How the solver runs: compiled programs, shards on several cores, batches of designs, loops in lockstep."""
+"""Run the solver: compiled programs, shards of long ranges on several cores, batches of designs."""

@@ -1,8 +1,8 @@
-"""A long range in shards, one for each processor core.
+"""Cut a long range into shards, and solve each on a processor core of its own.
 
-A compiled program of the solver runs on one thread, since its operations take microseconds. Each shard is solved in a
-thread and a program of its own: the branch of a single input is traced from the assembled pose to the shard, that of
-several inputs along all poses of the range.
+A compiled program of the solver runs on one thread, since its operations take microseconds. Each shard runs its program
+in a thread of its own. For a single input, each shard traces the branch from the assembled pose to the shard; for
+several inputs, along all poses of the range.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from jaxkin.solve.system.state import turning
 
 
 def shard_count(system: LoopSystem, poses: int, options: SolverOptions) -> int:
-    """The number of shards that a range of so many poses is cut into: one off the CPU, or where nothing is driven."""
+    """Return the number of shards for a range of `poses`: one if the device is no CPU or nothing is driven."""
     device = getattr(jax.config, "jax_default_device", None) or jax.default_backend()
     if not system.driven or getattr(device, "platform", device) != "cpu":
         return 1
@@ -36,16 +36,17 @@ def shard_count(system: LoopSystem, poses: int, options: SolverOptions) -> int:
 def run_on_cores(
     system: LoopSystem, function: Callable, inputs: Float[np.ndarray, "driven poses"], count: int
 ) -> tuple:
-    """Apply a function of inputs to `count` shards of them side by side; returns what it makes of the whole range.
+    """Apply `function` to `count` shards of the inputs in parallel, and join its results along the poses.
 
-    It returns a tuple of arrays with the poses last, displacements in rows of columns first. It is called with the
-    inputs of a shard if there is a single input, else with all inputs and the number of the first pose of the shard.
+    `function` returns a tuple of arrays whose last axis is the poses; the first array holds the displacements (columns,
+    poses). It is called with the inputs of a shard if there is a single input, else with all inputs and the number of
+    the first pose of the shard.
     """
     if count == 1:
         return function(inputs)
     poses = inputs.shape[1]
     length = -(-poses // count)
-    # all of one length, for which one program is compiled: the last shard overlaps the one before it
+    # shards of equal length share one program; the last shard therefore overlaps the one before it
     starts = [min(i * length, poses - length) for i in range(count)]
     x64 = dtypes.canonicalize_dtype(float) == jnp.float64
     device = getattr(jax.config, "jax_default_device", None)
@@ -56,16 +57,16 @@ def run_on_cores(
         return function(inputs, np.asarray(start, np.int32))
 
     def run(start: int):
-        with jax.enable_x64(x64), jax.default_device(device):  # settings that hold for the thread that made them
+        with jax.enable_x64(x64), jax.default_device(device):  # these settings are local to a thread
             return jax.block_until_ready(of_shard(start))
 
-    first = of_shard(0)  # compiled, and begun, by the thread that asks for it
+    first = of_shard(0)  # compiled and started by the calling thread
     return _joined(system, starts[-2] + length - starts[-1], [first, *_threads(count).map(run, starts[1:])])
 
 
 @partial(jax.jit, static_argnums=(0, 1))
 def _joined(system: LoopSystem, overlap: int, shards: list[tuple]) -> tuple:
-    """Join the shards; the angles of balls go on across their ends without a leap of a full turn."""
+    """Join the shards; the angles of balls are unwrapped across their ends."""
     *others, last = shards
     shards = [*others, jax.tree.map(lambda rows: rows[..., overlap:], last)]
     free = turning(system)
@@ -82,9 +83,10 @@ def _joined(system: LoopSystem, overlap: int, shards: list[tuple]) -> tuple:
 
 @cache
 def _threads(count: int) -> ThreadPoolExecutor:
+    """Make the pool of threads for a number of shards, once in a process."""
     return ThreadPoolExecutor(count, thread_name_prefix="jaxkin")
 
 
 def available_cores() -> int:
-    """The number of processor cores that this process may use."""
+    """Count the processor cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

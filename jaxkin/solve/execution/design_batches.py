@@ -1,7 +1,7 @@
-"""Many designs in one batch: a group at a time, and designs that need more work than the others at the end.
+"""Solve many designs in one batch: in groups that run in lockstep, with the designs that have limits at the end.
 
-A design with a limit that has to be followed takes ten times as many steps of the continuation as one without, and in
-lockstep the others would wait for it.
+A design whose range has a limit takes ten times as many steps of the continuation as a design without one. In lockstep,
+the other designs of its group would wait for it.
 """
 
 from __future__ import annotations
@@ -19,26 +19,27 @@ from jaxkin.solve.lockstep import in_lockstep
 
 Result = TypeVar("Result")
 DESIGN_GROUP = 32
-"""Designs that go through the loops in lockstep, at most: their samples of the branch stay in the cache."""
+"""Largest number of designs that run in lockstep: so many samples of branches stay in the cache."""
 
 
 class _Batch(NamedTuple):
     """A batch of designs as a function of arrays, some of which all designs share."""
 
     function: Callable
-    """Of `follow_limits`, and of the arrays of one design."""
+    """The function of `follow_limits` and of the arrays of one design."""
     done: Callable[..., Array]
-    """Whether a result is final that was found without following limits."""
+    """The function that tells whether a result found without following limits is final."""
     size: int
+    """Number of designs."""
     is_mapped: tuple[bool, ...]
-    """Which arrays have a leading axis of designs."""
+    """For each array whether its first axis is the designs; other arrays are shared by all designs."""
 
 
 def all_designs(function: Callable[..., Result], done: Callable[[Result], Array]) -> Callable[..., Result]:
-    """Make a function of arrays and of `follow_limits=` one of arrays only, which `vmap` runs in groups of designs.
+    """Turn a function of arrays and `follow_limits=` into a function of arrays that `vmap` runs in groups of designs.
 
-    Outside `vmap` limits are followed. In a batch every design is first solved without following limits; designs of
-    which the result is not `done` are then solved again, together. Nested batches are run as one.
+    Outside `vmap`, limits are followed. In a batch, every design is first solved without following limits; the designs
+    whose result is not `done` are then solved again, with limits. Nested batches run as one batch.
     """
 
     @jax.custom_batching.custom_vmap
@@ -59,7 +60,7 @@ def all_designs(function: Callable[..., Result], done: Callable[[Result], Array]
 
 
 def _mapped(batch: _Batch) -> Callable:
-    """The batch as a function of its arrays that may be batched again."""
+    """Return the batch as a function of its arrays, which may be batched again by `vmap`."""
     run = jax.custom_batching.custom_vmap(lambda *leaves: _in_groups(batch, leaves))
 
     @run.def_vmap
@@ -83,7 +84,7 @@ def _mapped(batch: _Batch) -> Callable:
 
 
 def _in_groups(batch: _Batch, leaves: tuple[Array, ...]):
-    """Solve all designs in groups of equal length; then again, with limits, those that are not done."""
+    """Solve all designs in groups of equal length, and then again, with limits, the designs that are not done."""
     groups = -(-batch.size // DESIGN_GROUP)
     length = -(-batch.size // groups)
     group_of = in_lockstep(batch.function, (None, *(0 if each else None for each in batch.is_mapped)))

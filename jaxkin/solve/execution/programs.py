@@ -1,7 +1,7 @@
-"""The solver as compiled programs: one finds the poses, with compiler options that suit it; one gives derivatives.
+"""Compile the solver to programs: one finds the poses, with compiler options of its own; one computes displacements.
 
-Only the second is ever differentiated. Where the numbers are known (not inside `jit` or `vmap`), a gradient finds its
-poses by the same program as the plain sweep.
+Only the program of the displacements is differentiated. Where the numbers are known (under `grad` alone, not inside
+`jit` or `vmap`), a gradient finds its poses with the compiler options of a sweep.
 """
 
 from __future__ import annotations
@@ -37,17 +37,17 @@ COMPILER_OPTIONS = {
 """Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
 costlier passes of LLVM 1.4 times, for a program that is no faster.
 
-The program is made of operations of a few microseconds: to hand them to a library of reductions, to make trees of sums
-of some forty numbers, or to split them among threads takes longer than they do, and threads that wait for more work
-keep the core that another shard needs. Several cores have poses of their own (`run_on_cores`), or are several devices.
+The operations of the program take a few microseconds each. To call a library for reductions, to rewrite sums of about
+forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
+for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
 """
 
 _traces = 0
-"""Programs that find poses and were traced in this process."""
+"""Number of programs that find poses and were traced in this process."""
 
 
 class Outcome(NamedTuple):
-    """What became of the poses."""
+    """The status and the residual norm of each pose."""
 
     status: Int[Array, " poses"]
     residual_norm: Float[Array, " poses"]
@@ -62,11 +62,12 @@ def solve(
     tolerance: ClosureTolerance,
     axes: Axes | None = None,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Find displacements of all joints (radians, lengths of the mechanism) for given inputs, and the outcome.
+    """Find the displacements of all joints (columns, poses) for given inputs, with status and residual of each pose.
 
-    Compiled once for a system, the options that a program depends on, and a number of poses. `tolerance` decides, not
-    `options.tolerance`: it may be traced. `axes` are those of the assembled pose, of systems whose poses are formulas:
-    the general program is compiled only if the formulas do not prove that the motion leads to every pose.
+    Inputs and displacements are in radians and in the unit of the mechanism. A program is compiled once for a system,
+    the options that it depends on, and a number of poses. `tolerance`, which may be traced, takes the place of
+    `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas: the general
+    program is compiled only if the formulas do not prove that the motion leads to every pose.
     """
     if not traced((joints, inputs, tolerance)):
         by_formula = _solve_by_formula(system, options, joints, inputs, tolerance, axes)
@@ -77,7 +78,7 @@ def solve(
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     by_formula = None if traced(numbers) else _solve_by_formula(system, options, *numbers, axes)
     if by_formula is None:
-        # compiler options are for whole programs only: inside one that is being traced the search becomes part of that
+        # compiler options apply to whole programs only: inside a traced function, the search is part of its program
         poses = _poses_program(whole=not traced(numbers))(system, options.of_program, *numbers)
     else:
         poses = by_formula[1].poses
@@ -86,7 +87,7 @@ def solve(
 
 
 def compilations() -> int:
-    """The number of programs that find poses and were compiled in this process: one more shows a recompilation."""
+    """Count the programs that find poses and were compiled in this process: an increase shows a recompilation."""
     return _traces
 
 
@@ -124,7 +125,7 @@ def _by_formula(
 def _solve_numbers(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: np.ndarray, tolerance: ClosureTolerance
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Solve for numbers that are known, long ranges in shards."""
+    """Solve for known (not traced) numbers, long ranges in shards."""
     of_program = options.of_program
     if options.method != CONTINUATION:
         return _solve_program()(system, of_program, joints, inputs, tolerance)
@@ -200,13 +201,13 @@ def _formula_program():
 
 @cache
 def _poses_program(whole: bool):
-    """The search for poses alone, of which the displacements are differentiated: a whole program, or part of one."""
+    """Make the function that finds poses without displacements: a program of its own, or part of a traced one."""
     return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
 @cache
 def jit_options() -> dict[str, Any]:
-    """The compiler options as an argument of `jax.jit`, empty where this version of JAX does not know them."""
+    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX does not know them."""
     try:
         jax.jit(lambda x: x, compiler_options=COMPILER_OPTIONS)(0.0)
     except (TypeError, jax.errors.JaxRuntimeError):

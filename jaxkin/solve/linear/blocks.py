@@ -1,6 +1,7 @@
-"""Solve block triangular systems block after block, each by least norm or, if regular and of size three, Cramer's rule.
+"""Solve block lower triangular systems by forward substitution.
 
-Where the loops follow from one another, the Jacobian is block lower triangular: see `solve.system.equation_blocks`.
+A block is solved with least norm, or by Cramer's rule if it is square, regular and of size three. The blocks of a
+closure Jacobian are those of `solve.system.equation_blocks`.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from jaxkin.solve.system.equation_blocks import EquationBlock
 def solve_blocks(
     jacobian: Matrix, right: Vector, damping: float, blocks: Sequence[EquationBlock], *, regular: bool = False
 ) -> Array:
-    """Solve J x = r block after block, for every pose, without derivatives: (columns, poses).
+    """Solve J x = r block after block at every pose; returns x (columns, poses), which must not be differentiated.
 
-    Each block has its solution of least norm, with `damping` relative to the mean square of its rows. With `regular`,
+    Each block gets its solution of least norm, with `damping` relative to the mean square of its rows. With `regular`,
     blocks of three equations in three unknowns are solved undamped by Cramer's rule, which costs less.
     """
     return _substitute_forward(jacobian, right[:, None], damping, blocks, regular)[:, 0]

@@ -1,6 +1,6 @@
-"""Solve (J J^T + damping s 1) y = r by Cholesky factorisation, J J^T + damping s 1 = L L^T, with the library's routine.
+"""Solve (J J^T + damping s 1) y = r by Cholesky factorisation, J J^T + damping s 1 = L L^T, by a library routine.
 
-A library is faster for many rows, but takes longer to load than smaller systems take to sweep.
+The library is faster for many rows, but to load it takes longer than the sweep of a system with few rows.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from jaxtyping import Array
 from jaxkin.solve.linear.gram import Damping, Matrix, add_damping, gram_matrix
 
 ROUNDING_MARGIN = 0.25
-"""Damping that is added, in units of rounding a row: without it rounding may make J J^T indefinite and the square root
-of a pivot fail."""
+"""Further damping, in units of rounding times the number of rows: without it, rounding may make J J^T indefinite, and
+the square root of a pivot fail."""
 
 
 def factor_cholesky(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
-    """Factorise, and return the solution for right-hand sides of (rows, poses) or (rows, sides, poses)."""
+    """Factorise, and return the function that solves for right-hand sides (rows, poses) or (rows, sides, poses)."""
     n = jacobian.shape[0]
     gram = add_damping(gram_matrix(jacobian), damping + ROUNDING_MARGIN * n * float(jnp.finfo(jacobian.dtype).eps))
     lower = lax.linalg.cholesky(jnp.moveaxis(gram, -1, 0), symmetrize_input=False)

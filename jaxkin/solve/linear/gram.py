@@ -1,4 +1,4 @@
-"""The Gram matrix J J^T of every pose, and its damping."""
+"""Compute the Gram matrix J J^T of every pose, and add damping to it."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ import numpy as np
 from jaxtyping import Array, Float
 
 MIN_MATMUL_ROWS = 9
-"""Rows from which on J J^T is a product of matrices pose by pose: it takes a third of the time of sums over poses."""
+"""Number of rows from which on J J^T is a matrix product at each pose, in a third of the time of sums over poses."""
 
 Matrix = Float[Array, "rows columns poses"]
 Vector = Float[Array, "rows poses"]
 Damping = Float[Array, " poses"] | float
-"""Relative to the mean square `s` of the rows of J: one for all poses, or one a pose."""
+"""Damping relative to the mean square `s` of the rows of J: one number for all poses, or one a pose."""
 
 
 def gram_matrix(jacobian: Matrix) -> Float[Array, "rows rows poses"]:
-    """Compute J J^T."""
+    """Compute J J^T at every pose."""
     if len(jacobian) < MIN_MATMUL_ROWS:
         return jnp.sum(jacobian[:, None] * jacobian[None], axis=2)
     rows = jnp.moveaxis(jacobian, -1, 0)
@@ -30,6 +30,6 @@ def add_damping(gram: Float[Array, "n n poses"], damping: Damping) -> Float[Arra
 
 
 def mean_square(squares: Vector) -> Float[Array, " poses"]:
-    """Compute `s`, the mean of the squares of the rows of J; one where J is zero."""
+    """Compute `s`, the mean of the squared norms of the rows of J; one where J is zero."""
     mean = jnp.sum(squares, axis=0) / len(squares)
     return jnp.where(mean > 0, mean, 1.0)

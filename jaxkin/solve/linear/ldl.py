@@ -16,7 +16,7 @@ from jaxkin.solve.linear.gram import Damping, Matrix, mean_square
 
 
 def factor_ldl(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
-    """Factorise, and return the solution for right-hand sides of (rows, poses) or (rows, sides, poses)."""
+    """Factorise, and return the function that solves for right-hand sides (rows, poses) or (rows, sides, poses)."""
     n = jacobian.shape[0]
     absolute = damping * mean_square(jnp.sum(jacobian * jacobian, axis=1))
     lower: dict[tuple[int, int], Array] = {}

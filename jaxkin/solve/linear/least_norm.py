@@ -1,8 +1,8 @@
 """Find least-norm solutions of many small linear systems at once, by the algorithm that suits their size.
 
-Closure equations are often redundant (parallel axes, several contacts of one pair), and coordinates may be passive (the
-spin of a rod between two balls). `x = J^T (J J^T + damping s 1)^-1 r` is defined in both cases, and lies in the row
-space of J by construction: rounding sets no passive coordinate in motion, as it does with `(J^T J + damping)^-1 J^T r`.
+Closure equations are often redundant (parallel axes, several contacts of one pair), and freedoms may be idle (the spin
+of a rod between two balls). `x = J^T (J J^T + damping s 1)^-1 r` is defined in both cases, and lies in the row space of
+J by construction: rounding sets no idle freedom in motion, as it does with `(J^T J + damping)^-1 J^T r`.
 
 | rows | algorithm |
 |---|---|
@@ -26,21 +26,21 @@ from jaxkin.solve.linear.gram import Damping, Matrix, Vector, mean_square
 from jaxkin.solve.linear.ldl import factor_ldl
 
 MAX_ALWAYS_UNROLLED_ROWS = 3
-"""Rows up to which systems are solved by straight-line code for any number of poses: those of one planar loop."""
+"""Largest number of rows that straight-line code solves for any number of poses: that of one planar loop."""
 MAX_UNROLLED_ROWS = 9
-"""Rows up to which systems of many poses are solved by straight-line code, which is faster there than a loop."""
+"""Largest number of rows that straight-line code solves for many poses, faster than a loop."""
 MIN_UNROLLED_POSES = 1024
-"""Poses from which on `MAX_UNROLLED_ROWS` counts: for fewer, straight-line code is not worth its compile time."""
+"""Number of poses from which on `MAX_UNROLLED_ROWS` applies: for fewer, the gain is less than the time to compile."""
 MIN_CHOLESKY_ROWS = 40
-"""Rows from which on a library is faster than a loop, the time to load it included."""
+"""Number of rows from which on a library is faster than a loop, the time to load it included."""
 MAX_SELECTED_FRACTION = 0.75
-"""Fraction of the columns up to which only those in use are selected: to carry a few zeros along costs less."""
+"""Largest fraction of columns in use for which these are selected: to carry a few zero columns costs less than that."""
 
 
 def solve_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
-    """Solve min |J x - r|^2 + damping s |x|^2 for every pose, without derivatives: (columns, poses).
+    """Solve min |J x - r|^2 + damping s |x|^2 at every pose; returns x (columns, poses), not to be differentiated.
 
-    `s` is the mean square of the rows of J; all columns of J but those `used` are zero.
+    `s` is the mean square of the rows of J. All columns of J other than those in `used` must be zero.
     """
     own = _select_columns(jacobian, used)
     x = jnp.sum(own * factor_normal_equations(own, damping)(right)[:, None], axis=0)
@@ -48,9 +48,9 @@ def solve_least_norm(jacobian: Matrix, right: Vector, damping: Damping, used: Se
 
 
 def solve_least_norm_refined(jacobian: Matrix, right: Vector, damping: Damping, used: Sequence[int]) -> Array:
-    """Solve min |x| subject to J x = r, with derivatives: (columns, poses).
+    """Solve min |x| subject to J x = r at every pose; returns x (columns, poses), which may be differentiated.
 
-    One step of iterative refinement takes the bias of the damping out.
+    One step of iterative refinement removes the bias of the damping.
     """
     own = _select_columns(jacobian, used)
     factored = factor_normal_equations(own, damping)
@@ -74,7 +74,7 @@ def solve_least_norm_refined(jacobian: Matrix, right: Vector, damping: Damping, 
 
 
 def _select_columns(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows picked poses"]:
-    """Select the columns in use, or all if few are not."""
+    """Select the columns in use, or all columns if only a few are not in use."""
     return jacobian[:, np.array(used, np.int32)] if len(used) < MAX_SELECTED_FRACTION * jacobian.shape[1] else jacobian
 
 
@@ -96,7 +96,7 @@ def scatter_rows(found: Float[Array, "some *entries"], which: Sequence[int] | np
 
 
 def factor_normal_equations(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
-    """Return the solution y of (J J^T + damping s 1) y = r, for r of (rows, poses) or (rows, sides, poses)."""
+    """Return the function that solves (J J^T + damping s 1) y = r for r of (rows, poses) or (rows, sides, poses)."""
     rows, _, poses = jacobian.shape
     if rows <= MAX_ALWAYS_UNROLLED_ROWS or (rows <= MAX_UNROLLED_ROWS and poses >= MIN_UNROLLED_POSES):
         return factor_ldl(jacobian, damping)

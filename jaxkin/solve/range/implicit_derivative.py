@@ -1,8 +1,9 @@
-"""Derivatives of closed poses by the implicit function theorem.
+"""Attach the derivatives of closed poses by the implicit function theorem.
 
 A closed pose satisfies r(geometry, inputs, free coordinates) = 0, so its free coordinates change by the least-norm
-solution of `J delta = -dr`: forward, reverse and nested, without differentiating any iteration. Poses that did not
-close have no derivative: it is set to zero, and none of their numbers enters the derivative of another pose.
+solution of `J delta = -dr`. This rule serves forward, reverse and nested differentiation, and no iteration is
+differentiated. A pose that did not close has no derivative: it is set to zero, and no number of such a pose enters the
+derivative of another one.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ def attach_derivative(
     solved: State,
     closed: Bool[Array, " poses"],
 ) -> State:
-    """Return the solved state as the differentiable function of geometry and inputs that it is where `closed` holds."""
+    """Return the solved state, with derivatives with respect to geometry and inputs at the poses that are `closed`."""
     del geometry, inputs, closed
     return solved
 

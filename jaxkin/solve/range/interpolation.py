@@ -1,9 +1,9 @@
-"""Many poses of a single input at once: interpolation of high order, one correction, a check of each pose.
+"""Find many poses of a single input by interpolation of high order, and check the closure of each.
 
-A range in order is cut into segments. At four nodes of each segment the state and its exact slope are known, which
-makes a polynomial of degree seven; over a segment of a fortieth of a radian it is right to about rounding. Where it is
-not, one chord step (a step of Newton's method with the inverse Jacobian of the middle of the segment) brings the poses
-to closure. Each pose then has to close by itself: a segment in which one does not is corrected pose by pose.
+A sorted range is cut into segments. At four nodes of each segment the state and its exact slope are computed, and
+define a polynomial of degree seven; over a segment of a fortieth of a radian its error is about rounding. Where the
+error is larger, one chord step (a Newton step with the inverse Jacobian from near the middle of the segment) closes the
+poses. The residual of each pose is then checked, and a segment in which a pose is not closed is corrected pose by pose.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.closure.closure import closure
-from jaxkin.solve.closure.joint_coordinates import remove_passive_spin
+from jaxkin.solve.closure.joint_coordinates import remove_idle_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.step import input_slopes
@@ -34,39 +34,44 @@ from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
 
 MAX_SEGMENTS = 256
-"""Segments of a range at most: of a full turn each is a fortieth of a radian wide."""
+"""Largest number of segments of a range: those of a full turn are a fortieth of a radian wide."""
 MAX_SEGMENTS_WITH_SPINS = 512
-"""The same where rods spin between balls: the spin changes fast where a ball passes near half a turn."""
+"""Largest number of segments where rods spin idly between balls: the spin changes fast where a ball is rotated by
+nearly half a turn."""
 NODES = -np.cos(np.pi * (2 * np.arange(4) + 1) / 8)
-"""Where a segment from -1 to 1 is solved beforehand: the zeros of a Chebyshev polynomial, by which the error is spread
-evenly over the segment."""
+"""Nodes of a segment from -1 to 1, at which it is solved first: the zeros of a Chebyshev polynomial, which spread the
+error evenly over the segment."""
 NARROWEST = 1e-4
-"""Half the width of the narrowest segment, radians or characteristic lengths: repeated inputs have no width."""
+"""Least half width of a segment, radians or characteristic lengths: repeated inputs have no width."""
 MAX_CHORD_STEP = 1e-6
-"""Correction, radians or characteristic lengths, above which a polynomial is not trusted to be on the
-branch: what it leaves after a good fit is many times smaller."""
+"""Largest length of a chord step, radians or characteristic lengths, at which the polynomial is trusted to be on the
+branch: the error of a good fit is many times smaller."""
 MAX_NODE_CORRECTION = 1e-2
-"""Distance of a node from its prediction, radians or characteristic lengths, above which it is not trusted to be on the
-branch."""
+"""Largest distance of a node from its prediction, radians or characteristic lengths, at which the node is trusted to be
+on the branch."""
 SHARP_ROUNDINGS = 32
-"""Units of rounding in the residual above which the poses of a segment are corrected; half of
-`CLOSED_ROUNDINGS`, so that poses that need no correction pass by a margin."""
+"""Residual norm, in units of rounding, above which the poses of a segment are corrected: half of `CLOSED_ROUNDINGS`, so
+that poses without a correction are closed by a margin."""
 
 
 class _Segments(NamedTuple):
-    """The segments of a range: their poses, and what replaces the solution there."""
+    """The segments of a range, with the polynomials that interpolate their poses."""
 
     first: Int[Array, " segments"]
-    """Number of the first pose. The last segment overlaps the one before it, so that all have one length."""
+    """Number of the first pose. The last segment overlaps the one before it, so that all have the same length."""
     middle: Float[Array, " segments"]
+    """Input in the middle of the segment."""
     half_width: Float[Array, " segments"]
+    """Half the difference between the inputs at both ends of the segment."""
     status: Int[Array, " segments"]
+    """Status of all poses of the segment, if it is trusted."""
     trusted: Bool[Array, " segments"]
     """Whether all nodes closed, near their predictions, with one status."""
     polynomials: State
-    """Coefficients, lowest power first in the last axis, of the argument from -1 to 1."""
+    """Coefficients of the polynomials of all entries of the state, over the argument from -1 to 1: arrays (segments,
+    entries, powers), lowest power first."""
     inverses: Float[Array, "segments columns equations"]
-    """Of the Jacobian in the middle."""
+    """Least-norm inverse of the Jacobian at the third of the four nodes."""
 
 
 def interpolate(
@@ -76,9 +81,9 @@ def interpolate(
     correct_segment: Callable[[Float[Array, " segment"]], Poses],
     shard_count: int,
 ) -> Poses:
-    """Find the poses for these values of a single input, one of `shard_count` shards of a range, in order.
+    """Find the poses for sorted values of a single input, which are one of `shard_count` shards of a range.
 
-    `correct_segment` finds the poses of a segment of which the polynomials cannot be trusted.
+    `correct_segment` finds the poses of a segment, given its inputs, where its polynomials cannot be trusted.
     """
     system, geometry, dtype, poses = problem.system, problem.geometry, values.dtype, values.shape[0]
     sharp, closes = rounding_residual(dtype, SHARP_ROUNDINGS), rounding_residual(dtype, CLOSED_ROUNDINGS)
@@ -120,9 +125,9 @@ def interpolate(
 def _solved_segments(
     problem: ClosureProblem, samples: BranchSamples, values: Float[Array, " poses"], length: int
 ) -> _Segments:
-    """Cut the values into segments of `length` poses, and solve their nodes all at once."""
+    """Cut the values into segments of `length` poses, and solve the nodes of all segments at once."""
     system, poses = problem.system, values.shape[0]
-    # the last segment overlaps the one before it: nothing is filled up, and all results are written where they belong
+    # the last segment overlaps the one before it, so that no segment needs padding
     first = jnp.asarray(np.minimum(np.arange(-(-poses // length)) * length, poses - length))
     begin, end = values[first], values[first + length - 1]
     middle, half_width = 0.5 * (begin + end), jnp.maximum(0.5 * jnp.abs(end - begin), NARROWEST)
@@ -135,7 +140,7 @@ def _solved_segments(
     inverses = inverse_jacobian(middles, damping_floor(values.dtype), equation_blocks(system))
 
     slope = rate(system, state, input_slopes(system, state, evaluation, jnp.ones_like(nodes)[None]))
-    state_and_slope = jax.jvp(partial(remove_passive_spin, system, problem.geometry), (state,), (slope,))
+    state_and_slope = jax.jvp(partial(remove_idle_spin, system, problem.geometry), (state,), (slope,))
     polynomials = jax.tree.map(partial(_coefficients, half_width), *state_and_slope)
     status = prediction.status.reshape(-1, len(NODES))
     near = difference(state, prediction.state) <= MAX_NODE_CORRECTION
@@ -147,11 +152,11 @@ def _solved_segments(
 def _coefficients(
     half_width: Float[Array, " segments"], x: Float[Array, "*entries nodes"], slope: Float[Array, "*entries nodes"]
 ) -> Float[Array, "segments *entries degree"]:
-    """Coefficients of the polynomials through values and slopes at the nodes of all segments, lowest power first."""
+    """Compute the polynomials through values and slopes at the nodes of all segments, lowest power first."""
     basis = jnp.asarray(_hermite_basis(), half_width.dtype)
     shape = (*x.shape[:-1], half_width.shape[0], len(NODES))
     x = x.reshape(shape)
-    # of differences from the first node, which are small: the coefficients of a power are sums that cancel
+    # differences from the first node are small, which keeps the rounding of the coefficients small: their sums cancel
     origin = x[..., :1]
     data = jnp.concatenate([x - origin, slope.reshape(shape) * half_width[:, None]], axis=-1)
     return jnp.einsum("ij,...sj->s...i", basis, data).at[..., 0].add(jnp.moveaxis(origin[..., 0], -1, 0))
@@ -166,7 +171,7 @@ def _horner(t: Float[Array, " poses"], coefficients: Float[Array, "*entries degr
 
 
 def _hermite_basis() -> np.ndarray:
-    """(8, 8): from four values and four slopes at the nodes to the coefficients of the polynomial of degree seven."""
+    """Compute the matrix (8, 8) from values and slopes at the four nodes to the coefficients of degree 0 to 7."""
     powers = np.arange(2 * len(NODES))
     values = NODES[:, None] ** powers
     slopes = powers * NODES[:, None] ** np.maximum(powers - 1, 0)

@@ -1,7 +1,7 @@
-"""Correct poses one by one, from where the samples of the branch predict them, whatever lies between them.
+"""Predict each pose from the samples of the branch and correct it, independently of all other poses.
 
-Newton's method closes nearly all. Poses that it does not close, since they are beside a limit or beyond one, are left
-to the damped corrector in small groups of their own, so that they cost the others nothing.
+Newton's method closes nearly all poses. Poses that it does not close, because they are beside a limit or beyond one,
+are left to the damped corrector, in small groups of their own, so that they do not slow down the others.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from jaxkin.solve.status import ClosureTolerance, Scalar, Status, classify, is_c
 from jaxkin.solve.system.state import State, difference, drive
 
 DAMPED_GROUP = 32
-"""Poses that the damped corrector works on at once: most groups hold no more that Newton's method does not close."""
+"""Number of poses that the damped corrector works on at once: in most groups Newton's method leaves no more open."""
 
 
 def correct_poses(
@@ -31,10 +31,11 @@ def correct_poses(
     inputs: Float[Array, "driven poses"],
     tolerance: ClosureTolerance,
 ) -> Poses:
-    """Predict the poses at distances `at` along the path, set their inputs, and bring them to closure.
+    """Predict the poses at distances `at` along the path, set their inputs, and correct them to closure.
 
-    With `follow_limits=False` poses that Newton's method does not close are STALLED; else the damped corrector goes on
-    with them.
+    `inputs` are in radians and characteristic lengths. Poses that Newton's method does not close are corrected by the
+    damped corrector, or are STALLED with `follow_limits=False` of the problem. A pose that the samples do not reach
+    (`Prediction.covered`) is STALLED whatever its residual.
     """
     system = problem.system
     prediction = predict(system, samples, at)
@@ -59,9 +60,10 @@ def correct_poses(
 def _correct_some(
     problem: ContinuationProblem, state: State, chosen: Bool[Array, " poses"], target_residual: Scalar | float
 ) -> tuple[State, Float[Array, " poses"], Bool[Array, " poses"]]:
-    """Correct the chosen ones of some poses by damped steps, `DAMPED_GROUP` at a time.
+    """Correct the `chosen` poses by damped steps, `DAMPED_GROUP` poses at a time.
 
-    Returns states, residuals and which poses are stationary; those of poses not chosen are not to be used.
+    Returns states, residual norms and which poses are stationary; the entries of poses that are not chosen are
+    undefined.
     """
     poses = chosen.shape[0]
     size = min(DAMPED_GROUP, poses)

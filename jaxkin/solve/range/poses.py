@@ -1,4 +1,4 @@
-"""Poses as they are found, and the groups in which they are corrected."""
+"""Hold the poses that were found, and apply functions to many poses in groups."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
 
 CLOSED_ROUNDINGS = 64
-"""Units of rounding in the residual of a pose that one correction has closed: above that it is left to a method that
-costs more."""
+"""Largest residual norm, in units of rounding, of a pose that a correction has closed: poses above it are passed on to
+a method that costs more."""
 MAX_CORRECTION = 0.1
-"""Distance of a corrected pose from its prediction, radians or characteristic lengths, above which it is not trusted to
-be on the branch."""
+"""Largest distance of a corrected pose from its prediction, radians or characteristic lengths, at which the pose is
+trusted to be on the branch."""
 LARGEST_GROUP = 256
-"""Poses that are corrected together, at most, however few equations they have."""
+"""Largest number of poses that are corrected together, however few equations they have."""
 SMALLEST_GROUP = 32
-"""Poses that are corrected together, at least, however many equations they have: an operation on fewer poses takes
+"""Least number of poses that are corrected together, however many equations they have: operations on fewer poses take
 as long."""
 GROUP_ENTRIES = 16384
-"""Entries of the Jacobians of a group, counted as equations squared a pose: so many stay in the cache."""
+"""Entries of the Jacobians of a group, counted as equations squared a pose, that stay in the cache."""
 
 
 class Poses(NamedTuple):
-    """Poses as they were found: numbers without derivatives."""
+    """The poses that were found, without derivatives."""
 
     state: State
     status: Int[Array, " poses"]
@@ -38,14 +38,14 @@ class Poses(NamedTuple):
 
 
 def group_size(system: LoopSystem) -> int:
-    """The number of poses that are corrected together."""
+    """Return the number of poses of a system that are corrected together."""
     return max(SMALLEST_GROUP, min(LARGEST_GROUP, GROUP_ENTRIES // system.equations**2))
 
 
 def in_groups(function: Callable, poses, size: int):
-    """Apply a function of some poses to all of them, in groups of equal length, `size` at most.
+    """Apply a function of poses to all `poses`, in groups of equal length of at most `size` poses.
 
-    `poses` is a pytree of arrays with the poses as their last axis, and so is what the function returns.
+    `poses` is a pytree of arrays whose last axis is the poses; the function takes and returns such pytrees.
     """
     count = jax.tree.leaves(poses)[0].shape[-1]
     groups = -(-count // size)

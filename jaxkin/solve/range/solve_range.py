@@ -1,10 +1,10 @@
-"""A whole range of inputs of one loop system: continuation, then all poses at once (Section 5.1, Eq. 12 and 13).
+"""Solve a whole range of inputs of one loop system: continuation, then all poses at once (Section 5.1, Eq. 12 and 13).
 
-The branch of a single input is traced once, from the assembled pose to either end of the range, at as few samples as
-are safe (`continuation.branch`). Between two samples every pose is predicted by a cubic with exact slopes and
-corrected, all poses at once and in whatever order they come (`polish`); most of many poses are interpolated
-(`interpolation`). Several inputs are followed in the same way along a smooth curve through the poses in the order in
-which they are given; poses that the curve does not reach are tried in a straight line from the assembled pose.
+For a single input, the branch is traced once from the assembled pose to both ends of the range, in as few samples as
+are safe (`continuation.branch`). Every pose is then predicted between two samples by a cubic with exact slopes, and
+corrected; this is done for all poses at once, in any order (`polish`). Of long ranges most poses are interpolated
+(`interpolation`). For several inputs, the branch is traced along a smooth curve through the poses, in the order in
+which they are given; poses that are not reached along the curve are tried in a straight line from the assembled pose.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, difference, drive, driven
 
 BALL_GROUP = 256
-"""Poses whose ball angles are found at once: of all poses at once the matrices leave the cache."""
+"""Number of poses whose ball angles are computed at once: the rotation matrices of so many stay in the cache."""
 
 
 class _Range(NamedTuple):
-    """What is asked for, in radians and lengths over the characteristic length."""
+    """A range to be solved, in radians and lengths over the characteristic length: see `find_poses`."""
 
     geometry: Geometry
     inputs: Float[Array, "driven poses"]
@@ -63,11 +63,11 @@ def find_poses(
     shard_start: Int[Array, ""] | None = None,
     follow_limits: Bool[Array, ""] | bool = True,
 ) -> Poses:
-    """Find the poses for finite inputs, in the order of `system.driven`, radians and lengths of the mechanism.
+    """Find the poses of one shard of a range, for finite inputs, radians and lengths of the mechanism.
 
-    `inputs` is one shard of the range (`shard_count` in all), or the whole range with `shard_start` given, the number
-    of the first pose of the shard that is asked for. With `follow_limits=False`, poses behind a limit may be reported
-    STALLED.
+    The rows of `inputs` are in the order of `system.driven`. `inputs` is the shard (one of `shard_count`), or the whole
+    range if `shard_start` is given, which is the number of the first pose of the shard. With `follow_limits=False`,
+    poses behind a limit may be reported STALLED.
     """
     joints, inputs = lax.stop_gradient((joints, inputs))
     geometry, lengths = scaled_geometry(system, joints)
@@ -79,7 +79,8 @@ def find_poses(
 def shard(
     array: Shaped[Array, "*rows poses"], shard_count: int, shard_start: Int[Array, ""] | None
 ) -> Shaped[Array, "*rows shard"]:
-    """Cut the shard that begins at `shard_start` from all poses, one of `shard_count`; all of them if that is None."""
+    """Cut the shard that begins at pose `shard_start`, one of `shard_count`, from an array; all of it if that is
+    None."""
     if shard_start is None:
         return array
     return lax.dynamic_slice_in_dim(array, shard_start, -(-array.shape[-1] // shard_count), axis=-1)
@@ -88,9 +89,9 @@ def shard(
 def displacements(
     system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"], poses: Poses
 ) -> Float[Array, "columns poses"]:
-    """Displacements of all joints in the poses found, as differentiable functions of joints and inputs.
+    """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
-    In radians and lengths of the mechanism; displacements of least residual where a pose did not close.
+    Displacements are in radians and lengths of the mechanism. A pose that did not close has derivatives of zero.
     """
     geometry, lengths = scaled_geometry(system, joints)
 
@@ -126,7 +127,7 @@ def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
 
 
 def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
-    """Find the poses of a single input: by interpolation from `options.interpolate_from` poses on, else one by one."""
+    """Find the poses of a single input: by interpolation if there are at least `options.interpolate_from` of them."""
     values = asked.inputs[0]
 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
@@ -147,7 +148,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
 
 
 def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
-    """Find the poses along a curve through all of them, and those that the curve does not reach in a straight line."""
+    """Find the poses of several inputs along a curve through all poses; in a straight line where that fails."""
     geometry, follow_limits = asked.geometry, asked.follow_limits
     at, path = curve_through(asked.inputs)
     at, inputs = (shard(array, asked.shard_count, asked.shard_start) for array in (at, asked.inputs))
@@ -176,7 +177,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
 
 
 def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]) -> Poses:
-    """Correct a group of neighbouring poses by chord steps; if one of them does not close, each by itself."""
+    """Correct a group of neighbouring poses by chord steps, or by `one_by_one` if any of them does not close."""
     at, inputs = group
     prediction = predict(problem.system, samples, at)
     begun = drive(problem.system, prediction.state, inputs)
@@ -192,5 +193,5 @@ def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, 
 
 
 def _stalled_unless(kept: Bool[Array, ""], poses: Poses) -> Poses:
-    """The poses, STALLED where their range was given up at a limit that is not followed."""
+    """Return the poses, with status STALLED if their range was not traced completely and limits are not followed."""
     return poses._replace(status=jnp.where(kept, poses.status, Status.STALLED.value))

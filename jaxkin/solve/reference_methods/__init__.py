@@ -1,1 +1,1 @@
-"""Other methods that find poses, among them that of the paper: for comparison."""
+"""Find poses by other methods, among them that of the paper, for comparison."""

@@ -1,8 +1,8 @@
-"""The minimisation of the paper: the method of Davidon, Fletcher and Powell (Fletcher and Powell 1963).
+"""Minimise as the paper does: by the method of Davidon, Fletcher and Powell (Fletcher and Powell 1963).
 
-A quasi-Newton method whose estimate of the inverse Hessian starts as the unit matrix, with the cubic line search of the
-same authors. The gradient is by central differences, as it has to be where a program can only evaluate Eq. 12, or by
-JAX.
+This quasi-Newton method starts with the unit matrix as its estimate of the inverse Hessian, and uses the cubic line
+search of the same authors. The gradient is computed by central differences, as in a program that can only evaluate
+Eq. 12, or by automatic differentiation.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from jaxtyping import Array, Float
 Objective = Callable[[Array], Array]
 Point = Float[Array, " n"]
 DFP_ITERATIONS = 200
-"""Iterations at most: the method may crawl where the estimate of the Hessian has to be begun anew."""
+"""Largest number of iterations: progress may be slow where the estimate of the Hessian is reset."""
 MAX_DOUBLINGS = 20
-"""Doublings of the first step of a line search, at most: a million times its length."""
+"""Largest number of doublings of the first step of a line search: up to a million times its length."""
 
 
 class _Iterate(NamedTuple):
@@ -34,7 +34,7 @@ class _Iterate(NamedTuple):
 
 
 def central_differences(objective: Objective) -> Callable[[Point], Point]:
-    """Make the gradient by central differences, with the step that balances rounding and truncation: eps^(1/3)."""
+    """Return the gradient by central differences, with the step eps^(1/3), which balances rounding and truncation."""
 
     def gradient(x: Point) -> Point:
         step = float(jnp.finfo(x.dtype).eps) ** (1 / 3)
@@ -46,7 +46,7 @@ def central_differences(objective: Objective) -> Callable[[Point], Point]:
 
 
 def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, target: Array) -> Point:
-    """Find a point near the start where the objective is least, or at most `target`."""
+    """Minimise the objective from the point `start` (n,), until its value is at most `target` or falls no more."""
 
     def step(at: _Iterate) -> _Iterate:
         direction = -at.inverse @ at.gradient
@@ -76,10 +76,10 @@ def dfp(objective: Objective, gradient: Callable[[Point], Point], start: Point, 
 
 
 def _along(objective: Objective, gradient, x: Point, direction: Point, value: Array, slope: Array) -> Array:
-    """Step length at which the objective is least along a direction: doubled until it rises, then by a cubic.
+    """Find the step length at which the objective is least along a direction: bracket by doubling, then fit a cubic.
 
-    The cubic goes through values and slopes at both ends of the last step. The first step is the one that would bring
-    the objective to zero, its least value, if it were a parabola.
+    The step is doubled until the objective rises. The cubic goes through values and slopes at both ends of the last
+    interval. The first step would bring the objective to zero, its least possible value, if it were a parabola.
     """
 
     def ends(length: Array) -> tuple[Array, Array]:

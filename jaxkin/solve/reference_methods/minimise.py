@@ -1,7 +1,8 @@
 """Find the poses one after the other by a named method of minimisation, as the paper does (Section 5.1).
 
-Each pose is sought from the one before it. For comparison only: nothing watches the branch, and a pose cannot be told
-from another one that is nearer to the start. Gauss-Newton, Levenberg-Marquardt and BFGS are those of jaxopt.
+Each pose is sought from the last closed pose before it. This is for comparison only: the branch is not traced, so a
+pose on another branch counts as CLOSED, and stationarity is not tested, so a pose that cannot be reached counts as
+STALLED. Gauss-Newton, Levenberg-Marquardt and BFGS are those of jaxopt.
 """
 
 from __future__ import annotations
@@ -26,18 +27,19 @@ from jaxkin.solve.system.state import State, assembled, drive, retract
 Point = Float[Array, " used"]
 Function = Callable[[Point], Array]
 JAXOPT_ITERATIONS = 100
-"""Iterations for a pose, at most; a pose that needs more is STALLED."""
+"""Largest number of iterations for a pose; a pose that needs more is STALLED."""
 IDLE_ITERATIONS = 3
-"""Iterations in a row that may lessen the objective by nothing: further ones would gain nothing either."""
+"""Number of iterations in a row without a decrease of the objective, after which the search stops."""
 
 
 def minimise_each(
     system: LoopSystem, geometry: Geometry, inputs: Float[Array, "driven poses"], method: str, max_residual: Scalar
 ) -> tuple[State, Int[Array, " poses"], Float[Array, " poses"]]:
-    """Find each pose from the one before it; returns states, statuses and residuals.
+    """Find each pose from the last closed pose before it; returns states, statuses and residual norms.
 
-    Statuses are CLOSED, STALLED and NONFINITE, residuals the square root of Eq. 12. A pose is done when its
-    residual is at most `max_residual`, lengths over the characteristic length.
+    `inputs` are in radians and characteristic lengths. Statuses are CLOSED, STALLED and NONFINITE only. Residual norms
+    are the square root of Eq. 12, lengths over the characteristic length; a pose is CLOSED when its residual norm is at
+    most `max_residual`.
     """
     place = jnp.asarray(np.eye(system.columns)[:, list(system.used)], inputs.dtype)
     search = _SEARCHES[method]
@@ -68,7 +70,10 @@ def minimise_each(
 
 
 def _stepping(make: Callable[[Function, Function], Any]):
-    """Run a method of jaxopt step by step, until the objective is at most `target` or falls no more."""
+    """Make a search that runs a method of jaxopt until the objective is at most `target` or falls no more.
+
+    `make` returns the method for a residual and an objective, both functions of the free coordinates.
+    """
 
     def search(residual: Function, objective: Function, start: Point, target: Array) -> Point:
         solver = make(residual, objective)
@@ -113,4 +118,4 @@ _SEARCHES = {
     "dfp": lambda _, objective, start, target: dfp(objective, central_differences(objective), start, target),
     "dfp-autodiff": lambda _, objective, start, target: dfp(objective, jax.grad(objective), start, target),
 }
-"""By name: a function of residual, objective, start and the target of the objective that returns the point found."""
+"""Name of the method -> function of residual, objective, start and target of the objective that returns a point."""

@@ -1,4 +1,4 @@
-"""jaxopt, imported where it is used: the import takes a third of a second, and warns."""
+"""Import jaxopt when it is used: the import takes a third of a second, and warns."""
 
 from __future__ import annotations
 

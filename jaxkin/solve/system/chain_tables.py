@@ -1,9 +1,9 @@
-"""The loops of a system as tables of elementary motions: what the closure kernel runs through, joint by joint.
+"""Write the loops of a system as tables of elementary motions, which the closure kernels run through row by row.
 
-An elementary motion turns about and slides along the z axis of its own frame, or turns as a ball does. The tables are
-host data, made once for a system. An uncut loop is one chain of elementary motions, closed in itself; a loop that is
-cut at a ball is one chain from one side of the ball to the other; a loop that is cut at both balls of a rod is two
-chains, from ball to ball. Shorter chains are filled up with rows that do nothing.
+An elementary motion is a rotation about or a translation along the z axis of its own frame, or both (a screw), or the
+rotation of a ball. The tables are host data, made once for a system. An uncut loop is one closed chain of elementary
+motions; a loop that is cut at a ball is one chain from one side of the ball to the other; a loop that is cut at both
+balls of a rod is two chains, from ball to ball. Shorter chains are padded with rows that do nothing.
 """
 
 from __future__ import annotations
@@ -18,36 +18,39 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.solve.system.loop_system import LoopSystem
 
 AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
-"""Rotations that carry z to x, y, z (and keep the order of the axes), by the number of the axis."""
+"""For each axis a rotation matrix that carries z to it, a cyclic permutation of the axes: (3, 3, 3)."""
 
 Z_AXIS = 2
-"""Number of the axis that `AXES` leaves where it is: for rows without an axis of their own."""
+"""Number of the z axis, which `AXES` does not move: for rows without an axis of their own."""
 
 
 class ChainRow(NamedTuple):
-    """One elementary motion of a chain; one entry of each of the tables of the same names."""
+    """One elementary motion of a chain: one entry of each table of the same name."""
 
     column: int
-    """Column of the coordinate; the number of columns, which holds zero, where there is none."""
+    """Column of the coordinate; if there is none, the number of columns, where a zero is appended."""
     joint: int
+    """Number of the joint in the system."""
     sign: int
     """+1, or -1 where the joint is travelled from part 2 to part 1; 0 for rows that do nothing."""
     turn: int
-    """1 where the coordinate turns, else 0."""
+    """1 if the coordinate is an angle, else 0."""
     slide: int
-    """1 where the coordinate slides, else 0."""
+    """1 if the coordinate is a length, else 0."""
     screw: int
-    """1 where the coordinate slides by the pitch of the joint as well, else 0."""
+    """1 if the coordinate is an angle that also advances by the pitch of the joint, else 0."""
     ball: int
-    """Number of the ball that turns; the number of balls where none does."""
+    """Number of the ball that rotates; the number of balls if none does."""
     side: int
-    """+1, or -1 where the axes that its columns turn a ball about turn with it: a line of centres."""
+    """+1 if the columns of the ball rotate it about axes of part 1, -1 about axes that rotate with it (line of
+    centres)."""
     axis: int
     """Number of the axis of the frame that is the z axis of the elementary motion."""
     enter: int
-    """Number of the frame in which it begins: frames on parts 1, frames on parts 2, then "no frame"."""
+    """Number of the frame in which the motion begins; all frames on parts 1 come first, then those on parts 2, then "no
+    frame" (the identity)."""
     leave: int
-    """Number of the frame in which it ends."""
+    """Number of the frame in which the motion ends."""
 
 
 class ChainEnds(NamedTuple):
@@ -56,23 +59,25 @@ class ChainEnds(NamedTuple):
     begin: int
     """Number of the frame in which the chain begins: "no frame", or the frame behind the ball where the loop is cut."""
     end: int
-    """Number of the frame in which it ends: "no frame", or the frame before a ball."""
+    """Number of the frame in which the chain ends: "no frame", or the frame before a ball."""
     cut_ball: int
-    """Number of the ball behind which it begins; the number of balls where the loop is uncut."""
+    """Number of the ball behind which the chain begins; the number of balls if the loop is uncut."""
     cut_sign: int
-    """+1, or -1 where that ball is travelled from part 2 to part 1; 0 where the loop is uncut."""
+    """+1, or -1 if that ball is travelled from part 2 to part 1; 0 if the loop is uncut."""
 
 
 class Chain(NamedTuple):
-    """A chain of elementary motions."""
+    """A chain of elementary motions, in order of travel."""
 
     rows: list[ChainRow]
     ends: ChainEnds
 
 
 class ChainTables(NamedTuple):
-    """Tables of shape (rows, chains), of `ChainRow` and `ChainEnds`; the first chain of every loop comes first, then
-    the second chains of the loops that are cut at a rod."""
+    """The entries of `ChainRow` as tables (rows, chains), and those of `ChainEnds` as tables (chains,).
+
+    The first chains of all loops come first, then the second chains of the loops that are cut at a rod.
+    """
 
     column: np.ndarray
     joint: np.ndarray
@@ -81,8 +86,8 @@ class ChainTables(NamedTuple):
     slide: np.ndarray
     screw: np.ndarray
     ball: np.ndarray
-    """Index of the quaternion of a ball in the `State`; the number of quaternions, which holds no turn, where there is
-    none."""
+    """Number of the quaternion of the ball in `State.turns`; if there is none, the number of quaternions, where the
+    identity is appended."""
     side: np.ndarray
     axis: np.ndarray
     enter: np.ndarray
@@ -93,16 +98,16 @@ class ChainTables(NamedTuple):
     cut_ball: np.ndarray
     cut_sign: np.ndarray
     source: np.ndarray
-    """(columns, chains): number of the twist that is the column of the Jacobian, counted four a row (z, then the three
-    of a ball), or one a row where there is no ball; the number of twists, which holds zero, where the chain does not
-    hold the coordinate."""
+    """(columns, chains): number of the twist that is the column of the Jacobian. Twists are numbered four a row (about
+    or along z, then the three of a ball), or one a row if the system has no balls. If the chain does not hold the
+    coordinate, it is the number of twists, where a zero twist is appended."""
     rods: np.ndarray
     """(2, rods): numbers of both chains of each loop that is cut at a rod."""
 
 
 @lru_cache(maxsize=256)
 def chain_tables(system: LoopSystem) -> ChainTables:
-    """The tables of a system."""
+    """Make the tables of a system."""
     by_loop = [_chains(system, loop, cut) for loop, cut in zip(system.loops, system.cuts, strict=True)]
     of_rods = [number for number, chains in enumerate(by_loop) if len(chains) > 1]
     chains = [*(first for first, *_ in by_loop), *(by_loop[number][1] for number in of_rods)]
@@ -120,7 +125,7 @@ def chain_tables(system: LoopSystem) -> ChainTables:
 
 
 def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> np.ndarray:
-    """`ChainTables.source` from the columns and the numbers of balls of all rows, each (rows, chains)."""
+    """Compute `ChainTables.source` from the columns and the numbers of balls of all rows, both (rows, chains)."""
     length, chains = column.shape
     twists_a_row = 4 if system.turned_balls else 1
     source = np.full((system.columns, chains), twists_a_row * length, np.int32)
@@ -135,12 +140,12 @@ def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> np.nda
 
 
 def _frames(system: LoopSystem) -> int:
-    """Number of frames on the first parts of all joints: as many on the second parts, and behind those "no frame"."""
+    """Count the frames on parts 1 of all joints; there are as many on parts 2, and "no frame" is behind all of them."""
     return sum(map(len, system.movements))
 
 
 def _no_row(system: LoopSystem) -> ChainRow:
-    """A row that does nothing."""
+    """Make a row that does nothing."""
     no_frame = 2 * _frames(system)
     return ChainRow(
         column=system.columns,
@@ -158,8 +163,10 @@ def _no_row(system: LoopSystem) -> ChainRow:
 
 
 def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[int, ...]) -> list[Chain]:
-    """The chains of a loop that is cut at some balls, each from behind one ball to before the next; of an uncut loop
-    one chain."""
+    """Make the chains of a loop that is cut at the balls `cut`: each runs from behind one ball to before the next one.
+
+    An uncut loop is one chain.
+    """
     rows = [row for joint, sign in loop for row in _joint_rows(system, joint, sign)]
     if not cut:
         no_frame = 2 * _frames(system)
@@ -174,7 +181,7 @@ def _chains(system: LoopSystem, loop: tuple[tuple[int, int], ...], cut: tuple[in
 
 
 def _joint_rows(system: LoopSystem, joint: int, sign: int) -> list[ChainRow]:
-    """The rows of a joint that is travelled from part 1 to part 2 (sign +1) or back (-1)."""
+    """Make the rows of a joint that is travelled from part 1 to part 2 (sign +1) or from part 2 to part 1 (-1)."""
     turned_as_ball = {column for columns in system.balls for column in columns}
     first_frame = tuple(accumulate(map(len, system.movements), initial=0))[joint]
     frames, no_row = _frames(system), _no_row(system)

@@ -1,7 +1,7 @@
-"""The equations of a loop system in the blocks in which they are solved: one block for each group of its order.
+"""Divide the equations of a loop system into the blocks in which they are solved: one for each group of its order.
 
-No block holds an unknown of a later one: the Jacobian is block lower triangular. Three systems of three equations cost
-a tenth of one of nine.
+No block depends on an unknown of a later block, so the Jacobian is block lower triangular. To solve three systems of
+three equations costs a tenth of solving one of nine.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from jaxkin.solve.system.loop_system import LoopSystem
 
 
 class EquationBlock(NamedTuple):
-    """Equations, and the unknowns that they are solved for when those of the blocks before are known."""
+    """Equations, and the unknowns that they are solved for once the unknowns of earlier blocks are known."""
 
     rows: tuple[int, ...]
     """Rows of the Jacobian, as `Closure.residual` has them."""
@@ -23,12 +23,12 @@ class EquationBlock(NamedTuple):
 
 @lru_cache(maxsize=256)
 def equation_blocks(system: LoopSystem) -> tuple[EquationBlock, ...]:
-    """The blocks of a system in the order in which they are solved; equations without any unknown left are in none."""
+    """List the blocks of a system in order of solution, without blocks that have no unknowns left."""
     return tuple(block for block in blocks_of_groups(system) if block.columns)
 
 
 def blocks_of_groups(system: LoopSystem) -> tuple[EquationBlock, ...]:
-    """The block of each group of `LoopSystem.order`; without columns where nothing is left to be solved for."""
+    """Make the block of each group of `LoopSystem.order`; its columns are empty if no unknown is left."""
     known: set[int] = set()
     found = []
     for group in system.order:

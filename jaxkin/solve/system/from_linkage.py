@@ -1,4 +1,4 @@
-"""From the structure elements of a linkage to the loop systems of the solver."""
+"""Make the loop systems of the solver from the loop groups of a linkage."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import LoopGroup
 
 Columns = tuple[tuple[int, int], ...]
-"""(joint, coordinate) of each."""
+"""(joint, coordinate) of each column, numbered as in the linkage."""
 
 
 class SolvedCoordinates(NamedTuple):
-    """The coordinates of a structure element that are columns of its loop system."""
+    """The coordinates of a loop group that are columns of its loop system, and those that rest."""
 
     columns: Columns
     movements: tuple[tuple[str, ...], ...]
-    """For each joint of the element the movements that are left of it."""
+    """For each joint of the loop group its movements, without translations along the normal of a planar group."""
     planar: bool
     """Whether all columns act in one plane."""
     at_rest: Columns
-    """Coordinates along the normal of the plane, which rest and are no columns."""
+    """Coordinates along the normal of the plane, which rest and are no columns of the system."""
 
 
 def solved_coordinates(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
 ) -> SolvedCoordinates:
-    """The coordinates that are solved or given in a structure element, of which `driven` are (joint, coordinate).
+    """Select the coordinates of a loop group that are solved or driven; `driven` are (joint, coordinate).
 
-    A planar element is solved in its plane, unless something is driven along the normal: what would move along the
-    normal rests.
+    A planar loop group is solved in its plane, with all coordinates along the normal at rest, unless a coordinate along
+    the normal is driven.
     """
     every = [(index, k) for index in loop_group.joints for k in range(linkage.joints[index].freedoms)]
     plane = {every[column] for column in loop_class.plane or ()}
@@ -60,17 +60,17 @@ def solved_coordinates(
     return SolvedCoordinates(tuple(inside), tuple(movements), planar, tuple(outside))
 
 
-def block_system(
+def group_system(
     linkage: Linkage,
     loop_group: LoopGroup,
     driven: Columns,
     loop_class: LoopClass,
     groups: Sequence[Sequence[Circuit]] = (),
 ) -> tuple[LoopSystem, Columns]:
-    """The loops of a structure element, and its columns; `driven` are (joint, coordinate), in any order.
+    """Make the loop system of a loop group, and list its columns; `driven` are (joint, coordinate), in any order.
 
-    `groups` are the loops that are solved together, in turn, of joints of the mechanism; by default all loops of the
-    structure are solved together.
+    `groups` are the sets of loops that are solved together, in order of solution, with joints numbered as in the
+    linkage; by default all loops of the structure are solved together.
     """
     columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
     circuits = tuple(loop for group in groups for loop in group) or loop_group.loops
@@ -88,7 +88,7 @@ def block_system(
     return LoopSystem(movements, loops, given, loop_class, order), columns
 
 
-def block_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
-    """Frames and pitches of the loop group's joints, of all joints of the mechanism."""
+def group_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
+    """Select the frames and pitches of the joints of a loop group from all `joints` of the linkage."""
     inside = [joints[joint] for joint in loop_group.joints]
     return Joints(*(tuple(getattr(joint, leaf) for joint in inside) for leaf in Joints._fields))

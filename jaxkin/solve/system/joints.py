@@ -1,4 +1,4 @@
-"""The numbers of a loop system: frames and pitches of its joints."""
+"""Hold the numbers of a loop system: frames and pitches of its joints."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from jaxtyping import Array, Float
 
 
 class Joints(NamedTuple):
-    """The joints of a loop system, one entry a joint, as in `Joint`."""
+    """Frames and pitches of the joints of a loop system, one entry a joint, in the unit of the mechanism: see
+    `Joint`."""
 
     frames_1: tuple[Float[Array, "frames 4 4"], ...]
     frames_2: tuple[Float[Array, "frames 4 4"], ...]

@@ -1,8 +1,7 @@
-"""A system of closed loops as the solver sees it: static, hashable, without numbers.
+"""Describe a system of closed loops for the solver: static, hashable, without floating-point numbers.
 
-A loop system holds the joints of one structure element (a single or multiple closed loop), the loops that run through
-these joints, the coordinates that are driven and the order of solution. The coordinates of all joints, one after
-another, are the columns of the Jacobian.
+A loop system holds the joints of one loop group, the loops through these joints, the coordinates that are driven, and
+the order of solution. The coordinates of all joints, one joint after another, are the columns of the Jacobian.
 """
 
 from __future__ import annotations
@@ -20,18 +19,21 @@ from jaxkin.linkage.loop_class import LoopClass
 
 
 class Sections(NamedTuple):
-    """Which loops in space have which equations, in the order in which they are rows of the Jacobian."""
+    """The loops in space by their kinds of equations, in the order of the rows of the Jacobian.
+
+    A loop may be in two sections: that of its rotation, and that of its translation.
+    """
 
     rotation: tuple[int, ...]
-    """Numbers of the loops of three equations of rotation."""
+    """Numbers of the loops with three equations of rotation."""
     spherical: tuple[int, ...]
-    """Numbers of the loops whose axes meet in one point, with three equations in all."""
+    """Numbers of the loops whose axes meet in one point: three equations in all."""
     one_rotation: tuple[int, ...]
-    """Numbers of the loops that turn about one direction only."""
+    """Numbers of the loops that turn about one direction only: one equation of rotation."""
     translation: tuple[int, ...]
-    """Numbers of the loops of three equations of translation; of those that are cut at a ball these are all."""
+    """Numbers of the loops with three equations of translation; a loop that is cut at a ball has no others."""
     rod_length: tuple[int, ...]
-    """Numbers of the loops that are cut at both balls of a rod, of which its length is left."""
+    """Numbers of the loops that are cut at both balls of a rod: one equation, for the length of the rod."""
 
 
 EQUATIONS_OF = (3, 3, 1, 3, 1)
@@ -39,32 +41,33 @@ EQUATIONS_OF = (3, 3, 1, 3, 1)
 
 
 class PlacedMovement(NamedTuple):
-    """A movement of a joint."""
+    """A movement of a joint, with its place in the loop system."""
 
     movement: str
     """Key of `MOVEMENTS`."""
     frame: int
-    """Which of the joint's frames it moves in."""
+    """Number of the frame of the joint in which it moves."""
     column: int
-    """Its first column."""
+    """First column of its coordinates."""
     ball: int | None
-    """Number of the ball that it turns; None where it turns none."""
+    """Number of the ball whose rotation it is; None if it is none."""
 
 
 @dataclass(frozen=True)
 class LoopSystem:
-    """Loops that share joints, which of their coordinates are given, and in which order the loops are solved."""
+    """The loops of a loop group, the columns that are driven, the class of the loops and their order of solution."""
 
     movements: tuple[tuple[str, ...], ...]
     """For each joint the keys of `MOVEMENTS` of its frames."""
     loops: tuple[tuple[tuple[int, int], ...], ...]
     """For each loop (joint, sign) in order of travel: +1 where travelled from part 1 to part 2, else -1."""
     driven: tuple[int, ...]
-    """Columns of the coordinates that are given, rising."""
+    """Columns of the driven coordinates, ascending."""
     loop_class: LoopClass
-    """What is special about the loops, so that they need fewer equations."""
+    """Properties by which the loops need fewer equations."""
     order: tuple[tuple[int, ...], ...] = ()
-    """Numbers of the loops that are solved together, in turn: each loop once. By default all loops are."""
+    """Groups in order of solution, each the numbers of the loops that are solved together; every loop is in one group.
+    By default all loops are one group."""
 
     def __post_init__(self) -> None:
         if not self.order:
@@ -84,9 +87,9 @@ class LoopSystem:
 
     @cached_property
     def balls(self) -> tuple[tuple[int, ...], ...]:
-        """For each ball the columns that turn it about the axes of its frame: three, or two of a line of centres.
+        """For each ball the columns of its rotation about the axes of its frame: three, or two for a line of centres.
 
-        Ball pairs come first, then the balls that are solved in place of angles that would lock.
+        Ball pairs come first, then the balls that replace pairs of movements whose angles would lock.
         """
         return tuple(columns for _, columns in self.places.values())
 
@@ -112,7 +115,7 @@ class LoopSystem:
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
 
     def axes(self, joints: Iterable[int]) -> list[tuple[int, int]]:
-        """(frame, axis) of each elementary motion of some joints; frames are counted through, those of all joints."""
+        """List (frame, axis) of each elementary motion of some joints; frames are numbered through all joints."""
         first = tuple(accumulate(map(len, self.movements), initial=0))
         return [
             (first[joint] + frame, element.axis)
@@ -148,11 +151,12 @@ class LoopSystem:
 
     @cached_property
     def cuts(self) -> tuple[tuple[int, ...], ...]:
-        """For each loop the balls that it is cut at: one, both of a rod, or none.
+        """For each loop the balls at which it is cut: none, one, or both balls of a rod.
 
-        A ball that is in no other loop turns as the rest of the loop wants it: what remains of the loop is that its
-        centre stays where it is, three equations in three coordinates less. What remains of a rod between two such
-        balls is that it keeps their centres at its length: one equation in six coordinates less.
+        A ball that is in no other loop takes up whatever rotation the rest of the loop leaves. The loop then only
+        demands that the centres of both sides of the ball coincide: three equations, and three coordinates less. A rod
+        between two such balls only demands that their centres are at its length: one equation, and six coordinates
+        less.
         """
         if self.planar or not self.loop_class.cut_at_balls:
             return ((),) * len(self.loops)
@@ -169,21 +173,22 @@ class LoopSystem:
 
     @cached_property
     def turned_balls(self) -> tuple[int, ...]:
-        """The numbers of the balls whose turns are unknowns, or given: those at which no loop is cut."""
+        """The numbers of the balls whose rotations are unknown or driven: those at which no loop is cut."""
         return tuple(sorted(set(range(len(self.balls))).difference(*self.cuts)))
 
     def _may_be_cut(self, columns: tuple[int, ...]) -> bool:
+        """Tell whether a loop may be cut at the ball with these columns: not driven, and no line of centres."""
         return len(columns) == 3 and columns[0] not in self.driven
 
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
-        """`LoopClass.spins`, but for those of balls that are driven."""
+        """`LoopClass.spins`, without rods that have a driven ball."""
         free = [columns[0] not in self.driven for columns in self.balls]
         return tuple(spin for spin in self.loop_class.spins if free[spin[0]] and free[spin[1]])
 
     @property
     def spinning(self) -> bool:
-        """Whether the loops leave the spin of any rod to least-norm steps: of a rod that is not cut at both balls."""
+        """Whether least-norm steps decide the idle spin of any rod: of a rod at which no loop is cut at both balls."""
         return any(ball in self.turned_balls for one, other, *_ in self.spins for ball in (one, other))
 
     @property
@@ -193,7 +198,7 @@ class LoopSystem:
 
     @cached_property
     def sections(self) -> Sections:
-        """Which loops in space have which equations."""
+        """The loops in space by their kinds of equations."""
         one, about_point = self.loop_class.schoenflies, self.loop_class.spherical
         uncut = [loop for loop, cut in enumerate(self.cuts) if not cut]
         spherical = tuple(loop for loop in uncut if loop in about_point)
@@ -207,7 +212,7 @@ class LoopSystem:
 
     @cached_property
     def rows(self) -> tuple[tuple[int, ...], ...]:
-        """For each loop its rows of the Jacobian: see `Closure.residual`."""
+        """For each loop the numbers of its rows of the Jacobian: see `Closure.residual`."""
         if self.planar:
             return tuple(tuple(range(IN_SUBGROUP * loop, IN_SUBGROUP * (loop + 1))) for loop in range(len(self.loops)))
         rows: list[tuple[int, ...]] = [()] * len(self.loops)
@@ -230,14 +235,13 @@ class LoopSystem:
 
     @cached_property
     def used(self) -> tuple[int, ...]:
-        """Columns that the equations are solved for: those that are not driven, but for the turns of balls at which a
-        loop is cut."""
+        """Columns that the equations are solved for: all that are not driven, nor of a ball at which a loop is cut."""
         follows = {column for cut in self.cuts for ball in cut for column in self.balls[ball]}
         return tuple(column for column in self.free if column not in follows)
 
     @cached_property
     def periodic(self) -> bool:
-        """Whether a single coordinate is driven and it is an angle: a full turn more is the same input."""
+        """Whether the only driven coordinate is the angle of a rotation: a full turn more is then the same input."""
         if len(self.driven) != 1:
             return False
         (driven,) = self.driven

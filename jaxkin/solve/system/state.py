@@ -1,10 +1,10 @@
-"""The configuration of a loop system: its coordinates, with the turn of every ball pair as a unit quaternion.
+"""Hold the state of a loop system: coordinates, with the rotation ("turn") of each ball as a unit quaternion.
 
-The three angles of a ball lock at phi = 90 deg, so the solver never uses the angles: a step multiplies the turn of a
-ball by `exp(delta)` on the left, and the angles are computed at the end only (`closure.joint_coordinates`). The line
-between the centres of two balls, contact state (p), turns about the two axes at right angles to the line, wherever it
-points: its turn is multiplied by `exp(delta)` on the right, without a turn about the line itself. Structure of arrays:
-the poses are the last axis of every array.
+The three angles of a ball lock at phi = 90 deg, so the solver does not use them: a step multiplies the quaternion of a
+ball by `exp(delta)` on the left, and angles are computed only at the end (`closure.joint_coordinates`). The line
+between the centres of two balls, contact state (p), rotates about two axes at right angles to the line, wherever it
+points: its quaternion is multiplied by `exp(delta)` on the right, without a rotation about the line itself. The poses
+are the last axis of every array.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from jaxkin.solve.system.loop_system import LoopSystem
 Coordinates = Float[Array, "columns poses"]
 Quaternions = Float[Array, "balls 4 poses"]
 Rotations = Float[Array, "3 3 poses"]
-"""[row, column]."""
+"""Rotation matrices, [row, column, pose]."""
 
 
 class State(NamedTuple):
-    """A configuration of a loop system, of many poses."""
+    """The states of a loop system at many poses."""
 
     x: Coordinates
-    """Coordinates of all joints, radians and lengths over the characteristic length; zero for balls not driven."""
+    """Coordinates of all joints, radians and lengths over the characteristic length; zero for free balls."""
     turns: Quaternions
-    """Quaternions (w, x, y, z) of part 2 relative to part 1, of `LoopSystem.turned_balls`."""
+    """Unit quaternions (w, x, y, z) of part 2 relative to part 1, for each ball of `LoopSystem.turned_balls`."""
 
 
 def assembled(system: LoopSystem, poses: int, dtype) -> State:
-    """Make the state of the assembled pose, where no joint is displaced, for so many poses."""
+    """Make the state of the assembled pose, in which all coordinates are zero, for a number of poses."""
     turn = jnp.array([1.0, 0.0, 0.0, 0.0], dtype)[None, :, None]
     return State(
         jnp.zeros((system.columns, poses), dtype), jnp.broadcast_to(turn, (len(system.turned_balls), 4, poses))
@@ -42,8 +42,11 @@ def assembled(system: LoopSystem, poses: int, dtype) -> State:
 
 
 def retract(system: LoopSystem, state: State, delta: Coordinates) -> State:
-    """Move a state by `delta`: added to the coordinates; of a ball the rotation vector by which its turn is multiplied
-    on the left."""
+    """Move a state by `delta`, which is added to the coordinates.
+
+    The columns of a free ball in `delta` are a rotation vector, by whose exponential its quaternion is multiplied on
+    the left. Quaternions are normalised.
+    """
     if not system.turned_balls:
         return State(state.x + delta, state.turns)
     turns = multiply(exponential(_of_balls(system, state, delta)), jnp.moveaxis(state.turns, 0, 1))
@@ -61,14 +64,17 @@ def rate(system: LoopSystem, state: State, delta: Coordinates) -> State:
 
 
 def difference(a: State, b: State) -> Float[Array, " poses"]:
-    """Measure how far two states are apart, pose by pose: the largest difference of a coordinate, or of a turn as an
-    angle, which is twice the difference of the quaternions."""
+    """Measure the distance between two states at each pose: the largest difference of a coordinate or of a ball's
+    angle.
+
+    The angle between two rotations is about twice the difference of their quaternions.
+    """
     largest = jnp.max(jnp.abs(a.x - b.x), axis=0)
     return jnp.maximum(largest, 2 * jnp.max(jnp.abs(a.turns - b.turns), axis=(0, 1), initial=0.0))
 
 
 def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]) -> State:
-    """Set the driven coordinates of a state; a ball is driven by its three angles theta, phi, psi."""
+    """Set the driven coordinates of a state to the inputs; a ball is driven by its three angles theta, phi, psi."""
     if not system.driven:
         return state
     state = State(jnp.where(is_driven(system), _spread(system, inputs), state.x), state.turns)
@@ -82,10 +88,10 @@ def drive(system: LoopSystem, state: State, inputs: Float[Array, "driven poses"]
 def driven_rate(
     system: LoopSystem, state: State, direction: Float[Array, "driven poses"]
 ) -> tuple[Coordinates, Coordinates]:
-    """Differentiate the driven coordinates along the inputs: as coordinates, and as columns of the Jacobian.
+    """Compute the rates of the driven coordinates for inputs at the rate `direction`: as coordinates, and as columns.
 
-    The two differ for a driven ball: its columns turn it about world axes, and while its angles change it turns by
-    `z psi' + Rz (y phi' + Ry x theta')`.
+    The two differ for a driven ball. Its coordinates are angles; its columns of the Jacobian are rotations about world
+    axes, with the angular velocity `z psi' + Rz (y phi' + Ry x theta')`.
     """
     change = jnp.where(is_driven(system), _spread(system, direction), 0.0)
     columns = change
@@ -104,7 +110,7 @@ def driven_rate(
 
 
 def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordinates:
-    """Spread inputs to their columns; the other columns hold any number, or zero where nothing is driven."""
+    """Copy inputs to the rows of their columns; the other rows are undefined, or zero if nothing is driven."""
     if not system.driven:
         return jnp.zeros((system.columns, inputs.shape[-1]), inputs.dtype)
     which = np.array([system.driven.index(c) if c in system.driven else 0 for c in range(system.columns)])
@@ -112,23 +118,23 @@ def _spread(system: LoopSystem, inputs: Float[Array, "driven poses"]) -> Coordin
 
 
 def driven(system: LoopSystem, x: Coordinates) -> Float[Array, "driven poses"]:
-    """Pick the driven ones among coordinates."""
+    """Select the driven coordinates."""
     return jnp.stack([x[column] for column in system.driven]) if system.driven else x[:0]
 
 
 def is_driven(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
-    """Mask the driven columns: in a compiled program a mask costs less than rows that are picked and put back."""
+    """Mask the driven columns: in a compiled program, a mask costs less than gathering and scattering rows."""
     return np.isin(np.arange(system.columns), system.driven)[:, None]
 
 
 def turning(system: LoopSystem) -> Bool[np.ndarray, "columns 1"]:
-    """Mask the columns of balls that are not driven: the turn of such a ball is in `State.turns`, not in `State.x`."""
+    """Mask the columns of balls that are not driven: their rotations are in `State.turns`, not in `State.x`."""
     turning = [column for columns in system.balls for column in columns if column not in system.driven]
     return np.isin(np.arange(system.columns), turning)[:, None]
 
 
 def _of_balls(system: LoopSystem, state: State, delta: Coordinates) -> Float[Array, "3 balls poses"]:
-    """Pick the rotation vectors of the balls, to be applied on the left; zero for balls that are driven."""
+    """Select the rotation vectors of the balls from `delta`, to be applied on the left; zero for driven balls."""
     balls = [system.balls[ball] for ball in system.turned_balls]
     none = system.columns
     which = np.array([(*columns, none)[:3] if columns[0] not in system.driven else [none] * 3 for columns in balls])
@@ -141,7 +147,7 @@ def _of_balls(system: LoopSystem, state: State, delta: Coordinates) -> Float[Arr
 
 
 def multiply(a: Float[Array, "4 *poses"], b: Float[Array, "4 *poses"]) -> Float[Array, "4 *poses"]:
-    """Product of quaternions: the turn b, then the turn a."""
+    """Multiply quaternions: the product rotates by b first, then by a."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
     return jnp.stack(
@@ -155,7 +161,7 @@ def multiply(a: Float[Array, "4 *poses"], b: Float[Array, "4 *poses"]) -> Float[
 
 
 def exponential(vector: Float[Array, "3 *poses"]) -> Float[Array, "4 *poses"]:
-    """The quaternion of a rotation vector."""
+    """Compute the unit quaternion of a rotation vector."""
     square = jnp.sum(vector * vector, axis=0)
     small = square < 1e-6
     angle = jnp.sqrt(jnp.where(small, 1.0, square))  # sqrt has no derivative at zero: the other branch is the series
@@ -166,7 +172,7 @@ def exponential(vector: Float[Array, "3 *poses"]) -> Float[Array, "4 *poses"]:
 
 
 def from_angles(angles: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
-    """The quaternion of T_theta_phi_psi = Rz(psi) Ry(phi) Rx(theta)."""
+    """Compute the unit quaternion of T_theta_phi_psi = Rz(psi) Ry(phi) Rx(theta) from theta, phi, psi in radians."""
     half = 0.5 * angles
     (ct, cp, cs), (st, sp, ss) = cos_sin(half)
     return jnp.stack(
@@ -180,7 +186,7 @@ def from_angles(angles: Float[Array, "3 poses"]) -> Float[Array, "4 poses"]:
 
 
 def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
-    """Columns of the rotation matrix of a unit quaternion: entry [column][row]."""
+    """Compute the rotation matrix of a unit quaternion as a list of columns: entry [column][row]."""
     w, x, y, z = turn
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)],
@@ -190,14 +196,15 @@ def rotation_matrix(turn: Float[Array, "4 *poses"]) -> list[list[Array]]:
 
 
 def matrix(turn: Float[Array, "4 *poses"]) -> Float[Array, "3 3 *poses"]:
-    """The rotation matrix of a unit quaternion, [row, column]."""
+    """Compute the rotation matrix of a unit quaternion, [row, column]."""
     return jnp.stack([jnp.stack(column) for column in rotation_matrix(turn)], axis=1)
 
 
 def angles(rotation: Float[Array, "3 3 *poses"]) -> Float[Array, "3 *poses"]:
-    """The paper's theta, phi, psi of rotation matrices; at phi = +-90 deg, where they lock, theta is taken as zero.
+    """Compute the paper's theta, phi, psi of rotation matrices; at phi = +-90 deg, where they lock, theta is zero.
 
-    However near to the lock, together they give the turn to rounding: psi and phi are read from what theta leaves.
+    The three angles give the rotation to rounding however near phi is to +-90 deg, because psi and phi are computed
+    from the rotation that is left after theta.
     """
     (_, xy, xz), (_, yy, yz), (zx, zy, zz) = rotation
     locked = zy * zy + zz * zz < 1e-30  # entries of rotation matrices are right to 1e-16

@@ -111,3 +111,9 @@ def test_a_part_twice_in_one_place_ends_in_a_mechanism():
     mechanism = assembly(base, *twice).mechanism(fixed=["base"])
     assert set(mechanism.parts) == {"base", "lever", "lever#2"}
     assert mechanism.mobility().freedoms >= 0
+
+
+def test_what_is_excluded_is_not_proposed_either():
+    drawn = assembly(*boxes(["base", "b", "c"]))
+    for proposal in drawn.without(["b*"]).proposals():
+        assert "base" not in proposal.fixed and "b" not in proposal.fixed

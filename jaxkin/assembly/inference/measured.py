@@ -1,0 +1,62 @@
+"""What is measured of the solids of an assembly: once, whatever is then fixed, left out or said of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, common_axes
+from jaxkin.assembly.inference.bores import Bore, bores
+from jaxkin.assembly.inference.embedded import share_inside
+from jaxkin.geometry.part import Part
+
+CORNERS = 12
+"""Corners of a part, the nearest to the box of the other one, from which distances are measured."""
+
+
+class Measured:
+    """Solids with what was measured of them so far: several mechanisms are tried for one assembly."""
+
+    def __init__(self, parts: Sequence[Part]) -> None:
+        self.parts = tuple(parts)
+        self._axes: dict[float | None, list[CommonAxis]] = {}
+        self._inside: dict[tuple[str, str], float] = {}
+        self._distances: dict[frozenset[str], float] = {}
+
+    @cached_property
+    def bores(self) -> dict[str, list[Bore]]:
+        """Bores and pins of each part."""
+        return {part.name: bores(part) for part in self.parts}
+
+    def axes(self, clearance: float | None) -> list[CommonAxis]:
+        """Common axes of different parts: see `common_axes`."""
+        if clearance not in self._axes:
+            self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
+        return self._axes[clearance]
+
+    def share_inside(self, part: Part, other: Part) -> float:
+        """The share of a part's corners that lie in the material of another one."""
+        key = part.name, other.name
+        if key not in self._inside:
+            self._inside[key] = share_inside(part, other)
+        return self._inside[key]
+
+    def distance(self, one: Part, other: Part) -> float:
+        """Distance between two parts: of some corners of either from the triangles of the other."""
+        key = frozenset((one.name, other.name))
+        if key not in self._distances:
+            self._distances[key] = min(_from_corners(one, other), _from_corners(other, one))
+        return self._distances[key]
+
+
+def _from_corners(one: Part, other: Part) -> float:
+    from trimesh.triangles import closest_point
+
+    corners = one.triangles.reshape(-1, 3)
+    away = np.linalg.norm(np.maximum(np.maximum(other.box[0] - corners, corners - other.box[1]), 0.0), axis=1)
+    corners = corners[np.argsort(away, kind="stable")[:CORNERS]]
+    triangles = np.repeat(other.triangles[None], len(corners), axis=0).reshape(-1, 3, 3)
+    points = np.repeat(corners, len(other.triangles), axis=0)
+    return float(np.linalg.norm(closest_point(triangles, points) - points, axis=1).min())
