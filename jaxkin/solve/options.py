@@ -27,9 +27,9 @@ see `jaxkin.solve.reference_methods.minimise`. "dfp" is the method of the paper.
 class SolverOptions:
     """How poses are found: accuracy, method, limits on the work, cores. Immutable and hashable.
 
-    A sweep is compiled anew for other values of all fields but `tolerance`, `cores` and `min_shard_poses`; the latter
-    two only decide into how many shards a long range is cut, for each number of which a program is compiled. Raises
-    ValueError for a value that a field cannot have.
+    A sweep is compiled anew for other values of all fields but `tolerance`, `formulas`, `cores` and `min_shard_poses`;
+    the latter two only decide into how many shards a long range is cut, for each number of which a program is compiled.
+    Raises ValueError for a value that a field cannot have.
     """
 
     tolerance: float | None = None
@@ -37,6 +37,12 @@ class SolverOptions:
     which a pose is improved no further. None: 1e-12 (2e-6 in float32), and poses improved down to rounding."""
     method: str = CONTINUATION
     """One of `METHODS`."""
+    formulas: bool = True
+    """Whether the poses of loops that have a formula are computed by it (`mechanism.plan(drive)` says which; the
+    continuation only). Where a formula does not prove that the motion leads to every pose of a sweep, such as behind a
+    limit, the general solver finds all poses of that sweep; but not where JAX traces the geometry, as `vmap` over
+    designs does. There poses are UNREACHABLE or JUMPED by their formula, not brought to the least residual, and
+    STALLED where a change point is passed. False: the general solver, which follows limits and change points."""
     max_steps: int | None = None
     """Steps of the continuation to either side of the assembled pose, at most; poses that they do not reach are
     STALLED. None: 1024, or 2 a pose (12 with several inputs) of at most 1024 poses, whichever is more."""
@@ -64,14 +70,16 @@ class SolverOptions:
             raise ValueError(
                 f"there is no method {self.method!r} among {', '.join(METHODS)}{closest(self.method, METHODS)}"
             )
+        if not isinstance(self.formulas, bool):
+            raise ValueError(f"formulas must be True or False, got {self.formulas!r}")
         for field in fields(self):
-            if field.name not in ("tolerance", "method"):
+            if field.name not in ("tolerance", "method", "formulas"):
                 object.__setattr__(self, field.name, _count(field.name, getattr(self, field.name), field.default))
 
     @property
     def of_program(self) -> SolverOptions:
         """The options that the code of a program depends on; the others at their defaults."""
-        return replace(self, tolerance=None, cores=None, min_shard_poses=SolverOptions.min_shard_poses)
+        return replace(self, tolerance=None, formulas=True, cores=None, min_shard_poses=SolverOptions.min_shard_poses)
 
 
 def options_with(options: SolverOptions | None, tolerance: Any = None, method: str | None = None) -> SolverOptions:

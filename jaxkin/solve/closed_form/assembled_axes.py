@@ -1,4 +1,4 @@
-"""The axes of the elementary motions of a loop system in the assembled pose (host code: numpy, no compilation).
+"""Find the axes of the elementary motions of a loop system in the assembled pose.
 
 The closure of a chain is E_1(q_1) E_2(q_2) ... E_n(q_n) M = 1. Every E is a turn about, or a slide along, its axis in
 the assembled pose; M is what is left open there, and 1 unless dimensions were changed.
@@ -6,16 +6,20 @@ the assembled pose; M is what is left open there, and 1 unless dimensions were c
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._traced import traced
+from jaxkin.geometry.trig import TURN
 from jaxkin.solve.system.chain_tables import AXES, chain_tables
-from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.joints import Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 
 Numbers = Float[Array | np.ndarray, "..."]
+Poses = Float[Array | np.ndarray, "chains 4 4"]
 
 
 class Axes(NamedTuple):
@@ -44,46 +48,38 @@ class Axes(NamedTuple):
 
 
 def assembled_axes(system: LoopSystem, joints: Joints) -> Axes:
-    """Find the axes from the frames of the joints, which must be numbers."""
+    """Find the axes from the frames of the joints: in NumPy, without compiling anything, unless JAX traces them."""
+    xp: Any = jnp if traced(joints) else np
     table = chain_tables(system)
-    frames_1, frames_2 = ([np.asarray(frames, float) for frames in side] for side in joints[:2])
-    origins = np.concatenate([frames[:, :3, 3] for frames in frames_1])
-    centre = origins.mean(axis=0)
-    radius = np.sqrt(np.mean(np.sum((origins - centre) ** 2, axis=1)))
-    length = radius if radius > 0 else 1.0
-    frames = np.concatenate([*frames_1, *frames_2])
-    frames[:, :3, 3] = (frames[:, :3, 3] - centre) / length
-    frames = np.concatenate([frames, np.eye(4)[None]])
-
-    pose, poses = _inverse(frames[table.begin]), []
-    for enter, leave, axis in zip(table.enter, table.leave, table.axis, strict=True):
-        along = np.zeros((len(axis), 4, 4))
-        along[:, :3, :3], along[:, 3, 3] = AXES[axis], 1.0
-        poses.append(pose @ frames[enter] @ along)
-        pose = poses[-1] @ _inverse(frames[leave] @ along)
-    found, last = np.stack(poses), pose @ frames[table.end]
+    frames, length = scaled_frames(joints.frames_1, joints.frames_2, xp)
+    pose, poses = _inverse(frames[table.begin], xp), []
+    along = np.zeros((*table.axis.shape, 4, 4))
+    along[..., :3, :3], along[..., 3, 3] = AXES[table.axis], 1.0
+    for enter, leave, axis in zip(table.enter, table.leave, along, strict=True):
+        poses.append(pose @ frames[enter] @ axis)
+        pose = poses[-1] @ _inverse(frames[leave] @ axis, xp)
+    found, last = xp.stack(poses), pose @ frames[table.end]
     direction, point = found[..., :3, 2], found[..., :3, 3]
-    sense = table.sign * ((table.turn + table.slide) > 0)
-    pitch = np.asarray([float(pitch) for pitch in joints.pitch]) / length
-    advance = table.slide + table.screw * pitch[table.joint] / (2 * np.pi)
+    sense = (table.sign * ((table.turn + table.slide) > 0)).astype(float)
+    pitch = xp.stack([xp.asarray(pitch, float) for pitch in joints.pitch]) / length
+    advance = table.slide + table.screw * pitch[table.joint] / TURN
     turn, shift = last[:, :3, :3], last[:, :3, 3]
     if not system.planar:
-        return Axes(direction, point, sense.astype(float), advance, turn, shift, np.zeros(()), np.asarray(length))
+        return Axes(direction, point, sense, advance, turn, shift, xp.zeros(()), length)
 
     moves = table.column < system.columns
-    row, chain = np.argwhere(moves & (table.turn > 0))[0]
-    plane, normal = found[row, chain, :3, :2].T, direction[row, chain]
     turns = moves & (table.turn > 0)
-    tilt = np.where(turns, np.sum(np.cross(direction, normal) ** 2, axis=-1), (direction @ normal) ** 2)
-    off = np.sum(tilt[moves]) + np.sum((turn @ normal - normal) ** 2) + np.sum((shift @ normal) ** 2)
-    sense = np.where(turns, sense * np.sign(direction @ normal), sense)
-    flat = np.einsum("ai,cij,bj->cab", plane, turn, plane)
-    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off, np.asarray(length))
+    row, chain = np.argwhere(turns)[0]
+    plane, normal = found[row, chain, :3, :2].T, direction[row, chain]
+    facing = direction @ normal
+    tilt = xp.where(turns, xp.sum(xp.cross(direction, normal) ** 2, axis=-1), facing**2)
+    off = xp.sum(xp.where(moves, tilt, 0.0)) + xp.sum((turn @ normal - normal) ** 2) + xp.sum((shift @ normal) ** 2)
+    sense = xp.where(turns, sense * xp.sign(facing), sense)
+    flat = xp.einsum("ai,cij,bj->cab", plane, turn, plane)
+    return Axes(direction @ plane.T, point @ plane.T, sense, advance, flat, shift @ plane.T, off, length)
 
 
-def _inverse(poses: Float[np.ndarray, "chains 4 4"]) -> Float[np.ndarray, "chains 4 4"]:
-    turned = poses[:, :3, :3].swapaxes(1, 2)
-    found = np.zeros_like(poses)
-    found[:, :3, :3], found[:, 3, 3] = turned, 1.0
-    found[:, :3, 3] = -np.einsum("cij,cj->ci", turned, poses[:, :3, 3])
-    return found
+def _inverse(poses: Poses, xp: Any) -> Poses:
+    turned = xp.swapaxes(poses[:, :3, :3], 1, 2)
+    moved = -xp.einsum("cij,cj->ci", turned, poses[:, :3, 3])
+    return xp.concatenate([xp.concatenate([turned, moved[..., None]], axis=-1), poses[:, 3:, :]], axis=-2)

@@ -31,10 +31,11 @@ class Solved(NamedTuple):
     """Of every group, over its largest possible value."""
 
 
-def branch_signs(system: LoopSystem, axes: Axes) -> list[Number]:
-    """The sign of the branch of every group in the assembled pose, in which all coordinates are taken as zero."""
+def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
+    """The signed root of the discriminant of every group in the assembled pose, in which all coordinates are taken as
+    zero: its sign is that of the branch."""
     rest: Coordinates = [jnp.zeros(1, axes.centre.dtype)] * system.columns
-    return [jnp.sign(_signed_root(system, axes, formula, rest)) for formula in _formulas(system)]
+    return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
 
 def solve_groups(system: LoopSystem, axes: Axes, signs: list[Number], inputs: Float[Array, "driven poses"]) -> Solved:

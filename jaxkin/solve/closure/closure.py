@@ -11,12 +11,11 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
-from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.joints import Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven
 
@@ -54,20 +53,10 @@ def loop_geometry(
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of the loops from the frames of the joints, and the characteristic length.
 
-    All arguments have one entry a joint, in the unit of the mechanism. The origin is moved to the centroid of the
-    frames on part 1, and lengths are divided by the root-mean-square distance of these frames from the centroid (the
-    characteristic length), so that no result depends on unit or origin. Centroid and characteristic length are
-    constants in derivatives, in which they cancel.
+    All arguments have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
-    origins = lax.stop_gradient(jnp.concatenate([frames[:, :3, 3] for frames in frames_1]))
-    centre = jnp.mean(origins, axis=0)
-    radius = jnp.sqrt(jnp.mean(jnp.sum((origins - centre) ** 2, axis=1)))
-    length = jnp.where(radius > 0, radius, 1.0)
-
-    frames = jnp.concatenate([*frames_1, *frames_2])
-    frames = frames.at[:, :3, 3].set((frames[:, :3, 3] - centre) / length)
-    frames = jnp.concatenate([frames, jnp.eye(4, dtype=frames.dtype)[None]])
+    frames, length = scaled_frames(frames_1, frames_2)
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
     return planar_geometry(system, space) if system.planar else space, length
 

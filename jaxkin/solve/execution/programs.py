@@ -13,17 +13,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Float, Int
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._traced import traced
-from jaxkin.solve.closed_form.assembled_axes import Axes
-from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, find_poses_by_formula
+from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.group_formulas import why_not_all
+from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, displacements_by_formula, find_poses_by_formula
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.poses import Poses
 from jaxkin.solve.range.solve_range import displacements, find_poses, shard
-from jaxkin.solve.status import ClosureTolerance, Status
+from jaxkin.solve.status import ClosureTolerance, Status, default_tolerance
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -41,6 +42,9 @@ The operations of the program take a few microseconds each. To call a library fo
 forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
 for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
 """
+
+Given = Float[Array | np.ndarray, "driven poses"]
+"""Inputs, radians or lengths of the mechanism."""
 
 _traces = 0
 """Number of programs that find poses and were traced in this process."""
@@ -69,21 +73,25 @@ def solve(
     `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas: the general
     program is compiled only if the formulas do not prove that the motion leads to every pose.
     """
-    if not traced((joints, inputs, tolerance)):
-        by_formula = _solve_by_formula(system, options, joints, inputs, tolerance, axes)
-        if by_formula is None:
-            return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
-        displaced, (poses, _) = by_formula
-        return displaced, Outcome(poses.status, poses.residual_norm)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
-    by_formula = None if traced(numbers) else _solve_by_formula(system, options, *numbers, axes)
-    if by_formula is None:
+    if traced(numbers):
+        if _formulas_suffice(system, options, inputs, axes):
+            found = _formula_poses_program()(system, *numbers)
+            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
         # compiler options apply to whole programs only: inside a traced function, the search is part of its program
-        poses = _poses_program(whole=not traced(numbers))(system, options.of_program, *numbers)
-    else:
-        poses = by_formula[1].poses
-    found = _displacements_program(system, joints, inputs, poses)
-    return found, Outcome(poses.status, poses.residual_norm)
+        return _differentiable(system, joints, inputs, _poses_program(False)(system, options.of_program, *numbers))
+    by_formula = axes is not None and _has_formulas(system, options, inputs)
+    # ranges that are interpolated cost less a pose than formulas
+    by_formula = by_formula and inputs.shape[1] < options.interpolate_from
+    if traced((joints, inputs)):
+        if by_formula and bool((found := _formula_poses_program()(system, *numbers)).proven):
+            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
+        return _differentiable(system, joints, inputs, _poses_program(True)(system, options.of_program, *numbers))
+    if by_formula:
+        displaced, outcome, proven = _formula_program()(system, joints, axes, inputs, tolerance)
+        if bool(proven):
+            return displaced, outcome
+    return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
 
 
 def compilations() -> int:
@@ -91,35 +99,52 @@ def compilations() -> int:
     return _traces
 
 
-def _solve_by_formula(
-    system: LoopSystem,
-    options: SolverOptions,
-    joints: Joints,
-    inputs: Float[Array | np.ndarray, "driven poses"],
-    tolerance: ClosureTolerance,
-    axes: Axes | None,
-) -> tuple[Float[Array, "columns poses"], FormulaPoses] | None:
-    """Solve for numbers that are known by formulas; None where they do not prove their poses.
+def _has_formulas(system: LoopSystem, options: SolverOptions, inputs: Given) -> bool:
+    """Whether all poses of a system may be computed by formulas."""
+    asked = options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
+    return asked and why_not_all(system) is None
 
-    Ranges that are interpolated are left to the general program, whose poses cost less there than formulas.
+
+def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None) -> bool:
+    """Whether a traced range is left to formulas alone: where the geometry is traced, too, or has no limit in a turn.
+
+    Where only the inputs are traced, a mechanism that has limits gets the general program, which follows them.
     """
-    if (
-        axes is None
-        or options.method != CONTINUATION
-        or inputs.shape[1] >= options.interpolate_from
-        or inputs.dtype != np.float64
-    ):
-        return None
-    found = _formula_program()(system, joints, axes, inputs, tolerance)
-    return found if bool(found[1].proven) else None
+    if not _has_formulas(system, options, inputs):
+        return False
+    return axes is None or (system.periodic and _passes_a_turn(system, axes))
+
+
+def _passes_a_turn(system: LoopSystem, axes: Axes) -> bool:
+    """Whether the formulas prove that the input makes a full turn, for axes that are known."""
+    with jax.ensure_compile_time_eval():
+        tolerance = ClosureTolerance(*[np.asarray(default_tolerance(np.float64))] * 2)
+        return bool(_turn_program()(system, axes, np.zeros((1, 1)), tolerance).passes_a_turn)
+
+
+def _outcome(poses: Poses) -> Outcome:
+    return Outcome(poses.status, poses.residual_norm)
+
+
+def _differentiable(
+    system: LoopSystem, joints: Joints, inputs: Given, poses: Poses
+) -> tuple[Float[Array, "columns poses"], Outcome]:
+    return _displacements_program(system, joints, inputs, poses), _outcome(poses)
 
 
 def _by_formula(
     system: LoopSystem, joints: Joints, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
-) -> tuple[Float[Array, "columns poses"], FormulaPoses]:
+) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
     _count_trace()
     found = find_poses_by_formula(system, axes, inputs, tolerance)
-    return displacements(system, joints, inputs, found.poses), found
+    return displacements_by_formula(system, joints, inputs, found), _outcome(found.poses), found.proven
+
+
+def _poses_by_formula(
+    system: LoopSystem, joints: Joints, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+) -> FormulaPoses:
+    _count_trace()
+    return find_poses_by_formula(system, assembled_axes(system, joints), inputs, tolerance)
 
 
 def _solve_numbers(
@@ -197,6 +222,18 @@ def _solve_program():
 def _formula_program():
     """The program of a plain sweep whose poses are formulas: poses and displacements."""
     return jax.jit(_by_formula, static_argnames="system", **jit_options())
+
+
+@cache
+def _formula_poses_program():
+    """The program of poses that are formulas, of which the displacements are differentiated."""
+    return jax.jit(_poses_by_formula, static_argnames="system")
+
+
+_formula_displacements_program = jax.jit(displacements_by_formula, static_argnames="system")
+"""Displacements from poses that were found by formulas: the program that is differentiated."""
+_turn_program = cache(lambda: jax.jit(find_poses_by_formula, static_argnames="system"))
+"""The program that tells whether a full turn is passed."""
 
 
 @cache

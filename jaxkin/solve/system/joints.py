@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
+
+Frames = Float[Array | np.ndarray, "_ 4 4"]
 
 
 class Joints(NamedTuple):
@@ -14,3 +20,26 @@ class Joints(NamedTuple):
     frames_1: tuple[Float[Array, "frames 4 4"], ...]
     frames_2: tuple[Float[Array, "frames 4 4"], ...]
     pitch: tuple[Float[Array, ""], ...]
+
+
+def scaled_frames(
+    frames_1: Sequence[Frames], frames_2: Sequence[Frames], xp: Any = jnp
+) -> tuple[Frames, Float[Array | np.ndarray, ""]]:
+    """Compute all frames without unit and origin, and the characteristic length; by `xp`, jax.numpy or numpy.
+
+    All frames on parts 1 come first, then those on parts 2, then the identity. The origin is moved to the centroid of
+    the frames on part 1, and lengths are divided by the root-mean-square distance of these frames from the centroid
+    (the characteristic length), so that no result depends on unit or origin. Centroid and characteristic length are
+    constants in derivatives, in which they cancel.
+    """
+    origins = xp.concatenate([xp.asarray(frames, float)[:, :3, 3] for frames in frames_1])
+    origins = lax.stop_gradient(origins) if xp is jnp else origins
+    centre = xp.mean(origins, axis=0)
+    radius = xp.sqrt(xp.mean(xp.sum((origins - centre) ** 2, axis=1)))
+    length = xp.where(radius > 0, radius, 1.0)
+    frames = xp.concatenate([*(xp.asarray(each, float) for each in (*frames_1, *frames_2)), xp.eye(4)[None]])
+    shift = (frames[:-1, :3, 3] - centre) / length
+    if xp is jnp:
+        return frames.at[:-1, :3, 3].set(shift), length
+    frames[:-1, :3, 3] = shift
+    return frames, np.asarray(length)
