@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin.geometry.pose import frame
 from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, default_tolerance
 from reference.hard_case import TURN, off_turns
 from reference.random_linkages import Array, Linkage
@@ -57,7 +58,7 @@ class Count:
         return "".join(f"{v:>11.0e}" if isinstance(v, float) else f"{v:>11}" for v in vars(self).values())
 
 
-def sweeps(linkage: Linkage) -> Callable:
+def sweeps(linkage: Linkage, options: SolverOptions | None = None) -> Callable:
     """The sweeps of many designs in one compiled program: (designs, joints, 4, 4) frames and (designs, poses) inputs to
     displacements, status and residual.
 
@@ -70,7 +71,7 @@ def sweeps(linkage: Linkage) -> Callable:
     def one(given: tuple[jax.Array, jax.Array]):
         frames, inputs = given
         names = [name for name, *_ in linkage.joints]
-        motion = template.with_frames(dict(zip(names, frames, strict=True))).sweep({"A": inputs})
+        motion = template.with_frames(dict(zip(names, frames, strict=True))).sweep({"A": inputs}, options=options)
         return motion.displacements, motion.status, motion.residual
 
     return jax.jit(lambda frames, inputs: jax.lax.map(one, (frames, inputs)), **jit_options())

@@ -17,11 +17,14 @@ def test_options_are_hashable_and_equal_by_value():
     assert jk.SolverOptions(max_steps=9) == jk.SolverOptions(max_steps=9) != jk.SolverOptions()
 
 
+NEWTON = jk.SolverOptions(formulas=False)
+
+
 def test_a_shorthand_is_the_option():
     mechanism = planar_fourbar(1.0)
-    short = mechanism.sweep({"A": TURN}, tolerance=1e-3)
-    options = mechanism.sweep({"A": TURN}, options=jk.SolverOptions(tolerance=1e-3))
-    assert short.options == options.options == jk.SolverOptions(tolerance=1e-3)
+    short = mechanism.sweep({"A": TURN}, tolerance=1e-3, options=NEWTON)
+    options = mechanism.sweep({"A": TURN}, options=jk.SolverOptions(tolerance=1e-3, formulas=False))
+    assert short.options == options.options == jk.SolverOptions(tolerance=1e-3, formulas=False)
     np.testing.assert_array_equal(short.coordinates["D"], options.coordinates["D"])
     assert 1e-9 < np.max(short.residual) <= 1e-3  # improved no further than asked for
 
@@ -47,7 +50,8 @@ def test_an_option_at_its_default_compiles_nothing():
 def test_poses_do_not_depend_on_the_iterations_of_newtons_method():
     """What few iterations leave open the damped corrector closes, to the same tolerance."""
     mechanism = planar_fourbar(1.0)
-    usual, few = (mechanism.sweep({"A": TURN}, options=jk.SolverOptions(newton_iterations=n)) for n in (4, 1))
+    options = [jk.SolverOptions(newton_iterations=n, formulas=False) for n in (4, 1)]
+    usual, few = (mechanism.sweep({"A": TURN}, options=each) for each in options)
     assert np.all(few.status == jk.Status.CLOSED)
     # residuals of 1e-12 over singular values of some 0.1
     np.testing.assert_allclose(few.coordinates["D"], usual.coordinates["D"], atol=1e-10)
@@ -56,7 +60,7 @@ def test_poses_do_not_depend_on_the_iterations_of_newtons_method():
 def test_few_steps_leave_poses_stalled():
     """A step is at most 0.3 long: three of them do not pass 0.9 in either direction."""
     wide = np.linspace(-3.0, 3.0, 20)
-    motion = planar_fourbar(1.0).sweep({"A": wide}, options=jk.SolverOptions(max_steps=3))
+    motion = planar_fourbar(1.0).sweep({"A": wide}, options=jk.SolverOptions(max_steps=3, formulas=False))
     beyond = np.abs(wide) > 0.9
     assert set(np.asarray(motion.status)[beyond].tolist()) == {jk.Status.STALLED}
 
@@ -75,8 +79,8 @@ def test_a_traced_tolerance_is_no_static_option():
     mechanism = planar_fourbar(1.0)
 
     def swept(tolerance):
-        motion = mechanism.sweep({"A": TURN}, tolerance=tolerance)
-        assert motion.options == jk.SolverOptions()
+        motion = mechanism.sweep({"A": TURN}, tolerance=tolerance, options=NEWTON)
+        assert motion.options == NEWTON
         return motion.residual
 
     assert 1e-9 < np.max(jax.jit(swept)(1e-3)) <= 1e-3
@@ -110,12 +114,13 @@ def test_saying_a_thing_twice_or_otherwise_is_refused():
 
 
 def test_effects_use_the_options_of_the_motion():
-    """At a coarse tolerance the poses, and so the rates, are off by about as much."""
+    """At a coarse tolerance the poses of Newton's method, and so the rates, are off by about as much."""
     mechanism, turn = planar_fourbar(1.0), jnp.asarray(TURN)
-    fine, coarse = (mechanism.sweep({"A": turn}, tolerance=tolerance) for tolerance in (None, 1e-3))
+    fine, coarse = (jk.SolverOptions(tolerance=tolerance, formulas=False) for tolerance in (None, 1e-3))
+    fine, coarse, finer = (mechanism.sweep({"A": turn}, options=options) for options in (fine, coarse, fine))
     exact, rates, asked = (
         jk.velocities(motion, {"A": 1.0}, options=options).coordinates["D"]
-        for motion, options in ((fine, None), (coarse, None), (coarse, jk.SolverOptions()))
+        for motion, options in ((fine, None), (coarse, None), (coarse, finer.options))
     )
     assert 1e-9 < np.max(np.abs(rates - exact)) < 1e-1
     np.testing.assert_array_equal(asked, exact)

@@ -104,10 +104,17 @@ def find_poses_by_formula(
     if system.periodic:
         # the assembled pose is the first node as well as the last
         forward, backward = way(jnp.zeros_like(low)), way(jnp.full_like(low, NODES - 1.0))
-        passes_a_turn = intervals.blocked[-1] == 0
-        winding = jnp.where(passes_a_turn, forward.path[:, -1:] - backward.path[:, -1:], 0.0)
-        expected = jnp.where(forward.passed, forward.expected + winding * turns, backward.expected)
-        passed, crossed = forward.passed | backward.passed, forward.crossed & backward.crossed
+        passes_a_turn, any_limit = intervals.blocked[-1] == 0, intervals.beyond[-1] > 0
+        rising, first_turn = values >= 0, (turns == 0) | (turns == -1)
+        direct = jnp.where(rising, forward.passed, backward.passed) & first_turn | passes_a_turn
+        crossed = jnp.where(first_turn, jnp.where(rising, forward.crossed, backward.crossed), any_limit)
+        # behind a limit, but in the same place as a pose on the other side of the assembled one
+        around = crossed & (forward.passed | backward.passed)
+        crossed = forward.crossed & backward.crossed
+        passed = direct | around
+        of_turns = jnp.where(passes_a_turn, forward.path[:, -1:] - backward.path[:, -1:], 0.0) * turns
+        by_forward = jnp.where(direct & ~passes_a_turn, rising, forward.passed)
+        expected = jnp.where(by_forward, forward.expected + of_turns, backward.expected)
     else:
         _, expected, passed, crossed = way(jnp.clip(-low / spacing, 0.0, NODES - 1.0))
         passes_a_turn = jnp.zeros((), bool)
