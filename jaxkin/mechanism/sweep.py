@@ -206,8 +206,7 @@ def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):
             whole[:poses], whole[poses:] = row, row[-1]
-        # inside a function that is being traced what is put on the device counts as such
-        return jax.device_put(padded) if traced(jax.device_put(padded[:, :0])) else padded
+        return padded
     inputs = jnp.stack(rows)
     return inputs if traced(lax.stop_gradient(inputs)) else jnp.pad(inputs, ((0, 0), (0, length - poses)), mode="edge")
 

@@ -8,6 +8,7 @@ compiled program has the options at hand: correctors and continuation as `proble
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -82,6 +83,9 @@ class SolverOptions:
         return replace(self, tolerance=None, formulas=True, cores=None, min_shard_poses=SolverOptions.min_shard_poses)
 
 
+_defaults = cache(SolverOptions)
+
+
 def options_with(options: SolverOptions | None, tolerance: Any = None, method: str | None = None) -> SolverOptions:
     """Put the shorthands `tolerance=` and `method=` of a call into its options.
 
@@ -92,7 +96,7 @@ def options_with(options: SolverOptions | None, tolerance: Any = None, method: s
         raise ValueError(
             f"options must be a jk.SolverOptions, such as jk.SolverOptions(tolerance=1e-9), got {options!r}"
         )
-    options = options or SolverOptions()
+    options = options or _defaults()
     if tolerance is not None:
         _refuse_both("tolerance", tolerance, options.tolerance, None)
         if not traced(tolerance):

@@ -8,6 +8,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.trig import angle
+
 Number = Float[Array | np.ndarray, "*#poses"] | float
 """One number a pose, or one for all poses."""
 
@@ -33,12 +35,6 @@ def ratio(part: Number, whole: Number) -> Number:
     return jnp.where(positive, part / jnp.where(positive, whole, 1.0), 0.0)
 
 
-def direction(sin: Number, cos: Number) -> Number:
-    """Compute atan2(sin, cos); zero with zero derivative where both are zero."""
-    undefined = (sin == 0) & (cos == 0)
-    return jnp.where(undefined, 0.0, jnp.arctan2(jnp.where(undefined, 0.0, sin), jnp.where(undefined, 1.0, cos)))
-
-
 def solve_turn(a: Number, b: Number, c: Number, sign: Number) -> Root:
     """Solve a cos x + b sin x = c for the angle x.
 
@@ -49,7 +45,7 @@ def solve_turn(a: Number, b: Number, c: Number, sign: Number) -> Root:
     radius = root(square)
     product = (radius - c) * (radius + c)
     slope = sign * root(product)
-    return Root(direction(b * c - a * slope, a * c + b * slope), ratio(product, square))
+    return Root(angle(b * c - a * slope, a * c + b * slope), ratio(product, square))
 
 
 def solve_slide(half: Number, square: Number, whole: Number, sign: Number) -> Root:

@@ -17,7 +17,8 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 
-from jaxkin.solve.closed_form.equations import Number, direction, ratio, root, solve_slide
+from jaxkin.geometry.trig import angle
+from jaxkin.solve.closed_form.equations import Number, ratio, root, solve_slide
 
 
 class Complex(NamedTuple):
@@ -208,7 +209,7 @@ def _square(vector: Complex) -> Number:
 
 
 def _angle(number: Complex) -> Number:
-    return direction(number.imag, number.real)
+    return angle(number.imag, number.real)
 
 
 def _cross(one: Complex, other: Complex) -> Number:

@@ -89,7 +89,7 @@ def find_poses_by_formula(
     turning = _unwrapped(system)
     steps = jnp.diff(of_nodes.x, axis=1)
     steps = steps - turning * TURN * jnp.round(steps / TURN)
-    path = jnp.concatenate([jnp.zeros_like(start.x), jnp.cumsum(steps, axis=1)], axis=1) + of_nodes.x[:, :1]
+    path = of_nodes.x[:, :1] + _sum_before(steps)
     intervals = _intervals(of_nodes.discriminant, jnp.max(jnp.abs(turning * steps), axis=0) > MAX_TURN)
     spacing = jnp.where(high > low, (high - low) / (NODES - 1), 1.0)
     position = jnp.clip((within - low) / spacing, 0.0, NODES - 1.0)
@@ -142,17 +142,28 @@ def displacements_by_formula(
     Displacements are in radians and lengths of the mechanism. The derivatives are those of the formulas; a pose that
     did not close has derivatives of zero.
     """
-    axes, state = assembled_axes(system, joints), lax.stop_gradient(found.poses.state)
+    axes = assembled_axes(system, joints)
     closed = is_closed(found.poses.status)
     values = jnp.where(closed, _scaled(system, axes, inputs), 0.0)
     solved = solve_groups(system, axes, lax.stop_gradient(found.signs), values).x
-    x = state.x + jnp.where(closed, solved - lax.stop_gradient(solved), 0.0)
+    x = lax.stop_gradient(found.poses.state.x) + jnp.where(closed, solved - lax.stop_gradient(solved), 0.0)
+    return joint_displacements(system, joints, axes, x)
+
+
+def joint_displacements(
+    system: LoopSystem, joints: Joints, axes: Axes, x: Float[Array, "columns poses"]
+) -> Float[Array, "columns poses"]:
+    """Compute the displacements of all joints, balls included, from coordinates in radians and characteristic lengths.
+
+    Displacements are in radians and lengths of the mechanism.
+    """
+    lengths = jnp.where(jnp.array(system.is_length, bool), axes.length, 1.0)[:, None]
     if not system.balls:
-        return x * jnp.where(jnp.array(system.is_length, bool), axes.length, 1.0)[:, None]
-    geometry, lengths = scaled_geometry(system, joints)
-    turns = ball_turns(system, geometry, state._replace(x=x))
-    found_x = joint_coordinates(system, joints.frames_1, joints.frames_2, x * lengths, turns)
-    return unwrap_ball_angles(system, found_x)
+        return x * lengths
+    geometry, _ = scaled_geometry(system, joints)
+    turns = ball_turns(system, geometry, State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)))
+    found = joint_coordinates(system, joints.frames_1, joints.frames_2, x * lengths, turns)
+    return unwrap_ball_angles(system, found)
 
 
 class _Way(NamedTuple):
@@ -177,9 +188,9 @@ class _Intervals(NamedTuple):
     monotone: Bool[Array, "groups intervals"]
     steep: Bool[Array, " intervals"]
     """Where an angle changes by more than `MAX_TURN`."""
-    blocked: Int[Array, " nodes"]
+    blocked: Float[Array, " nodes"]
     """How many intervals before each node are not passed."""
-    beyond: Int[Array, " nodes"]
+    beyond: Float[Array, " nodes"]
     """How many nodes before each node are beyond a limit."""
 
 
@@ -203,7 +214,9 @@ def _intervals(discriminant: Float[Array, "groups nodes"], steep: Bool[Array, " 
     least = least - jnp.where(monotone, 0.0, 0.128 * third)
     blocked = jnp.any(least <= LEAST_DISCRIMINANT, axis=0) | steep
     beyond = jnp.any(discriminant[:, :-1] < -LEAST_DISCRIMINANT, axis=0)
-    return _Intervals(discriminant, curvature, monotone, steep, _count_before(blocked), _count_before(beyond))
+    return _Intervals(
+        discriminant, curvature, monotone, steep, *_sum_before(jnp.stack([blocked, beyond]).astype(one.dtype))
+    )
 
 
 def _passes(
@@ -245,9 +258,10 @@ def _between(
     return passed, intervals.beyond[end + 1] != intervals.beyond[begin + 1]
 
 
-def _count_before(flags: Bool[Array, " intervals"]) -> Int[Array, " nodes"]:
-    """Count the flags before each node."""
-    return jnp.concatenate([jnp.zeros(1, jnp.int32), jnp.cumsum(flags, dtype=jnp.int32)])
+def _sum_before(steps: Float[Array, "*rows intervals"]) -> Float[Array, "*rows nodes"]:
+    """Sum the intervals before each node: by a product of matrices, which XLA does faster than sums one by one."""
+    before = np.arange(NODES - 1)[:, None] < np.arange(NODES)
+    return steps @ jnp.asarray(before, steps.dtype)
 
 
 def _nearest(position: Float[Array, "..."]) -> Int[Array, "..."]:

@@ -17,7 +17,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closed_form.equations import Number, direction, ratio, root, solve_turn
+from jaxkin.geometry.trig import angle
+from jaxkin.solve.closed_form.equations import Number, ratio, root, solve_turn
 
 Vector = Float[Array | np.ndarray, "3 *#poses"]
 Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
@@ -96,4 +97,4 @@ def rotate(axis: Vector, angle: Number, vector: Vector) -> Vector:
 
 def angle_about(axis: Vector, begun: Vector, wanted: Vector) -> Number:
     """Compute the angle about a unit axis that turns one vector as near to another as it can."""
-    return direction(dot(axis, cross(begun, wanted)), dot(begun, wanted) - dot(axis, begun) * dot(axis, wanted))
+    return angle(dot(axis, cross(begun, wanted)), dot(begun, wanted) - dot(axis, begun) * dot(axis, wanted))

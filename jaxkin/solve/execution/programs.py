@@ -18,7 +18,12 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._traced import traced
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
-from jaxkin.solve.closed_form.range_by_formula import FormulaPoses, displacements_by_formula, find_poses_by_formula
+from jaxkin.solve.closed_form.range_by_formula import (
+    FormulaPoses,
+    displacements_by_formula,
+    find_poses_by_formula,
+    joint_displacements,
+)
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -73,25 +78,28 @@ def solve(
     `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas: the general
     program is compiled only if the formulas do not prove that the motion leads to every pose.
     """
-    numbers = lax.stop_gradient((joints, inputs, tolerance))
-    if traced(numbers):
-        if _formulas_suffice(system, options, inputs, axes):
-            found = _formula_poses_program()(system, *numbers)
-            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
-        # compiler options apply to whole programs only: inside a traced function, the search is part of its program
-        return _differentiable(system, joints, inputs, _poses_program(False)(system, options.of_program, *numbers))
-    by_formula = axes is not None and _has_formulas(system, options, inputs)
     # ranges that are interpolated cost less a pose than formulas
-    by_formula = by_formula and inputs.shape[1] < options.interpolate_from
-    if traced((joints, inputs)):
-        if by_formula and bool((found := _formula_poses_program()(system, *numbers)).proven):
-            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
-        return _differentiable(system, joints, inputs, _poses_program(True)(system, options.of_program, *numbers))
-    if by_formula:
+    by_formula = axes is not None and _asks_for_formulas(options, inputs) and inputs.shape[1] < options.interpolate_from
+    known = not traced((joints, inputs, tolerance))
+    if known and by_formula:
         displaced, outcome, proven = _formula_program()(system, joints, axes, inputs, tolerance)
-        if bool(proven):
+        if not traced(proven) and proven:
             return displaced, outcome
-    return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
+    # inside a function that is being traced, what a program returns is traced, though it is given numbers
+    inside = traced(jax.device_put(np.zeros(0)))
+    if known and not inside:
+        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
+    numbers = lax.stop_gradient((joints, inputs, tolerance))
+    inside = inside or traced(numbers)
+    if inside:
+        by_formula = _formulas_suffice(system, options, inputs, axes)
+    if by_formula:
+        found = _formula_poses_program()(system, *numbers)
+        if inside or found.proven:
+            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
+    # compiler options apply to whole programs only: inside a traced function, the search is part of its program
+    poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
+    return _displacements_program(system, joints, inputs, poses), _outcome(poses)
 
 
 def compilations() -> int:
@@ -99,10 +107,9 @@ def compilations() -> int:
     return _traces
 
 
-def _has_formulas(system: LoopSystem, options: SolverOptions, inputs: Given) -> bool:
-    """Whether all poses of a system may be computed by formulas."""
-    asked = options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
-    return asked and why_not_all(system) is None
+def _asks_for_formulas(options: SolverOptions, inputs: Given) -> bool:
+    """Whether poses may be computed by formulas, where there are some."""
+    return options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
 
 
 def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None) -> bool:
@@ -110,7 +117,7 @@ def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given,
 
     Where only the inputs are traced, a mechanism that has limits gets the general program, which follows them.
     """
-    if not _has_formulas(system, options, inputs):
+    if not _asks_for_formulas(options, inputs) or why_not_all(system) is not None:
         return False
     return axes is None or (system.periodic and _passes_a_turn(system, axes))
 
@@ -126,18 +133,13 @@ def _outcome(poses: Poses) -> Outcome:
     return Outcome(poses.status, poses.residual_norm)
 
 
-def _differentiable(
-    system: LoopSystem, joints: Joints, inputs: Given, poses: Poses
-) -> tuple[Float[Array, "columns poses"], Outcome]:
-    return _displacements_program(system, joints, inputs, poses), _outcome(poses)
-
-
 def _by_formula(
     system: LoopSystem, joints: Joints, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
 ) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
     _count_trace()
     found = find_poses_by_formula(system, axes, inputs, tolerance)
-    return displacements_by_formula(system, joints, inputs, found), _outcome(found.poses), found.proven
+    displaced = joint_displacements(system, joints, axes, found.poses.state.x)
+    return displaced, _outcome(found.poses), found.proven
 
 
 def _poses_by_formula(
