@@ -55,8 +55,7 @@ class Step:
     """Number of groups of loops that are one step because they share what is left free; 1 where nothing is shared."""
 
     method: str
-    """"formula" or "Newton". Poses by formula are those of sweeps that are not traced by JAX, of fewer poses than
-    `SolverOptions.interpolate_from`, where no limit or change point is near the way: others are Newton's too."""
+    """"formula" or "Newton". See `SolverOptions.formulas` for sweeps that are left to Newton's method all the same."""
     why: str
     """Which formula it is, or why there is none."""
 
@@ -154,8 +153,6 @@ def _method(element: DrivenElement, number: int) -> tuple[str, str]:
         return "Newton", found
     if (missing := why_not_all(element.system)) is not None:
         return "Newton", f"the {found.name} {found.letters} has a formula, but {missing}"
-    if element.axes is None:
-        return "Newton", f"the {found.name} {found.letters} has a formula, but its joint frames are traced"
     return "formula", f"{found.name} {found.letters}"
 
 

@@ -39,11 +39,13 @@ class SolverOptions:
     method: str = CONTINUATION
     """One of `METHODS`."""
     formulas: bool = True
-    """Whether the poses of loops that have a formula are computed by it (`mechanism.plan(drive)` says which; the
-    continuation only). Where a formula does not prove that the motion leads to every pose of a sweep, such as behind a
-    limit, the general solver finds all poses of that sweep; but not where JAX traces the geometry, as `vmap` over
-    designs does. There poses are UNREACHABLE or JUMPED by their formula, not brought to the least residual, and
-    STALLED where a change point is passed. False: the general solver, which follows limits and change points."""
+    """Whether the poses of loops that have a formula are computed by it, with a single input, in float64:
+    `mechanism.plan(drive)` says which. The continuation is left for sweeps with poses to which the formulas do not
+    prove that the motion leads, such as those behind a limit; for long ranges, which are interpolated; and inside
+    functions that JAX traces, for mechanisms whose input does not make full turns. But where the geometry is traced,
+    as by `vmap` over designs, there are formulas alone: a pose that does not close is then where the formula has it,
+    not at its least residual, and poses behind a change point, or within 1e-6 of a limit, are STALLED. False: the
+    continuation for all."""
     max_steps: int | None = None
     """Steps of the continuation to either side of the assembled pose, at most; poses that they do not reach are
     STALLED. None: 1024, or 2 a pose (12 with several inputs) of at most 1024 poses, whichever is more."""

@@ -1,5 +1,7 @@
 """Sweeps by formula: poses, statuses, derivatives are the general program's, which is compiled only where needed."""
 
+from functools import partial
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -115,16 +117,108 @@ def test_the_tolerance_and_the_method_that_are_asked_for_decide(general):
 
 
 @pytest.mark.long
-def test_derivatives_are_the_implicit_ones(general):
-    """By the inputs and by the geometry; the poses of a gradient are found by formula, too."""
-    inputs = jnp.linspace(0.0, TURN, 20)
-    mechanism = planar_fourbar()
+@pytest.mark.parametrize(
+    ("name", "ways"),
+    [("four-bar", "001110"), ("Watt", "001110"), ("slider-crank", "000110"), ("spherical four-bar", "111000")]
+    + [("RSSR", "111111")],
+)
+def test_derivatives_are_the_implicit_ones(name, ways, general):
+    """By the inputs, and by where the joints are: all frames are displaced, in ways that keep the loops closed."""
+    make, drive = CASES[name]
+    mechanism, inputs = make(), jnp.linspace(-0.4, 0.9, 20)
+    motions = jnp.asarray(np.random.default_rng(0).normal(size=(len(mechanism.joints), 6)))
+    scale = jnp.asarray([1.0, 1.0, 1.0, 50.0, 50.0, 50.0]) * jnp.asarray([float(way) for way in ways])
 
-    def path(mechanism, inputs):
-        return jnp.sum(mechanism.sweep({"A": inputs}).coordinates["D"] ** 2)
+    def last(inputs, by, options=None):
+        placed = {
+            joint: moved(by * scale * motion, jnp.asarray(mechanism.joints[joint].frames_1[0]))
+            for joint, motion in zip(mechanism.joints, motions, strict=True)
+        }
+        motion = mechanism.with_frames(placed).sweep({drive: inputs}, options=options)
+        return sum(
+            jnp.sum(jnp.sin(0.02 * rows) @ jnp.arange(1.0, 1.0 + rows.shape[1])) for rows in motion.displacements
+        )
 
-    by_formula = jax.grad(path, argnums=(0, 1))(mechanism, inputs)
-    inside = jax.jit(jax.grad(path, argnums=(0, 1)))(mechanism, inputs)  # all is traced: the general program
+    gradient = jax.grad(last, argnums=(0, 1))
+    implicit = jax.jit(partial(gradient, options=jk.SolverOptions(formulas=False)))(inputs, 0.0)
+    for by_formula in (gradient(inputs, 0.0), jax.jit(gradient)(inputs, 0.0)):
+        for found, expected in zip(by_formula, implicit, strict=True):
+            np.testing.assert_allclose(found, expected, atol=1e-10, rtol=1e-10)
     assert not general
-    for found, expected in zip(jax.tree.leaves(by_formula), jax.tree.leaves(inside), strict=True):
-        np.testing.assert_allclose(found, expected, atol=1e-9, rtol=1e-11)
+
+
+def moved(twist, frame):
+    """A frame moved by a small displacement: rotation about the origin and translation, to the first order."""
+    (x, y, z), shift = twist[:3], twist[3:]
+    turn = jnp.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return frame.at[:3].add(turn @ frame[:3]).at[:3, 3].add(shift)
+
+
+@pytest.mark.long
+def test_derivatives_at_a_limit_are_finite():
+    """The rocker drives, up to where coupler and crank are in line: there the angle of the crank has no derivative."""
+    mechanism = planar_fourbar()
+    low, high = limits_of_rocker(mechanism)
+    inputs = jnp.asarray([0.5 * low, low, high, 2 * high])
+
+    def crank(inputs, length):
+        changed = mechanism.with_lengths({("coupler", "B", "C"): length})
+        return jnp.sum(jnp.nan_to_num(changed.sweep({"D": inputs}).coordinates["A"], nan=1e300))
+
+    for derivative in jax.jit(jax.grad(crank, argnums=(0, 1)))(inputs, 120.0):
+        assert np.all(np.isfinite(derivative))
+
+
+def limits_of_rocker(mechanism):
+    """Largest and least angle of the rocker of a crank-rocker: its dead points, to rounding."""
+    angles = mechanism.sweep({"A": np.linspace(0.0, TURN, 721)}).coordinates["D"][:, 0]
+    return float(angles.min()), float(angles.max())
+
+
+@pytest.mark.long
+def test_designs_by_formula_are_those_of_the_general_solver():
+    """Some of them have limits within the range, behind which poses are not reached by either."""
+    mechanism, inputs = planar_fourbar(), np.linspace(-2.0, 2.0, 40)
+
+    def swept(length, formulas):
+        changed = mechanism.with_lengths({("rocker", "C", "D"): length})
+        motion = changed.sweep({"A": inputs}, options=jk.SolverOptions(formulas=formulas))
+        return motion.coordinates["D"], motion.status
+
+    lengths = jnp.linspace(55.0, 100.0, 12)
+    (found, status), (expected, wanted) = (
+        jax.jit(jax.vmap(partial(swept, formulas=formulas)))(lengths) for formulas in (True, False)
+    )
+    np.testing.assert_array_equal(status, wanted)
+    assert {0, 1} <= set(np.unique(status))
+    closed = np.asarray(status) == Status.CLOSED
+    np.testing.assert_allclose(found[closed], expected[closed], atol=1e-9)  # near limits
+
+
+@pytest.mark.parametrize("traced", [False, True])
+def test_a_change_point_inside_of_jit(traced):
+    """Where the geometry is known the general program follows it; else poses behind it are in doubt, not wrong."""
+    mechanism, inputs = catalogue.parallelogram(2), jnp.linspace(0.3, 3.7, 9)
+    expected = mechanism.sweep({"A": inputs})
+
+    def swept(inputs, mechanism=mechanism):
+        motion = mechanism.sweep({"A": inputs})
+        return motion.displacements, motion.status
+
+    displacements, status = jax.jit(swept)(*((inputs, mechanism) if traced else (inputs,)))
+    beyond = np.asarray(inputs) > np.pi
+    assert np.all(np.asarray(status)[beyond] == (Status.STALLED if traced else Status.CLOSED))
+    for found, wanted in zip(displacements, expected.displacements, strict=True):
+        np.testing.assert_allclose(np.asarray(found)[status == 0], np.asarray(wanted)[status == 0], atol=1e-9)
+
+
+def test_a_slide_that_drives(general):
+    """Both ways from the assembled pose, and to the end of the stroke on one side."""
+    mechanism = slider_crank()
+    turn = mechanism.sweep({"A": np.linspace(0.0, TURN, 400)})
+    stroke = np.asarray(turn.coordinates["S"][:, 0])
+    low, high = 0.9 * stroke.min(), 0.9 * stroke.max()
+    motion = mechanism.sweep({"S": np.linspace(low, high, 21)})
+    assert not general and np.all(motion.closed)
+    back = mechanism.sweep({"A": motion.coordinates["A"][:, 0]})
+    np.testing.assert_allclose(back.coordinates["S"], motion.coordinates["S"], atol=1e-9)

@@ -51,9 +51,9 @@ def why_not_all(system: LoopSystem) -> str | None:
 
 
 def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -> GroupFormula | str:
-    if len(loops) > 1:
+    loop, *others = loops
+    if others:
         return f"its {len(loops)} loops are solved together"
-    (loop,) = loops
     if system.planar:
         return _of_chain(system, "planar dyad", loop, None, block, IN_SUBGROUP)
     if loop in system.sections.spherical:

@@ -23,7 +23,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
-from jaxkin.solve.closed_form.equations import Number, ratio
+from jaxkin.solve.closed_form.equations import Number
 from jaxkin.solve.closed_form.solve_groups import Solved, assembled_roots, residual_norm, solve_groups
 from jaxkin.solve.closed_form.way import LEAST_DISCRIMINANT, reach, way
 from jaxkin.solve.closure.closure import scaled_geometry
@@ -34,9 +34,7 @@ from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
 
-SIDE = 64
-"""Intervals to either side of the assembled pose."""
-NODES = 2 * SIDE + 1
+NODES = 129
 """Inputs at which the discriminants are computed, 2.8 degrees apart on a full turn: they cost as much as 129 poses."""
 CLOSED_START = 1e-9
 """Largest coordinate that the formulas give for the assembled input, radians or characteristic lengths, of loops that
@@ -75,9 +73,8 @@ def find_poses_by_formula(
     at_nodes, found = (
         Solved(*rows) for rows in zip(*(jnp.split(each, [NODES], axis=-1) for each in solved), strict=True)
     )
-    unwrapped = _unwrapped(system)
-    start, expected, passed, crossed, passes_a_turn = _reached(system, values, nodes, at_nodes, found, unwrapped)
-    x = found.x + unwrapped * TURN * jnp.round((expected - found.x) / TURN)
+    start, expected, passed, crossed, passes_a_turn = _reached(system, values, nodes, at_nodes, found)
+    x = found.x + _angles(system) * TURN * jnp.round((expected - found.x) / TURN)
 
     is_open = jnp.max(jnp.abs(start.x)) > CLOSED_START
     clear = jnp.min(jnp.abs(jnp.stack([jnp.ravel(root)[0] for root in roots]))) > LEAST_ASSEMBLED_ROOT
@@ -139,53 +136,43 @@ class _Reached(NamedTuple):
 
 
 def _nodes(system: LoopSystem, values: Float[Array, " poses"]) -> Float[Array, " nodes"]:
-    """The inputs of the nodes: over a full turn from the assembled pose, or on both sides of it as far as `values`."""
+    """The inputs of the nodes: a full turn from the assembled pose, or as far as `values` to either side of it."""
     if system.periodic:
         return jnp.linspace(0.0, TURN, NODES, dtype=values.dtype)
-    part = np.linspace(0.0, 1.0, SIDE + 1)
-    low, high = jnp.min(values, initial=0.0), jnp.max(values, initial=0.0)
-    return jnp.concatenate([low * part[:0:-1], high * part])
+    farthest = jnp.maximum(jnp.max(jnp.abs(values), initial=0.0), np.finfo(float).tiny)
+    return farthest * jnp.linspace(-1.0, 1.0, NODES, dtype=values.dtype)
 
 
 def _reached(
-    system: LoopSystem,
-    values: Float[Array, " poses"],
-    nodes: Float[Array, " nodes"],
-    at_nodes: Solved,
-    found: Solved,
-    unwrapped: Float[np.ndarray, "columns 1"],
+    system: LoopSystem, values: Float[Array, " poses"], nodes: Float[Array, " nodes"], at_nodes: Solved, found: Solved
 ) -> _Reached:
-    """Judge the ways from the assembled pose to both sides."""
+    """Judge the ways from the assembled pose, upwards and downwards."""
+    angles = _angles(system)
+    line = way(at_nodes.x, at_nodes.discriminant, angles)
+    first, last = (0, NODES - 1) if system.periodic else (NODES // 2, NODES // 2)
+    start = Solved(*(rows[:, first] for rows in at_nodes))
+    turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
+    position = (values - TURN * turns - nodes[0]) / (nodes[1] - nodes[0])
+    expected, (from_below, from_above), (after_limit, before_limit) = reach(
+        line, first, last, position, found.discriminant
+    )
+    # the line is unwrapped from its first node on
+    begun, ended = (angles * TURN * jnp.round((line.x[:, node] - start.x)[:, None] / TURN) for node in (first, last))
     rising = values >= 0
     if not system.periodic:
-        start, outward = SIDE, (slice(SIDE, None), slice(SIDE, None, -1))
-        up, down = (way(at_nodes.x[:, side], at_nodes.discriminant[:, side], unwrapped) for side in outward)
-        spans = jnp.where(rising, nodes[-1], nodes[0])
-        position = SIDE * ratio(jnp.abs(values), jnp.abs(spans))
-        above, below = (reach(each, position, found.discriminant) for each in (up, down))
-        expected, passed, crossed = (jnp.where(rising, *both) for both in zip(above, below, strict=True))
-        return _Reached(_at(at_nodes, start), expected, passed, crossed, jnp.zeros((), bool))
+        passed, crossed = jnp.where(rising, from_below, from_above), jnp.where(rising, after_limit, before_limit)
+        return _Reached(start, expected - begun, passed, crossed, jnp.zeros((), bool))
 
     # the assembled pose is the first node as well as the last
-    backwards = jnp.flip(at_nodes.x, axis=1), jnp.flip(at_nodes.discriminant, axis=1)
-    up, down = way(at_nodes.x, at_nodes.discriminant, unwrapped), way(*backwards, unwrapped)
-    turns = jnp.floor(values / TURN)
-    position = (values - TURN * turns) * ((NODES - 1) / TURN)
-    above, below = reach(up, position, found.discriminant), reach(down, NODES - 1 - position, found.discriminant)
-    passes, first_turn = up.passes & down.passes, (turns == 0) | (turns == -1)
-    direct = jnp.where(rising, above.passed, below.passed) & first_turn
-    limited = jnp.where(first_turn, jnp.where(rising, above.crossed, below.crossed), up.limited)
+    first_turn = (turns == 0) | (turns == -1)
+    direct = jnp.where(rising, from_below, from_above) & first_turn
+    limited = jnp.where(first_turn, jnp.where(rising, after_limit, before_limit), line.limited)
     # behind a limit an input is reached if it is, a full turn less or more, on the near side
-    around = limited & (above.passed | below.passed)
-    of_turns = jnp.where(passes, up.end - up.x[:, :1], 0.0) * turns
-    by_rising = jnp.where(direct & ~passes, rising, above.passed)
-    expected = jnp.where(by_rising, above.x + of_turns, below.x)
-    crossed = above.crossed & below.crossed
-    return _Reached(_at(at_nodes, 0), expected, direct | around | passes, crossed, passes)
-
-
-def _at(solved: Solved, node: int) -> Solved:
-    return Solved(*(rows[:, node] for rows in solved))
+    around = limited & (from_below | from_above)
+    of_turns = jnp.where(line.passes, (ended - begun) * turns, 0.0)
+    by_rising = jnp.where(direct & ~line.passes, rising, from_below)
+    expected = jnp.where(by_rising, expected - begun + of_turns, expected - ended)
+    return _Reached(start, expected, direct | around | line.passes, after_limit & before_limit, line.passes)
 
 
 def _scaled(system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"]) -> Float[Array, "1 poses"]:
@@ -193,7 +180,7 @@ def _scaled(system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"]) -> 
     return inputs / axes.length if system.is_length[system.driven[0]] else inputs
 
 
-def _unwrapped(system: LoopSystem) -> np.ndarray:
+def _angles(system: LoopSystem) -> np.ndarray:
     """1 for columns that are angles and not driven, else 0: (columns, 1)."""
     is_angle = [not length and column not in system.driven for column, length in enumerate(system.is_length)]
     return np.array(is_angle, float)[:, None]

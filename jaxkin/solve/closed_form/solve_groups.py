@@ -159,8 +159,9 @@ def residual_norm(system: LoopSystem, axes: Axes, x: Float[Array, "columns poses
             square += 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
         return jnp.sqrt(square)
     square = jnp.zeros(())
-    rods = {formula.chain: formula for formula in _formulas(system) if formula.name == "rod"}
-    for formula in rods.values():
+    for formula in _formulas(system):
+        if formula.other_chain is None:
+            continue
         ends = (_end(system, axes, chain, rows) for chain in (formula.chain, formula.other_chain))
         lengths = [jnp.sqrt(spherical_triangle.dot(end, end)) for end in ends]
         square += (lengths[0] - lengths[1]) ** 2

@@ -1,8 +1,9 @@
 """Prove that the input can be moved from the assembled pose to a pose: no discriminant vanishes on the way.
 
-The discriminants f of all groups are known at nodes, h apart, the first of which is the assembled pose. Between two
-nodes they are bounded by differences of the nodes nearby: the second differences stand for h^2 times the second
-derivative, the third ones for h^3 times the third.
+The discriminants f of all groups are known at equidistant nodes, h apart. Between two nodes they are bounded by
+differences of the nodes nearby: the second differences stand for h^2 times the second derivative, the third ones for
+h^3 times the third. The assembled pose is one of the nodes, from which the ways lead upwards and downwards; or it is
+the first node as well as the last, a full turn later, and both ways lead to every pose.
 """
 
 from __future__ import annotations
@@ -21,55 +22,64 @@ LEAST_DISCRIMINANT = 1e-6
 passed on another branch, and 1e-6 away the coordinates are still right to a thousand roundings."""
 MAX_TURN = 1.5
 """Largest change of an angle from node to node, radians: more than half a turn would be unwrapped wrongly."""
+BLOCK = 16
+"""Intervals whose turns are summed at once; their number must be a multiple."""
 PARABOLA_ERROR = 0.064
 """Largest error of a parabola through three nodes between two of them, over h^3 times the third derivative: that of
 t (t - 1) (t + 1) / 6 for t from 0 to 1."""
 
 
 class Way(NamedTuple):
-    """What is known between neighbouring nodes, from the assembled pose outwards."""
+    """What is known of a line of nodes, and of the intervals between neighbouring ones."""
 
-    x: Float[Array, "columns intervals"]
-    """Coordinates of the node at which an interval begins, angles unwrapped."""
-    discriminant: Float[Array, "groups intervals"]
-    """Those of that node."""
+    x: Float[Array, "columns nodes"]
+    """Coordinates, angles unwrapped along the line."""
+    discriminant: Float[Array, "groups nodes"]
     curvature: Float[Array, "groups intervals"]
-    """Upper bound of h^2 |f"| in the interval."""
+    """Upper bound of h^2 |f"|."""
     monotone: Bool[Array, "groups intervals"]
     """Whether f surely rises or falls in the whole interval."""
-    free: Bool[Array, " intervals"]
-    """Whether the motion passes to the interval, and no angle changes there by more than `MAX_TURN`."""
-    crossed: Bool[Array, " intervals"]
-    """Whether there surely is a limit before the interval."""
-    end: Float[Array, "columns 1"]
-    """Coordinates of the last node."""
-    passes: Bool[Array, ""]
-    """Whether the motion passes to the last node."""
-    limited: Bool[Array, ""]
-    """Whether there surely is a limit."""
+    steep: Bool[Array, " intervals"]
+    """Whether an angle changes by more than `MAX_TURN`."""
+    blocked: Bool[Array, " intervals"]
+    """Which intervals are not passed."""
+    beyond: Bool[Array, " nodes"]
+    """Which nodes are surely beyond a limit."""
+
+    @property
+    def passes(self) -> Bool[Array, ""]:
+        """Whether the motion passes all intervals."""
+        return ~jnp.any(self.blocked)
+
+    @property
+    def limited(self) -> Bool[Array, ""]:
+        """Whether there surely is a limit."""
+        return jnp.any(self.beyond)
 
 
 class Reach(NamedTuple):
-    """What a way says of poses."""
+    """What a way says of poses, upwards and downwards."""
 
     x: Float[Array, "columns poses"]
-    """Coordinates nearby, unwrapped along the way."""
-    passed: Bool[Array, " poses"]
-    """To which poses the motion passes, if the loops close there."""
-    crossed: Bool[Array, " poses"]
-    """Before which poses there surely is a limit."""
+    """Coordinates of the node below each pose."""
+    passed: tuple[Bool[Array, " poses"], Bool[Array, " poses"]]
+    """To which poses the motion passes, upwards and downwards, if the loops close there."""
+    crossed: tuple[Bool[Array, " poses"], Bool[Array, " poses"]]
+    """Before which poses there surely is a limit, upwards and downwards."""
 
 
 def way(
-    x: Float[Array, "columns nodes"], discriminant: Float[Array, "groups nodes"], unwrapped: Float[np.ndarray, "_ 1"]
+    x: Float[Array, "columns nodes"], discriminant: Float[Array, "groups nodes"], angles: Float[np.ndarray, "_ 1"]
 ) -> Way:
-    """Judge the way along equidistant nodes, the first of which is the assembled pose.
-
-    `unwrapped` is 1 for coordinates that are angles up to full turns, else 0.
-    """
-    steps = jnp.diff(x, axis=1)
-    steps = steps - unwrapped * TURN * jnp.round(steps / TURN)
-    steep = jnp.max(jnp.abs(unwrapped * steps), axis=0) > MAX_TURN
+    """Judge a line of nodes. `angles` is 1 for coordinates that are angles up to full turns, else 0."""
+    turns = angles * jnp.round(jnp.diff(x, axis=1) / TURN)
+    # sums of blocks, then of blocks before them: products of small matrices, which XLA does faster than sums one by one
+    blocks = turns.reshape(len(x), -1, BLOCK)
+    within = blocks @ np.tri(BLOCK).T
+    before = within[:, :, -1] @ np.tri(blocks.shape[1], k=-1).T
+    sums = (within + before[:, :, None]).reshape(turns.shape)
+    x = x - TURN * jnp.pad(sums, ((0, 0), (1, 0)))
+    steep = jnp.max(jnp.abs(angles * jnp.diff(x, axis=1)), axis=0) > MAX_TURN
 
     one, other, change = discriminant[:, :-1], discriminant[:, 1:], jnp.diff(discriminant, axis=1)
     second = jnp.diff(discriminant, n=2, axis=1)
@@ -84,36 +94,45 @@ def way(
     least = jnp.where(jnp.abs(change) < 0.5 * bend, one - dip, jnp.minimum(one, other))
     least = least - jnp.where(monotone, 0.0, 2 * PARABOLA_ERROR * third)
     blocked = jnp.any(least <= LEAST_DISCRIMINANT, axis=0) | steep
-    beyond = jnp.any(other < -LEAST_DISCRIMINANT, axis=0)
-
-    before = _sums_before(jnp.concatenate([steps, jnp.stack([blocked, beyond]).astype(steps.dtype)]))
-    path, (blocks, limits) = x[:, :1] + before[:-2], before[-2:]
-    free = (blocks[:-1] == 0) & ~steep
-    crossed = limits[:-1] > 0
-    return Way(path[:, :-1], one, curvature, monotone, free, crossed, path[:, -1:], blocks[-1] == 0, limits[-1] > 0)
+    beyond = jnp.any(discriminant < -LEAST_DISCRIMINANT, axis=0)
+    return Way(x, discriminant, curvature, monotone, steep, blocked, beyond)
 
 
-def reach(way: Way, position: Float[Array, " poses"], discriminant: Float[Array, "groups poses"]) -> Reach:
-    """Tell to which poses the motion passes, which have these positions on the way, counted in nodes from the first.
+def reach(
+    way: Way, first: int, last: int, position: Float[Array, " poses"], discriminant: Float[Array, "groups poses"]
+) -> Reach:
+    """Tell to which poses the motion passes, upwards from the node `first` and downwards from the node `last`.
 
-    Between a node and a pose in the next interval, f is not below the lesser of its values there by more than
-    (distance^2 / 8) |f"|. Where it is monotone, it is not below its value at the pose, which may be as near to a limit
-    as it likes, since the loops close there.
+    `position` of a pose is counted in nodes. Between a node and a pose in the next interval, f is not below the lesser
+    of its values there by more than (distance^2 / 8) |f"|. Where it is monotone, it is not below its value at the pose,
+    which may be as near to a limit as it likes, since the loops close there.
     """
-    columns, groups = len(way.x), len(way.discriminant)
-    rows = [*way[:3], way.monotone, way.free[None], way.crossed[None]]
-    table = jnp.concatenate([row.astype(way.x.dtype) for row in rows])  # gathered once: a row a pose
-    interval = jnp.clip(jnp.floor(position), 0, table.shape[1] - 1)
-    chosen = table.T[interval.astype(jnp.int32)].T
-    x, one, curvature, monotone, (free, crossed) = jnp.split(chosen, np.cumsum([columns, groups, groups, groups]))
+    columns, groups, count = len(way.x), len(way.discriminant), way.blocked.shape[0]
+    number = np.arange(count)
+    block_above = jnp.min(jnp.where(way.blocked & (number >= first), number, count))
+    block_below = jnp.max(jnp.where(way.blocked & (number < last), number, -1))
+    limit_above = jnp.min(jnp.where(way.beyond[1:] & (number >= first), number, count))
+    limit_below = jnp.max(jnp.where(way.beyond[:-1] & (number < last), number, -1))
+    facts = jnp.stack(
+        [
+            (first <= number) & (number <= block_above) & ~way.steep,
+            (number < last) & (number >= block_below) & ~way.steep,
+            number > limit_above,
+            number < limit_below,
+        ]
+    )
+    rows = way.x[:, :-1], way.discriminant[:, :-1], way.discriminant[:, 1:], way.curvature, way.monotone, facts
+    table = jnp.concatenate([row.astype(way.x.dtype) for row in rows])  # gathered once
+    interval = jnp.clip(jnp.floor(position), 0, count - 1)
+    chosen = table[:, interval.astype(jnp.int32)]
+    ends = np.cumsum([columns, *[groups] * 4])
+    x, below, above, curvature, monotone, facts = jnp.split(chosen, ends)
+
+    def bounded(at_node: Array, distance: Array) -> Bool[Array, " poses"]:
+        bound = jnp.minimum(at_node, discriminant) - 0.125 * distance * distance * curvature
+        return jnp.all(jnp.where(monotone > 0, at_node, bound) > LEAST_DISCRIMINANT, axis=0)
+
+    from_below, from_above, after_limit, before_limit = facts > 0
     distance = position - interval
-    bound = jnp.minimum(one, discriminant) - 0.125 * distance * distance * curvature
-    least = jnp.where(monotone > 0, one, bound)
-    return Reach(x, (free > 0) & jnp.all(least > LEAST_DISCRIMINANT, axis=0), crossed > 0)
-
-
-def _sums_before(steps: Float[Array, "rows intervals"]) -> Float[Array, "rows nodes"]:
-    """Sum the intervals before each node: by a product of matrices, which XLA does faster than sums one by one."""
-    count = steps.shape[1]
-    before = np.arange(count)[:, None] < np.arange(count + 1)
-    return steps @ jnp.asarray(before, steps.dtype)
+    passed = from_below & bounded(below, distance), from_above & bounded(above, 1 - distance)
+    return Reach(x, passed, (after_limit, before_limit))

@@ -56,7 +56,7 @@ def loop_geometry(
     All arguments have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
-    frames, length = scaled_frames(frames_1, frames_2)
+    frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2))
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
     return planar_geometry(system, space) if system.planar else space, length
 
