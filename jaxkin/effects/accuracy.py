@@ -13,13 +13,16 @@ import jax
 import numpy as np
 
 from jaxkin.effects.extended import Extended
-from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.coordinates import coordinate, named
+from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.options import CONTINUATION, METHODS, SolverOptions, options_with
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
 
+FORMULA = "formula"
+"""Name of the sweep that is computed by formulas, which have no tolerance; other sweeps here do without them."""
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14)
 TIGHTEST_32 = 1e-6
 """The tightest tolerance that float32 is asked for: rounding leaves about 5e-7."""
@@ -35,6 +38,7 @@ class Point(NamedTuple):
     """Time and error of one sweep."""
 
     method: str
+    """One of `METHODS`, or "formula"."""
     precision: str
     """float64 or float32."""
     tolerance: float | None
@@ -107,6 +111,9 @@ def work_precision(
 ) -> WorkPrecision:
     """Sweep a mechanism at many tolerances, in both precisions and by several methods, and measure time and error.
 
+    Where the loops that the drive moves have formulas, and `options` do not forbid them, these come first; all methods
+    then do without them.
+
     Errors are against poses in extended precision, near those that the sweep finds; coordinates of idle freedoms have
     no exact value and are left out. `options` says all but tolerance and method, which vary. `step` is told what is
     about to be swept. Needs mpmath. Raises ValueError as `sweep` does, where `options` say a tolerance or a method, and
@@ -123,20 +130,22 @@ def work_precision(
     chosen = np.unique(closed[np.linspace(0, len(closed) - 1, COMPARED_POSES).round().astype(int)])
     exact = _ExactPoses(mechanism, reference, chosen)
     points = []
-    for method, precision, tolerance in combinations(tolerances, methods):
+    for method, precision, tolerance in combinations(tolerances, methods, _has_formulas(mechanism, drive, options)):
         step(f"{method}, {precision}, {'rounding' if tolerance is None else f'{tolerance:.0e}'}")
         with jax.enable_x64(precision == "float64"), warnings.catch_warnings():
             warnings.filterwarnings("ignore", "jaxkin computes in float32")  # that is what is asked for
-            asked = replace(options, method=method, tolerance=tolerance)
-            points.append(_measured(mechanism, drive, asked, precision, exact))
+            by_formula = method == FORMULA
+            found_by = CONTINUATION if by_formula else method
+            asked = replace(options, method=found_by, tolerance=tolerance, formulas=by_formula)
+            points.append(_measured(mechanism, drive, asked, precision, exact)._replace(method=method))
     return WorkPrecision(tuple(points), len(reference), len(chosen))
 
 
 def combinations(
-    tolerances: Sequence[float] = TOLERANCES, methods: Sequence[str] = METHODS
+    tolerances: Sequence[float] = TOLERANCES, methods: Sequence[str] = METHODS, by_formula: bool = True
 ) -> list[tuple[str, str, float | None]]:
     """Method, precision and tolerance of every sweep; the continuation in both precisions, and down to rounding."""
-    found: list[tuple[str, str, float | None]] = []
+    found: list[tuple[str, str, float | None]] = [(FORMULA, "float64", None)] if by_formula else []
     for method in methods:
         found += [(method, "float64", tolerance) for tolerance in tolerances]
         if method == CONTINUATION:
@@ -144,6 +153,11 @@ def combinations(
             found += [(method, "float32", tolerance) for tolerance in tolerances if tolerance >= TIGHTEST_32]
             found += [(method, "float32", None)]
     return found
+
+
+def _has_formulas(mechanism: Mechanism, drive: Mapping[str, object], options: SolverOptions) -> bool:
+    elements = plan_drive(mechanism.linkage, named(drive)).elements
+    return options.formulas and bool(elements) and all(element.axes is not None for element in elements)
 
 
 def _measured(mechanism: Mechanism, drive, options: SolverOptions, precision: str, exact: _ExactPoses) -> Point:

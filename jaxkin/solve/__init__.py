@@ -4,6 +4,7 @@ The route of one loop system (the loops of one structure element) through the so
 before and after is on the page "Architecture", and what the words mean in the glossary (`docs/glossary.md`).
 
  1. `execution/programs.py`          compile, or fetch, the program of the loop system (`solve`)
+    `closed_form/range_by_formula.py`    where all groups have formulas and these prove their poses, the route ends here
  2. `execution/cores.py`             cut a long range into shards, one for each core
  3. `range/solve_range.py`           find all poses (`find_poses`), then their displacements (`displacements`)
  4. `closure/closure.py`             scale lengths, compute constants of the loops from joint frames (`loop_geometry`)
