@@ -73,7 +73,7 @@ def test_drives_that_are_advised_can_be_followed(name, random):
         assert refusal(mechanism, list(group)) is None, (said, group)
 
 
-@pytest.mark.parametrize("name", ["dead centre", "four-bar"])
+@pytest.mark.parametrize("name", [pytest.param("dead centre", marks=pytest.mark.long), "four-bar"])
 def test_a_drive_that_is_advised_closes(name):
     """Nearby, from the assembled pose on; a slide at its dead centre is not advised, though it may move."""
     mechanism = LINKAGES[name]

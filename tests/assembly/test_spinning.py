@@ -125,6 +125,7 @@ def bolted(flanges):
     return assembly.mechanism(fixed=["lower"], contacts=contacts, infer=False)
 
 
+@pytest.mark.long
 def test_bolts_of_which_each_is_unneeded_still_hold_together(bolted):
     """Twelve spins of bolts and nuts and nothing else: two bolts stay in both flanges and hold them."""
     mobility = bolted.mobility()

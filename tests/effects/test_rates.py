@@ -35,7 +35,9 @@ def test_slider_crank_against_its_formula():
     np.testing.assert_allclose(second.angular("crank"), np.tile([0.0, 0.0, growth], (30, 1)), atol=1e-12)
 
 
-@pytest.mark.parametrize("rates", [velocities, pytest.param(accelerations, marks=pytest.mark.long)])
+@pytest.mark.parametrize(
+    "rates", [pytest.param(rates, marks=pytest.mark.long) for rates in (velocities, accelerations)]
+)
 def test_nan_is_in_the_rates_of_its_own_pose_only(rates):
     """In the inputs as in the rates given: where the sweep has no pose, and where the rate is none."""
     mechanism, inputs, given, rest = planar_fourbar(), INPUTS.copy(), np.ones(30), np.arange(30) != 7

@@ -72,7 +72,7 @@ def test_loops_and_freedoms_of_figure_3(fixed, loops, freedoms):
     assert set(found.mobility().idle) == {f"{name}.z" for name in in_loops}  # bars float along their pins
 
 
-@pytest.mark.parametrize(("combine", "loops"), [(True, 5), (False, 7)])
+@pytest.mark.parametrize(("combine", "loops"), [pytest.param(True, 5, marks=pytest.mark.long), (False, 7)])
 def test_figure_7_has_nine_freedoms_of_which_one_is_of_use(combine, loops):
     """Four links and the platform float along the pins, rod and sleeve spin, the sleeve slides: eight idle ones."""
     found = mechanism("air_cylinder", ("p4",), combine)

@@ -67,6 +67,7 @@ def test_nan_and_infinity_are_the_status_of_their_poses(where):
     assert f"{len(where)}  NONFINITE" in str(motion)
 
 
+@pytest.mark.long
 def test_nan_among_several_inputs_leaves_the_way_as_it_is():
     """The arm's tip is held by two drives; several inputs are followed in their order."""
     points = {"A": (0, 0), "B": (-20, 45), "C": (35, 90), "D": (85, 50), "E": (70, 0)}

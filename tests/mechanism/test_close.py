@@ -30,7 +30,10 @@ OPEN = {
 }
 
 
-@pytest.mark.parametrize("name", OPEN)
+LONG = [name for name in OPEN if name.startswith(("delta", "hexapod"))]
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in LONG)) for name in OPEN])
 def test_an_open_pose_is_told_and_closed(name):
     mechanism = OPEN[name]()
     first = mechanism.all_joints[0]
@@ -137,6 +140,7 @@ def test_other_assembly_modes_are_tried():
     assert far.closed and not far.others and "no other assembly mode" in str(far)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "mechanism",
     [
@@ -153,7 +157,9 @@ def test_poses_that_freedoms_lead_to_are_no_other_mode(mechanism):
     assert found.closed and not found.others
 
 
-@pytest.mark.parametrize("name", ["four-bar, lengths changed", "RSSR, a gap of 20 mm"])
+@pytest.mark.parametrize(
+    "name", ["four-bar, lengths changed", pytest.param("RSSR, a gap of 20 mm", marks=pytest.mark.long)]
+)
 def test_what_is_held_stays_as_by_a_drive_of_zero(name):
     """The crank stays as it is drawn; the rocker goes where a sweep that drives the crank by zero takes it."""
     mechanism = OPEN[name]()

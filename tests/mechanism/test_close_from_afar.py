@@ -60,7 +60,7 @@ def test_joints_that_count_from_elsewhere_are_closed(name, angle, monkeypatch):
     assert (one.freedoms, one.idle_freedoms, one.redundant) == (other.freedoms, other.idle_freedoms, other.redundant)
 
 
-@pytest.mark.parametrize("angle", [3.0, pytest.param(np.pi, marks=pytest.mark.long)])
+@pytest.mark.parametrize("angle", [pytest.param(angle, marks=pytest.mark.long) for angle in (3.0, np.pi)])
 def test_loops_open_by_half_a_turn_close(angle):
     """A rod in two halves, one of them drawn the other way round: the twist of the loop vanishes at half a turn."""
     for axis in np.eye(3):
@@ -110,6 +110,7 @@ def test_frames_that_coincide_are_closed_whatever_their_digits():
     assert opening(mechanism.linkage) is None and mechanism.close().mechanism is mechanism
 
 
+@pytest.mark.long
 def test_solids_go_along():
     """A joint that counts from elsewhere, of solids: each solid keeps its place at the frames on its part."""
     given = jk.load(path("fourbar")).mechanism(fixed=["ground"])

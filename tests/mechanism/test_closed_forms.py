@@ -59,6 +59,7 @@ def test_slider_crank():
     np.testing.assert_allclose(motion.coordinates["S"][:, 0], expected - expected[0], atol=1e-10)  # mm, size 160
 
 
+@pytest.mark.long
 def test_cam_of_figure_6():
     start = np.pi / 6
     motion = cam(start).sweep({"shaft": TURN})

@@ -150,6 +150,7 @@ def linkage(random: np.random.Generator, dyads: int, welded: bool) -> Mechanism:
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 
+@pytest.mark.long
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 2**32), st.integers(1, 6), st.booleans())
 @example(5517, 5, True)  # circuits that share parts, but no joints, and need each other

@@ -41,6 +41,7 @@ def test_the_stop_is_the_first_way_out(blocked):
     assert f"slider {end.name} - stop face 1" in str(ways[0])
 
 
+@pytest.mark.long
 def test_each_way_out_is_one(blocked):
     """Leaving out a contact that is named gives just the freedoms that were promised, one that is not gives none that
     is of use: a hinge without the face that it rests on slides along its pin, and no more."""

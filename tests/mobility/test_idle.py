@@ -140,6 +140,7 @@ def test_a_rod_spins_where_its_balls_are_hinges(names, axes):
         assert (again.freedoms, set(again.idle)) == (2, set(found.idle))
 
 
+@pytest.mark.long
 def test_rods_of_parallel_robots_spin_where_their_balls_are_hinges():
     for robot in (catalogue.delta(), catalogue.hexapod()):
         plain, written = robot.mobility(), as_hinges(robot).mobility()

@@ -51,6 +51,7 @@ def test_a_tilt_within_the_noise_changes_nothing(tilt):
     assert np.all(coarse.closed)
 
 
+@pytest.mark.long
 def test_a_coarse_tolerance_finds_no_other_branch():
     """With a tolerance above the tilt poses were called JUMPED that are on the branch."""
     for tilt in (1e-8, 1e-4):
@@ -68,6 +69,7 @@ def test_a_five_bar_in_a_tilted_plane_keeps_its_two_freedoms(digits, tilted_by):
     assert mechanism.mobility().freedoms == 2 and np.all(motion.closed)
 
 
+@pytest.mark.long
 def test_a_spherical_wrist_of_two_interlocking_loops_keeps_its_three_freedoms():
     rng = np.random.default_rng(0)
     joints = []

@@ -27,6 +27,7 @@ def test_what_has_turned_over_has_a_negative_determinant(n):
     np.testing.assert_allclose(found, np.linalg.det(after) / np.linalg.det(before), rtol=1e-6)
 
 
+@pytest.mark.long
 def test_a_block_that_turns_over_is_seen_though_another_does_too():
     """The determinant of the whole has kept its sign."""
     rng = np.random.default_rng(3)

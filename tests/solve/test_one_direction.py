@@ -36,7 +36,10 @@ def systems(mechanism, driven):
 
 @pytest.mark.parametrize(
     ("make", "driven", "equations"),
-    [(air_cylinder, [("p2-p10", 0)], (4 * 4 + 6, 5 * 6)), (lifted, [("A", 1), ("B", 0)], (4, 6))],
+    [
+        pytest.param(air_cylinder, [("p2-p10", 0)], (4 * 4 + 6, 5 * 6), marks=pytest.mark.long),
+        (lifted, [("A", 1), ("B", 0)], (4, 6)),
+    ],
 )
 def test_the_same_least_squares_problem(make, driven, equations):
     """Anywhere, closed or not: the rest of the six equations vanishes, with its derivatives."""

@@ -47,6 +47,7 @@ def test_an_option_at_its_default_compiles_nothing():
     assert compilations() == before
 
 
+@pytest.mark.long
 def test_poses_do_not_depend_on_the_iterations_of_newtons_method():
     """What few iterations leave open the damped corrector closes, to the same tolerance."""
     mechanism = planar_fourbar(1.0)
