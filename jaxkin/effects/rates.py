@@ -84,7 +84,7 @@ def velocities(motion: Motion, rates: Mapping[str, Any], *, options: SolverOptio
     tangents = _tangents(motion, rates)
     place = _placing(motion, options)
     found = jax.jvp(place, (motion.inputs,), (tangents,))[1]
-    return Rates(motion, tangents, *_nan_where_nonfinite(motion, found))
+    return Rates(motion, tangents, *_nan_where_nonfinite(motion, found, tangents))
 
 
 def accelerations(
@@ -106,7 +106,7 @@ def accelerations(
         return jax.jvp(place, (inputs,), (tangents,))[1]
 
     found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
-    return Rates(motion, second, *_nan_where_nonfinite(motion, found))
+    return Rates(motion, second, *_nan_where_nonfinite(motion, found, first, second))
 
 
 def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
@@ -120,9 +120,12 @@ def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs]
     return place
 
 
-def _nan_where_nonfinite(motion: Motion, found):
-    """Set rates to NaN at poses that are NONFINITE, which the sweep replaces by poses of no meaning."""
-    return nan_where_not_finite(found, motion.status != Status.NONFINITE.value)
+def _nan_where_nonfinite(motion: Motion, found, *given: Inputs):
+    """Set rates to NaN at poses that are NONFINITE, which the sweep replaces by others, and where given rates are."""
+    finite = motion.status != Status.NONFINITE.value
+    for rate in jax.tree.leaves(given):
+        finite &= jnp.isfinite(rate)
+    return nan_where_not_finite(found, finite)
 
 
 def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:

@@ -39,7 +39,7 @@ def group_formulas(system: LoopSystem) -> tuple[GroupFormula | str, ...]:
 
 def why_not_all(system: LoopSystem) -> str | None:
     """Tell why the poses of a system are not computed by formulas alone; None where they are."""
-    if not system.free:
+    if not group_formulas(system):
         return "nothing is unknown"
     if len(system.driven) != 1:
         return "formulas follow a single input only"
