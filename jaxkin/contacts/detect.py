@@ -7,9 +7,11 @@ their unbounded surfaces are in one of the sixteen states, and whether the conta
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Int
 
 from jaxkin.contacts.boxes import crossing, face_box, overlapping
 from jaxkin.contacts.contact import Contact, Contacts, NearMiss
@@ -52,15 +54,23 @@ def find_contacts(
     for i, j in overlapping(outlines, margin):
         tol = tolerance.between(parts[i], parts[j])
         found = []
-        for a, b in crossing(boxes[i], boxes[j], margin):
+        near = crossing(boxes[i], boxes[j], margin)
+        for a, b in near:
             at = (np.maximum(boxes[i][a, 0], boxes[j][b, 0]) + np.minimum(boxes[i][a, 1], boxes[j][b, 1])) / 2
             found.append(_examine((parts[i], parts[j]), (parts[i].faces[a], parts[j].faces[b]), at, tol))
         here = [result for result in found if isinstance(result, Contact)]
         contacts += here
         near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
-        if not any(found) and (note := edge_note(parts[i], parts[j], tolerance.length)):
-            notes.append(note)
+        if len(near) and not any(found):
+            ends = (_with_faces(part, np.unique(some)) for part, some in zip((parts[i], parts[j]), near.T, strict=True))
+            if note := edge_note(*ends, tolerance.length):
+                notes.append(note)
     return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
+
+
+def _with_faces(part: Part, indices: Int[np.ndarray, " faces"]) -> Part:
+    """Take a part with some of its faces only."""
+    return replace(part, faces=tuple(part.faces[index] for index in indices))
 
 
 def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list[NearMiss]:

@@ -68,6 +68,11 @@ class Twists:
         lost = directions[strengths**2 > 1 - _LOST]
         return ((lost / s) @ vt).reshape(len(lost), len(self.bodies), 6)
 
+    def count_freed(self, rows: Rows) -> int:
+        """Count the independent motions of the bodies that become possible when these rows are removed (`freed`)."""
+        strengths = np.linalg.svd(self._decomposed[0][rows], compute_uv=False)
+        return int((strengths**2 > 1 - _LOST).sum())
+
     def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
         """Measure how strongly these rows constrain the motions `gained` without them: the least constraint of a
         motion.
