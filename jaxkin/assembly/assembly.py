@@ -153,6 +153,8 @@ class Assembly:
 
     def without(self, names: Collection[str]) -> Assembly:
         """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        if not names:
+            return self
         names = _in_full([*names], self.parts, "exclude")
         for name in names:
             if name not in self.names:

@@ -18,6 +18,7 @@ from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement
 from jaxkin.linkage.first_order import RANK_TOLERANCE
+from jaxkin.topology.components import connected
 
 _LOST = 1e-10
 """A direction of the constraints is lost without some rows if no more than this share of its square lies in the others:
@@ -54,9 +55,16 @@ class Twists:
 
     def alone(self, bodies: Sequence[str], rows: Rows) -> int:
         """Count the independent motions that these rows allow these bodies while all other bodies rest."""
-        own = np.concatenate([6 * self.bodies.index(body) + np.arange(6) for body in bodies])
-        strengths = np.linalg.svd(self.matrix[np.ix_(rows, own)], compute_uv=False)
-        return len(own) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
+        places = [self.bodies.index(body) for body in bodies]
+        own = self.matrix[rows].reshape(len(rows), len(self.bodies), 6)[:, places]
+        holds = own.any(axis=2)  # (rows, bodies)
+        # the matrix consists of blocks: one for the bodies that rows connect, such as a stack of washers
+        pairs = [(some[0], other) for some in map(np.flatnonzero, holds) for other in some[1:]]
+        blocks = [sorted(block) for block in connected(range(len(bodies)), pairs)]
+        strengths = np.concatenate(
+            [np.linalg.svd(own[holds[:, k].any(axis=1)][:, k].reshape(-1, 6 * len(k)), compute_uv=False) for k in blocks]
+        )
+        return 6 * len(bodies) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
 
     def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
         """Compute a basis of the motions of the bodies that become possible when these rows are removed.
@@ -70,8 +78,9 @@ class Twists:
 
     def count_freed(self, rows: Rows) -> int:
         """Count the independent motions of the bodies that become possible when these rows are removed (`freed`)."""
-        strengths = np.linalg.svd(self._decomposed[0][rows], compute_uv=False)
-        return int((strengths**2 > 1 - _LOST).sum())
+        share = self._decomposed[0][rows]
+        share = share if len(share) < share.shape[1] else share.T
+        return int((np.linalg.eigvalsh(share @ share.T) > 1 - _LOST).sum())
 
     def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
         """Measure how strongly these rows constrain the motions `gained` without them: the least constraint of a

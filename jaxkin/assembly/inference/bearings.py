@@ -144,10 +144,8 @@ def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
 
 def _inside(outer: _Ring, inner: _Ring) -> bool:
     """Whether a ring is inside another one, with room for balls, and at the same place of one axis."""
-    if not inner.outside.on_axis_of(outer.hole):
-        return False
     ratio = inner.outside.radius / outer.hole.radius
-    if not THICKEST <= ratio < 1 / ROUND:
+    if not THICKEST <= ratio < 1 / ROUND or not inner.outside.on_axis_of(outer.hole):
         return False
     (low1, high1), (low2, high2) = (_ends(ring, outer.hole) for ring in (outer, inner))
     return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2
