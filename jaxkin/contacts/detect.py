@@ -7,6 +7,7 @@ their unbounded surfaces are in one of the sixteen states, and whether the conta
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -30,7 +31,11 @@ KINDS = ("plane", "cylinder", "cone", "sphere")
 
 
 def find_contacts(
-    parts: tuple[Part, ...], length: float | None = None, angle: float = 1e-4, fit: float = 0.02
+    parts: tuple[Part, ...],
+    length: float | None = None,
+    angle: float = 1e-4,
+    fit: float = 0.02,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Contacts:
     """Find all contacts between the parts in their assembled pose.
 
@@ -39,7 +44,8 @@ def find_contacts(
     which directions count as parallel. `fit` is the clearance, relative to the radius, up to which a pin fills its hole
     (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces are in contact only where they
     touch along a line or at a point. Two faces that miss a state by little more than the tolerances, or meet only along
-    the edge of one of them, are listed in `near_misses`; nothing is guessed.
+    the edge of one of them, are listed in `near_misses`; nothing is guessed. `progress(done, total)` is called after
+    each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
@@ -51,7 +57,8 @@ def find_contacts(
     outlines = np.stack([np.stack([box[:, 0].min(axis=0), box[:, 1].max(axis=0)]) for box in boxes])
     contacts: list[Contact] = []
     near_misses: list[NearMiss] = []
-    for i, j in overlapping(outlines, margin):
+    pairs = overlapping(outlines, margin)
+    for done, (i, j) in enumerate(pairs, start=1):
         tol = tolerance.between(parts[i], parts[j])
         found = []
         near = crossing(boxes[i], boxes[j], margin)
@@ -65,6 +72,8 @@ def find_contacts(
             ends = (_with_faces(part, np.unique(some)) for part, some in zip((parts[i], parts[j]), near.T, strict=True))
             if note := edge_note(*ends, tolerance.length):
                 notes.append(note)
+        if progress:
+            progress(done, len(pairs))
     return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
 
 

@@ -57,13 +57,14 @@ class Twists:
         """Count the independent motions that these rows allow these bodies while all other bodies rest."""
         places = [self.bodies.index(body) for body in bodies]
         own = self.matrix[rows].reshape(len(rows), len(self.bodies), 6)[:, places]
-        holds = own.any(axis=2)  # (rows, bodies)
+        held = [np.flatnonzero(row).tolist() for row in np.any(own, axis=2)]
         # the matrix consists of blocks: one for the bodies that rows connect, such as a stack of washers
-        pairs = [(some[0], other) for some in map(np.flatnonzero, holds) for other in some[1:]]
-        blocks = [sorted(block) for block in connected(range(len(bodies)), pairs)]
-        strengths = np.concatenate(
-            [np.linalg.svd(own[holds[:, k].any(axis=1)][:, k].reshape(-1, 6 * len(k)), compute_uv=False) for k in blocks]
-        )
+        blocks = connected(range(len(bodies)), [(some[0], other) for some in held for other in some[1:]])
+        every = []
+        for block in map(sorted, blocks):
+            of_block = [row for row, some in enumerate(held) if some and some[0] in block]
+            every.append(np.linalg.svd(own[np.ix_(of_block, block)].reshape(-1, 6 * len(block)), compute_uv=False))
+        strengths = np.concatenate(every)
         return 6 * len(bodies) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
 
     def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
