@@ -69,8 +69,8 @@ def find_contacts(
         contacts += here
         near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
         if len(near) and not any(found):
-            ends = (_with_faces(part, np.unique(some)) for part, some in zip((parts[i], parts[j]), near.T, strict=True))
-            if note := edge_note(*ends, tolerance.length):
+            one, two = _with_faces(parts[i], near[:, 0]), _with_faces(parts[j], near[:, 1])
+            if note := edge_note(one, two, tolerance.length):
                 notes.append(note)
         if progress:
             progress(done, len(pairs))
@@ -78,8 +78,8 @@ def find_contacts(
 
 
 def _with_faces(part: Part, indices: Int[np.ndarray, " faces"]) -> Part:
-    """Take a part with some of its faces only."""
-    return replace(part, faces=tuple(part.faces[index] for index in indices))
+    """Take a part with some of its faces only, in their order."""
+    return replace(part, faces=tuple(part.faces[index] for index in np.unique(indices)))
 
 
 def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list[NearMiss]:

@@ -14,6 +14,7 @@ from jaxkin._files import check_file
 from jaxkin.geometry.part import Part
 from jaxkin.io.names import cleaned, is_damaged, unique
 from jaxkin.io.step_check import missing
+from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_solid import Solid, make_solid
@@ -54,7 +55,7 @@ def read_step(
     unit_name, metres = length_unit(text, path.name)
     off = uncertainty(text)
     placed = placed_parts(text, path.name)
-    found, defects = _instances(data, limit)
+    found, defects = _instances(one_color_each(text).encode("latin-1"), limit)
     defects += missing(text, placed, found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
@@ -85,7 +86,7 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
     """The solids of a file as placed meshes, one at least, and what is said about its damages."""
     glb, damages = convert(data, limit)
     found = list(instances(glb))
-    if not all(instance.complete for instance in found):
+    if not all(instance.complete for instance in found):  # of a product some is coloured, and some is not
         plain = list(instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0]))
         colors = [it.color for it in found] if len(plain) == len(found) else [None] * len(plain)
         found = [replace(bare, color=color) for bare, color in zip(plain, colors, strict=True)]

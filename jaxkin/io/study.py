@@ -55,7 +55,7 @@ class Study:
         """The contacts of the assembly, within the tolerances of the study; none where they are not looked for."""
         if self.assembly is None or not self.detect or self.by_export:
             return Contacts(())
-        return self.assembly.contacts(**self.tolerance)
+        return self.assembly.contacts(**self.tolerance)  # pyright: ignore[reportArgumentType]
 
     @property
     def by_export(self) -> bool:
