@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import typer
+
 from jaxkin.cli.options import Options
 from jaxkin.cli.progress import Steps, progress
 
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
 LONG = 200_000
 """From more poses on a range is written as arrays only, chunk by chunk: pictures and tables of so many say nothing, and
 the displacements of all parts may not fit into memory."""
+
+MANY_PARTS = 600
+"""Parts of an assembly from which on a command says that it takes its time: more than a minute."""
 
 
 def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
@@ -74,7 +79,14 @@ def named(files: Sequence[Path]) -> str:
 def read(files: Sequence[Path], options: Options, step: Steps) -> Study:
     """The study that files and options make: a step of the progress."""
     step(f"reading {named(files)}")
-    return options.on(files, step.within)
+    study = options.on(files, step.within)
+    if study.assembly and (parts := len(study.assembly.parts)) > MANY_PARTS:
+        typer.echo(
+            f"jaxkin: {study.assembly.source} has {parts} parts; 400 take half a minute, 1200 two minutes: to be "
+            "quicker give what is fixed, --fixed PART, or export a part of the assembly",
+            err=True,
+        )
+    return study
 
 
 def find_contacts(study: Study, step: Steps) -> None:
