@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -25,6 +25,9 @@ from jaxkin.joints.joint import Joint
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
+_DEFAULT_TOLERANCES = (None, 1e-4, 0.02)
+"""Those of `Assembly.contacts`."""
+
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
@@ -43,15 +46,23 @@ class Assembly:
         """Names of the parts."""
         return tuple(part.name for part in self.parts)
 
-    def contacts(self, *, length: float | None = None, angle: float = 1e-4, fit: float = 0.02) -> Contacts:
+    def contacts(
+        self,
+        *,
+        length: float | None = None,
+        angle: float = 1e-4,
+        fit: float = 0.02,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Contacts:
         """The contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
         `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
-        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`.
+        over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`. `progress(done,
+        total)` is called after each pair of parts whose boxes meet.
         """
         tolerances = (length, angle, fit)
         if tolerances not in self._found:
-            self._found[tolerances] = find_contacts(self.parts, *tolerances)
+            self._found[tolerances] = find_contacts(self.parts, *tolerances, progress)
         return self._found[tolerances]
 
     def mechanism(
@@ -119,7 +130,11 @@ class Assembly:
             return from_export(self, self.exported, said)
         contacts = self.contacts() if contacts is None else contacts
         check_said(self.names, said)
-        return (inferred if infer and combine else from_words)(self, contacts, said)
+        plain = not (rigid or ignore or joints) and combine and infer and align is None and clearance is None
+        made = self._made if plain and contacts is self._found.get(_DEFAULT_TOLERANCES) else {}
+        if said.fixed not in made:
+            made[said.fixed] = (inferred if infer and combine else from_words)(self, contacts, said)
+        return made[said.fixed]
 
     def of_joints(
         self,
@@ -147,12 +162,20 @@ class Assembly:
         check_said(kept.names, said)
         return from_words(kept, Contacts(()), said, left_loose(kept.names, said))
 
-    def proposals(self, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None) -> tuple[Proposal, ...]:
+    def proposals(
+        self,
+        fixed: Sequence[str] | None = None,
+        drive: Sequence[str] | None = None,
+        *,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> tuple[Proposal, ...]:
         """Try which parts to fix and what to drive, the best first: see `jaxkin.assembly.proposals.proposals`."""
-        return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive)
+        return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive, progress)
 
     def without(self, names: Collection[str]) -> Assembly:
         """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        if not names:
+            return self
         names = _in_full([*names], self.parts, "exclude")
         for name in names:
             if name not in self.names:
@@ -167,6 +190,11 @@ class Assembly:
 
     @cached_property
     def _found(self) -> dict[tuple[float | None, float, float], Contacts]:
+        return {}
+
+    @cached_property
+    def _made(self) -> dict[Sequence[str], Mechanism]:
+        """Mechanisms for which nothing was said but their fixed parts, by these: proposals make several."""
         return {}
 
     @cached_property

@@ -133,7 +133,7 @@ class _SpinCandidates(NamedTuple):
         if self.system.alone(parts, rows) != own:
             return False
         # without its joints a part gains six freedoms less those of its spin: more is gained by the other parts
-        return len(self.system.freed(rows)) == 6 * len(parts) - own
+        return self.system.count_freed(rows) == 6 * len(parts) - own
 
     def needless_subset(self, groups: Sequence[Parts], chosen: Sequence[str] = ()) -> Parts:
         """Find, by bisection, parts of some groups that are needless as one set with the parts `chosen` before.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -48,13 +48,17 @@ class Proposal:
 
 
 def proposals(
-    assembly: Assembly, fixed: Sequence[str] | None = None, drive: Sequence[str] | None = None
+    assembly: Assembly,
+    fixed: Sequence[str] | None = None,
+    drive: Sequence[str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> tuple[Proposal, ...]:
     """Try what to fix and what to drive; the proposals that achieve most come first.
 
     `fixed` are the parts to fix, by default each of a few that may be meant: those of the bodies that are large and
     joined to many others. `drive` are coordinates that are driven, by default those which leave nothing but idle
     motions. One freedom comes before several, more joints that move before fewer, and what cannot move comes last.
+    `progress(done, total)` is called after each choice that was tried.
 
     Raises ValueError for names that do not exist, and for an assembly without parts.
     """
@@ -67,8 +71,11 @@ def proposals(
     mechanism = assembly.mechanism(fixed=[base])
     others = [part for part in _likely(mechanism, solids) if part not in mechanism.fixed]
     choices = [[part] for part in others[: TRIED - 1]] + _with_ends(mechanism, solids)
-    found = [_tried(mechanism, [base], drive)]
-    found += [_tried(assembly.mechanism(fixed=choice), choice, drive) for choice in choices]
+    found = []
+    for done, choice in enumerate(([base], *choices), start=1):
+        found.append(_tried(assembly.mechanism(fixed=choice), choice, drive))
+        if progress:
+            progress(done, 1 + len(choices))
     return tuple(sorted(found, key=lambda each: (bool(each.problem), each.freedoms, len(each.fixed), -each.moving)))
 
 

@@ -109,7 +109,7 @@ def _is_round(part: Part, spin: Spin) -> bool:
     """
     from scipy.spatial import ConvexHull, QhullError
 
-    outline = (part.triangles.reshape(-1, 3) - spin.frame[:3, 3]) @ spin.frame[:3, :2]
+    outline = (part.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :2]
     try:
         hull = ConvexHull(outline)
     except QhullError:  # a sheet seen from its edge

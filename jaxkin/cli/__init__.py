@@ -11,7 +11,9 @@ def main() -> None:
     import jax
 
     from jaxkin.cli.app import app
+    from jaxkin.cli.threads import one_thread
 
+    one_thread()
     jax.config.update("jax_enable_x64", True)
     if "JAX_COMPILATION_CACHE_DIR" not in os.environ:
         jax.config.update("jax_compilation_cache_dir", str(cache_folder()))

@@ -79,9 +79,8 @@ def inspect(
         from jaxkin.cli import report, written
 
         with progress(2) as step:
-            step(f"reading {run.named(files)}")
-            study = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only).on(files)
-            step("finding contacts")
+            study = run.read(files, Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only), step)
+            run.find_contacts(study, step)
             contacts = study.contacts
         if study.assembly:
             report.print_assembly(study.assembly, None if study.by_export else contacts, verbose)
@@ -126,7 +125,7 @@ def loops(
     with one_line_errors():
         from jaxkin.cli import report
 
-        with progress(2) as step:
+        with progress(3) as step:
             study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
         if png:
             from jaxkin.view.structure import draw_structure
@@ -155,7 +154,7 @@ def accuracy(
         from jaxkin.cli import report
         from jaxkin.effects.accuracy import combinations, work_precision
 
-        with progress(2 + len(combinations())) as step:
+        with progress(3 + len(combinations())) as step:
             study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
             work = work_precision(study.mechanism, study.drive, step=step)
         if png:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,12 +31,12 @@ class Options:
     exclude: Sequence[str] = ()
     exact_only: bool = False
 
-    def on(self, files: Sequence[Path]) -> Study:
-        """The study of a file, or of files of one part each, with the options."""
+    def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
+        """The study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
 
         drives = parse_drives(self.drive)
         rigid, ignore = parse_parts("--rigid", self.rigid), parse_parts("--ignore", self.ignore)
-        study = self._study(files)
+        study = self._study(files, progress)
         return replace(
             study,
             fixed=list(dict.fromkeys((*study.fixed, *self.fixed))),
@@ -48,7 +48,7 @@ class Options:
             infer=study.infer and not self.exact_only,
         )
 
-    def _study(self, files: Sequence[Path]) -> Study:
+    def _study(self, files: Sequence[Path], progress: Callable[[int, int], None] | None) -> Study:
         """What the files say."""
         from jaxkin.io.load import load
         from jaxkin.io.study import Study, load_study
@@ -57,14 +57,14 @@ class Options:
         if len(files) == 1 and studies:
             if self.unit:
                 raise ValueError(f'--unit {self.unit}: write unit = "{self.unit}" in {files[0].name}')
-            return load_study(files[0])
+            return load_study(files[0], progress=progress)
         if studies:
             raise ValueError(
                 f"{studies[0].name} is a study, which names its geometry itself: give it alone, and write geometry = "
                 '{ crank = "crank.stl", ... } in it'
             )
         if len(files) == 1:
-            return Study(files[0].name, load(files[0], unit=self.unit))
+            return Study(files[0].name, load(files[0], unit=self.unit, progress=progress))
         parts = {file.stem: file for file in files}
         if len(parts) < len(files):
             twice = next(file for file in files if parts[file.stem] != file)
@@ -72,7 +72,7 @@ class Options:
                 f"{twice} and {parts[twice.stem]}: two parts would be called {twice.stem!r}; rename a file, or name "
                 "the parts in a study"
             )
-        assembly = load(parts, unit=self.unit)
+        assembly = load(parts, unit=self.unit, progress=progress)
         return Study(assembly.source, assembly)
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import typer
+
 from jaxkin.cli.options import Options
-from jaxkin.cli.progress import progress
+from jaxkin.cli.progress import Steps, progress
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -20,6 +22,9 @@ LONG = 200_000
 """From more poses on a range is written as arrays only, chunk by chunk: pictures and tables of so many say nothing, and
 the displacements of all parts may not fit into memory."""
 
+MANY_PARTS = 600
+"""Parts of an assembly from which on a command says that it takes its time: more than a minute."""
+
 
 def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     """Write the motion that files and options ask for into a folder, and print what became of it."""
@@ -29,7 +34,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     from jaxkin.cli import report
     from jaxkin.io.writers import WRITERS
 
-    with progress(2) as step:
+    with progress(3) as step:
         study = found(files, options, step)
     if len(next(iter(study.drive.values()))) > LONG:
         said, paths = _streamed(study, out)
@@ -71,12 +76,32 @@ def named(files: Sequence[Path]) -> str:
     return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
 
 
-def found(files: Sequence[Path], options: Options, step: Callable[[str], None]) -> Study:
-    """The study that files and options make, its mechanism found: two steps of the progress."""
+def read(files: Sequence[Path], options: Options, step: Steps) -> Study:
+    """The study that files and options make: a step of the progress."""
     step(f"reading {named(files)}")
-    study = options.on(files)
-    step("finding contacts and joints")
-    _ = checked(study).mechanism  # found once, here, where its step is shown
+    study = options.on(files, step.within)
+    if study.assembly and (parts := len(study.assembly.parts)) > MANY_PARTS:
+        typer.echo(
+            f"jaxkin: {study.assembly.source} has {parts} parts; 400 take half a minute, 1200 two minutes: to be "
+            "quicker give what is fixed, --fixed PART, or export a part of the assembly",
+            err=True,
+        )
+    return study
+
+
+def find_contacts(study: Study, step: Steps) -> None:
+    """Find the contacts of a study once, here, where that is shown: a step of the progress."""
+    step("finding contacts")
+    if study.assembly and study.detect and not study.by_export:
+        study.assembly.contacts(**study.tolerance, progress=step.within)
+
+
+def found(files: Sequence[Path], options: Options, step: Steps) -> Study:
+    """The study that files and options make, its mechanism found: three steps of the progress."""
+    study = checked(read(files, options, step))
+    find_contacts(study, step)
+    step("finding joints")
+    _ = study.mechanism
     return study
 
 
@@ -86,7 +111,7 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
 
     with progress(1) as step:
         step("trying what to fix and to drive")
-        found = assembly.without(study.exclude).proposals()
+        found = assembly.without(study.exclude).proposals(progress=step.within)
     report.say("No part is fixed. What was tried, the best first:")
     for each in found:
         report.say(f"  {each}")

@@ -100,18 +100,7 @@ def crossing(boxes1: Boxes, boxes2: Boxes, margin: float) -> Pairs:
 
 def face_box(face: Face) -> Float[np.ndarray, "2 3"]:
     """Compute a box around the true surface of a face, which bulges over its triangles."""
-    height = bulge(face)
-    return face.box + np.array([[-height], [height]])
-
-
-def bulge(face: Face) -> float:
-    """Measure the largest distance of the surface of a face from its triangles: a length.
-
-    It is measured at the middles of the triangles and of their edges.
-    """
-    corners = face.triangles
-    middles = np.concatenate([(corners + np.roll(corners, 1, axis=1)) / 2, corners.mean(axis=1, keepdims=True)], axis=1)
-    return float(np.abs(face.surface.distance(middles.reshape(-1, 3))).max())
+    return face.box + np.array([[-face.bulge], [face.bulge]])
 
 
 def boxes_of(triangles: Float[np.ndarray, "triangles 3 d"]) -> Float[np.ndarray, "triangles 2 d"]:

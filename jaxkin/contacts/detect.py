@@ -7,9 +7,12 @@ their unbounded surfaces are in one of the sixteen states, and whether the conta
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from jaxtyping import Int
 
 from jaxkin.contacts.boxes import crossing, face_box, overlapping
 from jaxkin.contacts.contact import Contact, Contacts, NearMiss
@@ -28,7 +31,11 @@ KINDS = ("plane", "cylinder", "cone", "sphere")
 
 
 def find_contacts(
-    parts: tuple[Part, ...], length: float | None = None, angle: float = 1e-4, fit: float = 0.02
+    parts: tuple[Part, ...],
+    length: float | None = None,
+    angle: float = 1e-4,
+    fit: float = 0.02,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Contacts:
     """Find all contacts between the parts in their assembled pose.
 
@@ -37,7 +44,8 @@ def find_contacts(
     which directions count as parallel. `fit` is the clearance, relative to the radius, up to which a pin fills its hole
     (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces are in contact only where they
     touch along a line or at a point. Two faces that miss a state by little more than the tolerances, or meet only along
-    the edge of one of them, are listed in `near_misses`; nothing is guessed.
+    the edge of one of them, are listed in `near_misses`; nothing is guessed. `progress(done, total)` is called after
+    each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
@@ -49,18 +57,29 @@ def find_contacts(
     outlines = np.stack([np.stack([box[:, 0].min(axis=0), box[:, 1].max(axis=0)]) for box in boxes])
     contacts: list[Contact] = []
     near_misses: list[NearMiss] = []
-    for i, j in overlapping(outlines, margin):
+    pairs = overlapping(outlines, margin)
+    for done, (i, j) in enumerate(pairs, start=1):
         tol = tolerance.between(parts[i], parts[j])
         found = []
-        for a, b in crossing(boxes[i], boxes[j], margin):
+        near = crossing(boxes[i], boxes[j], margin)
+        for a, b in near:
             at = (np.maximum(boxes[i][a, 0], boxes[j][b, 0]) + np.minimum(boxes[i][a, 1], boxes[j][b, 1])) / 2
             found.append(_examine((parts[i], parts[j]), (parts[i].faces[a], parts[j].faces[b]), at, tol))
         here = [result for result in found if isinstance(result, Contact)]
         contacts += here
         near_misses += _worth_telling([result for result in found if isinstance(result, NearMiss)], here)
-        if not any(found) and (note := edge_note(parts[i], parts[j], tolerance.length)):
-            notes.append(note)
+        if len(near) and not any(found):
+            one, two = _with_faces(parts[i], near[:, 0]), _with_faces(parts[j], near[:, 1])
+            if note := edge_note(one, two, tolerance.length):
+                notes.append(note)
+        if progress:
+            progress(done, len(pairs))
     return Contacts(tuple(contacts), tuple(near_misses), tuple(notes))
+
+
+def _with_faces(part: Part, indices: Int[np.ndarray, " faces"]) -> Part:
+    """Take a part with some of its faces only, in their order."""
+    return replace(part, faces=tuple(part.faces[index] for index in np.unique(indices)))
 
 
 def _worth_telling(near_misses: list[NearMiss], contacts: list[Contact]) -> list[NearMiss]:

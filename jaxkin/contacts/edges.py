@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.contacts.boxes import Boxes, boxes_of, bulge, crossing
+from jaxkin.contacts.boxes import Boxes, boxes_of, crossing
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.part import Part
 
@@ -74,7 +74,7 @@ def _crossing_edges(a: Solid, b: Solid) -> np.ndarray:
 def _all_triangles(part: Part) -> tuple[Solid, np.ndarray, np.ndarray]:
     """List the triangles of all faces with, for each, the index of its face and the bulge of that face (a length)."""
     numbers = np.repeat(np.arange(len(part.faces)), [len(face.triangles) for face in part.faces])
-    bulges = np.array([bulge(face) for face in part.faces])
+    bulges = np.array([face.bulge for face in part.faces])
     return np.concatenate([face.triangles for face in part.faces]), numbers, bulges[numbers]
 
 

@@ -30,6 +30,13 @@ class Face:
         return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
     @cached_property
+    def bulge(self) -> float:
+        """Largest distance of the surface from the triangles, measured at their middles and those of their edges."""
+        corners = self.triangles
+        middles = [(corners + np.roll(corners, 1, axis=1)) / 2, corners.mean(axis=1, keepdims=True)]
+        return float(np.abs(self.surface.distance(np.concatenate(middles, axis=1).reshape(-1, 3))).max())
+
+    @cached_property
     def area(self) -> float:
         """Sum of the areas of the triangles."""
         edges = self.triangles[:, 1:] - self.triangles[:, :1]
@@ -63,6 +70,17 @@ class Part:
         """Lowest and highest corner of the bounding box."""
         corners = self.triangles.reshape(-1, 3)
         return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+    @cached_property
+    def outermost(self) -> Float[np.ndarray, "corners 3"]:
+        """Corners whose convex hull is that of all corners, few of a large part; all corners of a flat part."""
+        from scipy.spatial import ConvexHull, QhullError
+
+        corners = self.triangles.reshape(-1, 3)
+        try:
+            return corners[ConvexHull(corners).vertices]
+        except QhullError:
+            return corners
 
 
 def moved(part: Part, pose: Pose) -> Part:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,7 +25,11 @@ _TWINS = 1e-6
 
 
 def load(
-    source: str | Path | Mapping[str, str | Path], *, unit: str | None = None, seconds: float | None = None
+    source: str | Path | Mapping[str, str | Path],
+    *,
+    unit: str | None = None,
+    seconds: float | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Assembly:
     """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
 
@@ -36,7 +40,8 @@ def load(
 
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
     have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
-    read, by default 20 s and 5 s a megabyte.
+    read, by default 20 s and 5 s a megabyte. `progress(done, total)` is called after each part of a STEP file, and
+    after each file of several.
 
     Raises FileNotFoundError where there is no such file, and ValueError where one holds no solids or is not read in
     time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
@@ -51,7 +56,7 @@ def load(
             twice = tuple(f"the parts {twins} are the same solid in the same place" for twins in _twins(parts))
             exported = replace(exported, notes=(*exported.notes, *twice))
             return Assembly(parts, _agreed({name: said}, unit), name, exported)
-        parts, said = _read(Path(source), seconds)
+        parts, said = _read(Path(source), seconds, progress=progress)
         return Assembly(_apart(parts, f"{name}: "), _agreed({name: said}, unit), name)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(
@@ -65,11 +70,18 @@ def load(
             )
         found, units[f"{name} ({Path(file).name})"] = _read(Path(file), seconds, name)
         parts += found
+        if progress:
+            progress(len(units), len(source))
     agreed = _agreed(units, unit)  # first: numbers in different units tell nothing about the same place
     return Assembly(_apart(tuple(parts)), agreed, ", ".join(Path(file).name for file in source.values()))
 
 
-def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[tuple[Part, ...], str]:
+def _read(
+    path: Path,
+    seconds: float | None,
+    name: str | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[tuple[Part, ...], str]:
     """The parts in a file, or the one part that it is with a name."""
     suffix = path.suffix.lower()
     if path.is_dir():
@@ -81,7 +93,7 @@ def _read(path: Path, seconds: float | None, name: str | None = None) -> tuple[t
             f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}) and meshes ({', '.join(MESHES)}); got "
             f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
         )
-    parts, unit = read_step(path, seconds)
+    parts, unit = read_step(path, seconds, progress)
     if name is None:
         return parts, unit
     if len(parts) > 1:

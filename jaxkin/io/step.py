@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,9 +14,10 @@ from jaxkin._files import check_file
 from jaxkin.geometry.part import Part
 from jaxkin.io.names import cleaned, is_damaged, unique
 from jaxkin.io.step_check import missing
+from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
-from jaxkin.io.step_solid import Solid, make_solid, solid_key
+from jaxkin.io.step_solid import Solid, make_solid
 from jaxkin.io.step_tree import placed_parts
 from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
@@ -32,14 +34,16 @@ _PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator
 """What translators write where nobody gave a name."""
 
 
-def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Part, ...], str]:
+def read_step(
+    path: str | Path, seconds: float | None = None, progress: Callable[[int, int], None] | None = None
+) -> tuple[tuple[Part, ...], str]:
     """The parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that unit.
 
     Each instance of a solid in the assembly is a part. Names are cleaned, with what the file says in `original_name`;
     parts with the same name become "bolt", "bolt#2", parts without a name "part 1", "part 2" by their place in the
     file. The sub-assemblies that a part is in are its `path`. Faces of a part on one surface are one face; those on
     none of the four surfaces, and what was repaired, are in the notes of the part. `seconds` is the time allowed, by
-    default that of `TimeLimit`.
+    default that of `TimeLimit`; `progress(done, total)` is called after each part.
 
     Raises FileNotFoundError where there is no such file, and ValueError where it is no whole STEP file with solids, or
     not read in time. Warns where the reader met damages, or parts, faces or their triangles are not what the file says.
@@ -51,20 +55,22 @@ def read_step(path: str | Path, seconds: float | None = None) -> tuple[tuple[Par
     unit_name, metres = length_unit(text, path.name)
     off = uncertainty(text)
     placed = placed_parts(text, path.name)
-    found, defects = _instances(data, limit)
+    found, defects = _instances(one_color_each(text).encode("latin-1"), limit)
     defects += missing(text, placed, found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
     parts = []
     for name, instance in zip(names, found, strict=True):
         limit.remaining()
-        if (key := solid_key(instance)) not in solids:
-            solids[key] = make_solid(instance, metres, off)
+        if (key := instance.mesh.key) not in solids:
+            solids[key] = make_solid(instance.mesh, metres, off)
         pose = instance.pose.copy()
         pose[:3, 3] /= metres
         part, damages = solids[key].placed(name, pose, instance.color)
         parts.append(replace(part, path=instance.path, original_name=next(iter(_given(instance)), "")))
         defects += [f"{name!r}: {damage}" for damage in damages]
+        if progress:
+            progress(len(parts), len(found))
     if defects:
         told = "; ".join(defects[:_TOLD_DEFECTS]) + (
             f"; and {len(defects) - _TOLD_DEFECTS} more" if len(defects) > _TOLD_DEFECTS else ""
@@ -80,7 +86,7 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
     """The solids of a file as placed meshes, one at least, and what is said about its damages."""
     glb, damages = convert(data, limit)
     found = list(instances(glb))
-    if not all(instance.complete for instance in found):
+    if not all(instance.complete for instance in found):  # of a product some is coloured, and some is not
         plain = list(instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0]))
         colors = [it.color for it in found] if len(plain) == len(found) else [None] * len(plain)
         found = [replace(bare, color=color) for bare, color in zip(plain, colors, strict=True)]
@@ -88,7 +94,7 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
         why = f" ({'; '.join(damages)})" if damages else ""
         raise ValueError(f"{limit.name} is damaged: none of its solids can be made{why}; export it again")
     for instance in found:
-        if not (np.all(np.isfinite(instance.triangles)) and np.all(np.isfinite(instance.pose))):
+        if not (np.all(np.isfinite(instance.mesh.triangles)) and np.all(np.isfinite(instance.pose))):
             named = next(filter(None, instance.names), "without a name")
             raise ValueError(
                 f"{limit.name} is damaged: coordinates of the part {named!r} are no numbers; export it again"

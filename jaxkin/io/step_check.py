@@ -69,6 +69,6 @@ def missing(text: str, placed: int, found: Sequence[Instance]) -> list[str]:
         elif "CLOSED_SHELL" in statement and (shell := _SHELL.search(statement)):
             shells[shell[1]] = shell[2].count("#")
     announced = sum(faces for number, faces in shells.items() if number in outer)
-    if (made := sum(len(instance.faces) for instance in found)) < announced:
+    if (made := sum(len(instance.mesh.faces) for instance in found)) < announced:
         said.append(f"its solids have {announced} faces, {made} can be made")
     return said

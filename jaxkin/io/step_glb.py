@@ -9,6 +9,8 @@ import json
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -21,6 +23,28 @@ Color = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
+class Mesh:
+    """The triangles and faces of a product, which all its instances share, in a frame of its own."""
+
+    triangles: Float[np.ndarray, "triangles 3 3"]
+    """float32 in the file."""
+    normals: Float[np.ndarray, "triangles 3 3"]
+    """Of the true surface at the corners, outwards; float32 in the file."""
+    face_of: Int[np.ndarray, "triangles"]
+    """The index into `faces` of each triangle."""
+    faces: tuple[dict[str, Any] | None, ...]
+    """Analytic faces; None where the surface is none that cascadio names."""
+
+    @cached_property
+    def key(self) -> bytes:
+        """What two meshes of one solid have in common."""
+        content = sha256(repr(self.faces).encode())
+        for array in (self.triangles, self.normals, self.face_of):
+            content.update(array.tobytes())
+        return content.digest()
+
+
+@dataclass(frozen=True, eq=False)
 class Instance:
     """One placed mesh of the tree of instances."""
 
@@ -30,14 +54,7 @@ class Instance:
     """Names of the assemblies that the instance is in, below that of the whole file, outermost first."""
     pose: Pose
     """From the frame of the mesh to the world: rigid to float64, right to float32."""
-    triangles: Float[np.ndarray, "triangles 3 3"]
-    """In the frame of the mesh; float32 in the file."""
-    normals: Float[np.ndarray, "triangles 3 3"]
-    """Of the true surface at the corners, outwards; float32 in the file."""
-    face_of: Int[np.ndarray, "triangles"]
-    """The index into `faces` of each triangle."""
-    faces: tuple[dict[str, Any] | None, ...]
-    """Analytic faces in the frame of the mesh; None where the surface is none that cascadio names."""
+    mesh: Mesh
     color: Color | None
     complete: bool
     """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
@@ -48,6 +65,7 @@ def instances(glb: bytes) -> Iterator[Instance]:
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
+    read: dict[str, Mesh] = {}  # by the arrays, which all instances of a product name
     todo = [(node, np.eye(4), (), inner) for node, inner in reversed(_inside(tree, roots, ()))]
     if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
         todo = [(roots[0], np.eye(4), (), ())]
@@ -61,7 +79,10 @@ def instances(glb: bytes) -> Iterator[Instance]:
         primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
         if primitives:
             names = node.get("name", "").strip(), mesh.get("name", "").strip()
-            yield Instance(names, path, pose, *_triangles(tree, binary, primitives), *_color(tree, primitives))
+            arrays = repr([_arrays(primitive) for primitive in primitives])
+            if arrays not in read:
+                read[arrays] = _mesh(tree, binary, primitives)
+            yield Instance(names, path, pose, read[arrays], *_color(tree, primitives))
 
 
 def _inside(tree: dict[str, Any], nodes: list[int], path: tuple[str, ...]) -> list[tuple[int, tuple[str, ...]]]:
@@ -82,17 +103,27 @@ def _rigid(node: dict[str, Any]) -> Pose:
     return pose
 
 
-def _triangles(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> tuple[Any, Any, Any, Any]:
+def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]]) -> Mesh:
     triangles, normals, face_of = [np.zeros((0, 3, 3))], [np.zeros((0, 3, 3))], [np.zeros(0, int)]
     faces: list[dict[str, Any] | None] = []
     for primitive in primitives:
-        if described := primitive.get("extensions", {}).get("TM_brep_faces"):
+        if described := _faces(primitive):
             rows = _array(tree, binary, primitive["indices"]).reshape(-1, 3)
             triangles.append(_array(tree, binary, primitive["attributes"]["POSITION"]).astype(float)[rows])
             normals.append(_array(tree, binary, primitive["attributes"]["NORMAL"]).astype(float)[rows])
             face_of.append(_array(tree, binary, described["faceIndices"]).astype(int) + len(faces))
             faces += described["faces"]
-    return np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces)
+    return Mesh(np.concatenate(triangles), np.concatenate(normals), np.concatenate(face_of), tuple(faces))
+
+
+def _faces(primitive: dict[str, Any]) -> dict[str, Any]:
+    """What cascadio says of the faces of the triangles of a primitive; empty where that is nothing."""
+    return primitive.get("extensions", {}).get("TM_brep_faces", {})
+
+
+def _arrays(primitive: dict[str, Any]) -> tuple[Any, ...]:
+    """The numbers of the arrays of a primitive: instances of one product share them."""
+    return primitive.get("attributes"), primitive.get("indices"), _faces(primitive).get("faceIndices")
 
 
 def _array(tree: dict[str, Any], binary: bytes, index: int) -> np.ndarray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from hashlib import sha256
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Pose, apply, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere, Surface
 from jaxkin.io.step_check import Defect, unsound
-from jaxkin.io.step_glb import Color, Instance
+from jaxkin.io.step_glb import Color, Mesh
 from jaxkin.io.step_side import Triangles, areas, points_outwards, winding
 
 _GROSS = 1e-3
@@ -48,26 +47,18 @@ class Solid:
         return Part(name, faces, apply(pose, self.triangles), color, (*notes, *damages)), damages
 
 
-def solid_key(instance: Instance) -> bytes:
-    """What two instances of one solid have in common."""
-    content = sha256(repr(instance.faces).encode())
-    for array in (instance.triangles, instance.normals, instance.face_of):
-        content.update(array.tobytes())
-    return content.digest()
-
-
-def make_solid(instance: Instance, metres: float, uncertainty: float = 0.0) -> Solid:
-    """The solid of an instance; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
-    triangles = instance.triangles / metres
+def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
+    """The solid of a mesh; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
+    triangles = mesh.triangles / metres
     tolerance = rounding(triangles)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 0.0
     faces, notes, damages, repaired = [], [], [], False
-    for index, described in enumerate(instance.faces):
-        label, rows = f"face {index + 1}", np.flatnonzero(instance.face_of == index)
+    for index, described in enumerate(mesh.faces):
+        label, rows = f"face {index + 1}", np.flatnonzero(mesh.face_of == index)
         if len(rows) == 0:
             damages.append(f"{label}: it came without triangles, so where it ends is not known: left out")
             continue
-        corners, normals = triangles[rows].reshape(-1, 3), instance.normals[rows].reshape(-1, 3)
+        corners, normals = triangles[rows].reshape(-1, 3), mesh.normals[rows].reshape(-1, 3)
         surface = _analytic(described, corners, metres) or fit_surface(corners, normals, 5 * tolerance, angle=1e-2)
         if surface is None:
             kind = described["type"] if described else "freeform surface"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -55,7 +55,7 @@ class Study:
         """The contacts of the assembly, within the tolerances of the study; none where they are not looked for."""
         if self.assembly is None or not self.detect or self.by_export:
             return Contacts(())
-        return self.assembly.contacts(**self.tolerance)
+        return self.assembly.contacts(**self.tolerance)  # pyright: ignore[reportArgumentType]
 
     @property
     def by_export(self) -> bool:
@@ -111,9 +111,11 @@ class Study:
         return self.mechanism.sweep(self.drive)
 
 
-def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
+def load_study(
+    path: str | Path, *, seconds: float | None = None, progress: Callable[[int, int], None] | None = None
+) -> Study:
     """The study that a TOML file describes; its geometry is looked for beside the file, and read as by
-    `load`, within `seconds` a file.
+    `load`, within `seconds` a file and with its `progress`.
 
     Raises FileNotFoundError where there is no such file, and ValueError, with the key, what arrived and what was
     expected, where it is no study. What it says about parts and joints is checked when `mechanism` or `drive` is asked
@@ -140,6 +142,7 @@ def load_study(path: str | Path, *, seconds: float | None = None) -> Study:
     assembly = load(
         place / source if isinstance(source, str) else {part: place / file for part, file in source.items()},
         seconds=seconds,
+        progress=progress,
     )
     if not assembly.unit:  # formats of meshes that have none
         assembly = replace(assembly, unit=said.unit)

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._memory import once_for_each
 from jaxkin._names import listed
 from jaxkin.joints.subgroups import Subgroup
 from jaxkin.linkage.first_order import EQUATIONS, independent, without
@@ -88,6 +89,12 @@ def mobility(linkage: Linkage, unit: str = "") -> Mobility:
     the assembled pose is open: see `Mechanism.close`.
     """
     check_closed(linkage, unit, "mobility", "mobility()")
+    return _of_closed(linkage)
+
+
+@once_for_each
+def _of_closed(linkage: Linkage) -> Mobility:
+    """Compute the mobility of a linkage whose loops are closed in the assembled pose."""
     every = loop_freedoms(linkage)
     mobile = [found for found in every if len(found.motions)]
     spins = {part.name: part.freedoms for part in linkage.spinning}

@@ -18,6 +18,7 @@ from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import chain, complement
 from jaxkin.linkage.first_order import RANK_TOLERANCE
+from jaxkin.topology.components import connected
 
 _LOST = 1e-10
 """A direction of the constraints is lost without some rows if no more than this share of its square lies in the others:
@@ -54,9 +55,17 @@ class Twists:
 
     def alone(self, bodies: Sequence[str], rows: Rows) -> int:
         """Count the independent motions that these rows allow these bodies while all other bodies rest."""
-        own = np.concatenate([6 * self.bodies.index(body) + np.arange(6) for body in bodies])
-        strengths = np.linalg.svd(self.matrix[np.ix_(rows, own)], compute_uv=False)
-        return len(own) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
+        places = [self.bodies.index(body) for body in bodies]
+        own = self.matrix[rows].reshape(len(rows), len(self.bodies), 6)[:, places]
+        held = [np.flatnonzero(row).tolist() for row in np.any(own, axis=2)]
+        # the matrix consists of blocks: one for the bodies that rows connect, such as a stack of washers
+        blocks = connected(range(len(bodies)), [(some[0], other) for some in held for other in some[1:]])
+        every = []
+        for block in map(sorted, blocks):
+            of_block = [row for row, some in enumerate(held) if some and some[0] in block]
+            every.append(np.linalg.svd(own[np.ix_(of_block, block)].reshape(-1, 6 * len(block)), compute_uv=False))
+        strengths = np.concatenate(every)
+        return 6 * len(bodies) - int((strengths > RANK_TOLERANCE * strengths.max(initial=0.0)).sum())
 
     def freed(self, rows: Rows) -> Float[np.ndarray, "freed bodies 6"]:
         """Compute a basis of the motions of the bodies that become possible when these rows are removed.
@@ -67,6 +76,12 @@ class Twists:
         _, strengths, directions = np.linalg.svd(u[rows], full_matrices=False)
         lost = directions[strengths**2 > 1 - _LOST]
         return ((lost / s) @ vt).reshape(len(lost), len(self.bodies), 6)
+
+    def count_freed(self, rows: Rows) -> int:
+        """Count the independent motions of the bodies that become possible when these rows are removed (`freed`)."""
+        share = self._decomposed[0][rows]
+        share = share if len(share) < share.shape[1] else share.T
+        return int((np.linalg.eigvalsh(share @ share.T) > 1 - _LOST).sum())
 
     def strength(self, rows: Rows, gained: Float[np.ndarray, "freed bodies 6"]) -> float:
         """Measure how strongly these rows constrain the motions `gained` without them: the least constraint of a

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from jaxkin._names import nearest
+from jaxkin.topology.components import connected
 
 
 def bodies(parts: Sequence[str], fixed: Sequence[str], rigid: Sequence[Sequence[str]] = ()) -> Mapping[str, str]:
@@ -13,23 +14,22 @@ def bodies(parts: Sequence[str], fixed: Sequence[str], rigid: Sequence[Sequence[
     `rigid` holds groups of parts that do not move relative to each other; groups that share a part form one body.
     Raises ValueError for a group that is no list of two or more known parts.
     """
-    body = {part: part for part in parts}
     order = {part: place for place, part in enumerate(parts)}
-    for group in (fixed, *checked_groups(parts, rigid)):
-        joined = {body[part] for part in group}
-        first = min(joined, key=order.__getitem__)
-        body = {part: first if owner in joined else owner for part, owner in body.items()}
-    return body
+    groups = [tuple(group) for group in (fixed, *checked_groups(parts, rigid))]
+    joined = connected(parts, [(group[0], part) for group in groups for part in group])
+    first = {part: min(group, key=order.__getitem__) for group in joined for part in group}
+    return {part: first[part] for part in parts}
 
 
 def checked_groups(parts: Sequence[str], rigid: Sequence[Sequence[str]]) -> Sequence[Sequence[str]]:
     """Return the groups if each is a list of two or more known parts; raise ValueError otherwise."""
     if isinstance(rigid, str) or any(isinstance(group, str) for group in rigid):
         raise ValueError(f'rigid must be a list of groups of parts, such as [["bolt", "plate"]], got {rigid!r}')
+    known = set(parts)
     for group in rigid:
         if len(set(group)) < 2:
             raise ValueError(f"rigid connects two parts or more, got the group {list(group)!r}")
         for part in group:
-            if part not in parts:
+            if part not in known:
                 raise ValueError(f"rigid names the unknown part {part!r}{nearest(part, parts)}")
     return rigid

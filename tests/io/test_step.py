@@ -192,10 +192,9 @@ def test_a_face_without_triangles_is_named(monkeypatch):
 
     def without_face_3(glb):
         for whole in instances(glb):
-            kept = whole.face_of != 2
-            yield replace(
-                whole, triangles=whole.triangles[kept], normals=whole.normals[kept], face_of=whole.face_of[kept]
-            )
+            mesh = whole.mesh
+            arrays = {name: getattr(mesh, name)[mesh.face_of != 2] for name in ("triangles", "normals", "face_of")}
+            yield replace(whole, mesh=replace(mesh, **arrays))
 
     monkeypatch.setattr(step, "instances", without_face_3)
     said = "face 3: it came without triangles, so where it ends is not known: left out"

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known
 from jaxkin.geometry.part import Part
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+if TYPE_CHECKING:
+    from jaxkin.assembly.inference.known import Known
 
 THICKEST = 0.45
 """Radius of the inner ring over that of the hole of the outer one, at least: rings of catalogues have 0.6 to 0.9, and
@@ -52,16 +54,19 @@ class _Ring(NamedTuple):
     """The widest one."""
 
 
-def bearings(known: Known) -> list[Bearing]:
-    """Find the bearings among the parts: each ring belongs to one, the tightest pairs come first."""
-    rings = [ring for part in known.parts if (ring := _ring(part, known.bores[part.name])) is not None]
+def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list[Bearing]:
+    """Find the bearings among the parts: each ring belongs to one, the tightest pairs come first.
+
+    `bores` are the bores and pins of each part by its name.
+    """
+    rings = [ring for part in parts if (ring := _ring(part, bores[part.name])) is not None]
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
     found: list[Bearing] = []
     taken: set[str] = set()
+    coaxial = {ring.part.name for ring in rings}
     for outer, inner in sorted(nested, key=lambda pair: pair[0].hole.radius - pair[1].outside.radius, reverse=True):
         names = {outer.part.name, inner.part.name}
-        between = [part for part in known.parts if part.name not in names | taken and _between(part, outer, inner)]
-        coaxial = {ring.part.name for ring in rings}
+        between = [part for part in parts if part.name not in names | taken and _between(part, outer, inner)]
         rolling = sum(part.name not in coaxial for part in between)
         if not names & taken and (rolling >= ROLLING or _flush(outer, inner)):
             taken |= names | {part.name for part in between}
@@ -139,10 +144,8 @@ def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
 
 def _inside(outer: _Ring, inner: _Ring) -> bool:
     """Whether a ring is inside another one, with room for balls, and at the same place of one axis."""
-    if not inner.outside.on_axis_of(outer.hole):
-        return False
     ratio = inner.outside.radius / outer.hole.radius
-    if not THICKEST <= ratio < 1 / ROUND:
+    if not THICKEST <= ratio < 1 / ROUND or not inner.outside.on_axis_of(outer.hole):
         return False
     (low1, high1), (low2, high2) = (_ends(ring, outer.hole) for ring in (outer, inner))
     return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2

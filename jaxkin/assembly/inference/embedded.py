@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Points
 
 SAMPLES = 60
 """Points of a part that are tried, evenly among its corners: a pin in a lug has a fifth of them inside."""
@@ -17,16 +18,20 @@ _RAYS = ((0.5773, 0.2113, 0.7887), (-0.7071, 0.6533, 0.2706), (0.1951, -0.9239, 
 """Directions that are askew to the faces and edges of what people draw, so that few rays meet an edge."""
 
 
-def share_inside(part: Part, other: Part) -> float:
-    """Return the share of a part's corners, moved a little inwards, that lie in the material of another part."""
-    low, high = other.box
+def samples(part: Part) -> Points:
+    """Return points of a part, evenly among its corners, moved a little inwards."""
     corners = np.unique(part.triangles.reshape(-1, 3), axis=0)
     corners = corners[np.linspace(0, len(corners) - 1, min(SAMPLES, len(corners))).astype(int)]
-    corners = corners + SHRUNK * (part.box.mean(axis=0) - corners)
-    near = corners[np.all((corners > low) & (corners < high), axis=1)]
+    return corners + SHRUNK * (part.box.mean(axis=0) - corners)
+
+
+def share_inside(points: Points, other: Part) -> float:
+    """Return the share of some points that lie in the material of a part."""
+    low, high = other.box
+    near = points[np.all((points > low) & (points < high), axis=1)]
     if not len(near):
         return 0.0
-    return float(np.sum(inside(near, other.triangles)) / len(corners))
+    return float(np.sum(inside(near, other.triangles)) / len(points))
 
 
 def inside(
@@ -55,8 +60,3 @@ def _crossed(
     weights = np.roll(turns, -1, axis=-1) / np.where(total == 0, 1.0, total)[..., None]
     height = np.sum(weights * triangles[None, :, :, 0], axis=-1)
     return np.sum(over & (height > points[:, None, 0]), axis=1)
-
-
-def boxes_meet(one: Part, other: Part, margin: float = 0.0) -> bool:
-    """Whether the boxes of two parts overlap, or are nearer to each other than a margin."""
-    return bool(np.all(one.box[0] <= other.box[1] + margin) and np.all(other.box[0] <= one.box[1] + margin))

@@ -37,7 +37,7 @@ def _on_one_axis(own: Sequence[Bore]) -> bool:
 
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
-    corners = part.triangles.reshape(-1, 3) - own[0].point
+    corners = part.outermost - own[0].point
     away = np.linalg.norm(corners - np.outer(corners @ own[0].axis, own[0].axis), axis=1)
     reach = MAX_NUT if all(bore.hole for bore in own) else MAX_HEAD
     return bool(away.max() <= reach * min(bore.radius for bore in own))

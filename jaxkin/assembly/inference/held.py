@@ -6,8 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.bores import bores
-from jaxkin.assembly.inference.embedded import MIN_INSIDE, boxes_meet
+from jaxkin.assembly.inference.embedded import MIN_INSIDE
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -21,8 +20,8 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     related = known.touching | {frozenset(pair.parts) for pair in known.axes}
     result = []
     for part in (known.solids[name] for name in known.names if name in fastening):
-        others = [each for each in known.parts if each is not part and frozenset((each.name, part.name)) not in related]
-        found = [(known.measured.share_inside(part, each), each.name) for each in others if boxes_meet(part, each)]
+        near = [each for each in known.measured.beside(part) if frozenset((each.name, part.name)) not in related]
+        found = [(known.measured.share_inside(part, each), each.name) for each in near]
         for share, host in sorted(((share, name) for share, name in found if share >= MIN_INSIDE), reverse=True)[:1]:
             text = f"{part.name!r} stands in the material of {host!r}, {share:.0%} of its corners"
             evidence = Evidence(EvidenceKind.ENCLOSED, (("share inside", share),), text)
@@ -43,7 +42,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
                 directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
     result = []
     for (pin, other), ways in directions.items():
-        coaxial = any(bore.on_axis_of(axis_of[pin]) for bore in bores(known.solids[other]) if not bore.hole)
+        coaxial = any(bore.on_axis_of(axis_of[pin]) for bore in known.bores[other] if not bore.hole)
         if len(ways) == 2 or coaxial:
             where = "between two faces" if len(ways) == 2 else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
@@ -51,12 +50,17 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     return result
 
 
-def with_hosts(stack: Stack, known: Known) -> Stack:
-    """The stack with the parts that its fasteners are one body with already: they hold it, too."""
-    body = known.body
-    hosts = {p for p in known.names for f in stack.fasteners if p not in stack.fasteners and body[p] == body[f]}
-    held = sorted({*stack.held, *hosts}, key=known.order.__getitem__)
-    return Stack(stack.fasteners, tuple(held), stack.axis, stack.guides)
+def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
+    """The stacks with the parts that their fasteners are one body with already: these hold them, too."""
+    body, members = known.body, {}
+    for part in known.names:
+        members.setdefault(body[part], []).append(part)
+    result = []
+    for stack in every:
+        hosts = {part for each in stack.fasteners for part in members[body[each]]} - {*stack.fasteners}
+        held = sorted({*stack.held, *hosts}, key=known.order.__getitem__)
+        result.append(Stack(stack.fasteners, tuple(held), stack.axis, stack.guides))
+    return result
 
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:

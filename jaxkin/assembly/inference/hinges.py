@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play, stops
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -74,8 +74,11 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
     """
     body, hole = known.body, pair.other
-    members = [[known.solids[name] for name in known.names if body[name] == owner] for owner in owners]
-    free = play(stops(members[0], hole), stops(members[1], hole), hole.radius)
+    one, other = (
+        [stop for part in known.parts if body[part.name] == owner for stop in known.measured.stops(part, hole)]
+        for owner in owners
+    )
+    free = play(one, other, hole.radius)
     if free is not None and free > MAX_PLAY * hole.radius:
         free = None
     free = 0.0 if touching else free

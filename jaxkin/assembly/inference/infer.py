@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, bearings, outside_of
+from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -40,7 +40,7 @@ def infer(
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
-    rolling = bearings(known)
+    rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
@@ -49,7 +49,7 @@ def infer(
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
-    every = [with_hosts(stack, known) for stack in stacks(known.axes, fastening, known.touching, known.order)]
+    every = with_hosts(stacks(known.axes, fastening, known.touching, known.order), known)
     while added := bolted_bodies(known, every):
         known.add(added)
     known.add(attached_fasteners(known, every))

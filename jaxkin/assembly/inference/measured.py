@@ -6,11 +6,15 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.assembly.inference.axes import CommonAxis, common_axes
+from jaxkin.assembly.inference.bearings import Bearing, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
-from jaxkin.assembly.inference.embedded import share_inside
+from jaxkin.assembly.inference.embedded import samples, share_inside
+from jaxkin.assembly.inference.trapped import Stop, stops
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Points
 
 CORNERS = 12
 """Corners of a part, the nearest to the box of the other one, from which distances are measured."""
@@ -22,6 +26,8 @@ class Measured:
     def __init__(self, parts: Sequence[Part]) -> None:
         self.parts = tuple(parts)
         self._axes: dict[float | None, list[CommonAxis]] = {}
+        self._stops: dict[tuple[str, int], list[Stop]] = {}
+        self._samples: dict[str, Points] = {}
         self._inside: dict[tuple[str, str], float] = {}
         self._distances: dict[frozenset[str], float] = {}
 
@@ -30,17 +36,42 @@ class Measured:
         """Bores and pins of each part."""
         return {part.name: bores(part) for part in self.parts}
 
+    @cached_property
+    def bearings(self) -> list[Bearing]:
+        """Bearings among the parts: see `bearings`."""
+        return bearings(self.parts, self.bores)
+
     def axes(self, clearance: float | None) -> list[CommonAxis]:
         """Common axes of different parts: see `common_axes`."""
         if clearance not in self._axes:
             self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         return self._axes[clearance]
 
+    @cached_property
+    def boxes(self) -> Float[np.ndarray, "parts 2 3"]:
+        """Lowest and highest corner of each part."""
+        return np.stack([part.box for part in self.parts])
+
+    def beside(self, part: Part) -> list[Part]:
+        """Other parts whose boxes overlap that of a part."""
+        low, high = part.box
+        meet = np.all((self.boxes[:, 0] <= high) & (low <= self.boxes[:, 1]), axis=1)
+        return [self.parts[index] for index in np.flatnonzero(meet) if self.parts[index] is not part]
+
+    def stops(self, part: Part, axis: Bore) -> list[Stop]:
+        """The plane faces of a part that stand across the axis of a bore among `bores`, near to it."""
+        key = part.name, id(axis)  # no other bore gets its number: those of `bores` live as long
+        if key not in self._stops:
+            self._stops[key] = stops(part, axis)
+        return self._stops[key]
+
     def share_inside(self, part: Part, other: Part) -> float:
         """The share of a part's corners that lie in the material of another one."""
         key = part.name, other.name
         if key not in self._inside:
-            self._inside[key] = share_inside(part, other)
+            if part.name not in self._samples:
+                self._samples[part.name] = samples(part)
+            self._inside[key] = share_inside(self._samples[part.name], other)
         return self._inside[key]
 
     def distance(self, one: Part, other: Part) -> float:

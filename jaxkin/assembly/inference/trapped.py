@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -33,17 +33,17 @@ class Stop(NamedTuple):
     """Whether its outward normal is along the axis, not against it."""
 
 
-def stops(parts: Iterable[Part], axis: Bore) -> list[Stop]:
-    """Find the plane faces of some parts that stand across an axis, near to it."""
-    result = []
-    for part in parts:
-        for face in part.faces:
-            surface = face.surface
-            if not isinstance(surface, Plane) or np.linalg.norm(np.cross(surface.normal, axis.axis)) > ACROSS:
-                continue
-            if _distance(face.triangles, axis.point, axis.axis) <= REACH * axis.radius:
-                result.append(Stop(float(surface.point @ axis.axis), bool(surface.normal @ axis.axis > 0)))
-    return result
+def stops(part: Part, axis: Bore) -> list[Stop]:
+    """Find the plane faces of a part that stand across an axis, near to it."""
+    planes = [(face.surface, face.triangles) for face in part.faces if isinstance(face.surface, Plane)]
+    if not planes:
+        return []
+    tilts = np.linalg.norm(np.cross([plane.normal for plane, _ in planes], axis.axis), axis=1)
+    return [
+        Stop(float(plane.point @ axis.axis), bool(plane.normal @ axis.axis > 0))
+        for (plane, triangles), tilt in zip(planes, tilts, strict=True)
+        if tilt <= ACROSS and _distance(triangles, axis.point, axis.axis) <= REACH * axis.radius
+    ]
 
 
 def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:
