@@ -30,6 +30,11 @@ LOOSE_TOLERANCE = 5.0
 
 Larger than 1, because CAD kernels compute the edges of faces less exactly than they write the coordinates."""
 
+_MIN_LOOSE_CORNERS = 14
+"""Smallest number of corners of a region some of which are farther than `TIGHT_TOLERANCE` from its surface.
+
+Fewer lie by chance within `LOOSE_TOLERANCE` of some surface: each small patch of a free-form face lies on a cylinder."""
+
 MAX_FAILURES = 300
 """Number of seeds tried in a row without finding a face, after which a pass over the seeds ends.
 
@@ -180,9 +185,14 @@ class RegionGrowing:
             surface, same, taken = better, np.array_equal(grown, taken), grown
             if same:
                 break
+        rows = self._triangles(np.flatnonzero(taken))
+        corners = np.unique(self.mesh.triangles[rows])
+        off = float(np.abs(surface.distance(self.mesh.points[corners])).max())
+        if len(corners) < _MIN_LOOSE_CORNERS and off > TIGHT_TOLERANCE * self.mesh.tolerance:
+            return None
         self.failures = 0
         self.free &= ~taken
-        return Region(surface, self._triangles(np.flatnonzero(taken)))
+        return Region(surface, rows)
 
     def _split_off(self, on_surface: np.ndarray) -> int:
         """Make triangles off the surface facets of their own where nearly all of their facet is on the surface.

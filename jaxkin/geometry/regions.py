@@ -36,7 +36,7 @@ _ROUGH_TOLERANCE = 50.0
 
 CAD kernels compute the curve in which two surfaces intersect to some 5e-5 of the size of a part."""
 
-_MAX_ROUGHNESS = 2e-4
+_MAX_ROUGHNESS = 5e-4
 """Largest distance of corners from the surface of a face between sharp edges, over the extent of the face."""
 
 _MIN_ROUGH_CORNERS = 12
