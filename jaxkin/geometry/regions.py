@@ -31,6 +31,10 @@ _SHARP_SHARE = 0.6
 
 A band of facets of a torus, which alone lies on a cone, has at most a half."""
 
+_FLAT_NEIGHBOUR_RATIO = 10.0
+"""Smallest ratio of the area of a facet to that of the facets of a round face for the facet to be a flat face next to
+it, as the side of a nut is next to its chamfer."""
+
 _ROUGH_TOLERANCE = 50.0
 """Largest distance of corners from the surface of a face between sharp edges, in units of `Facets.tolerance`.
 
@@ -54,7 +58,16 @@ def regions(mesh: Facets) -> list[Region]:
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
         found += _divided(mesh, rows, within)
     found = [piece for region in united(mesh, found) for piece in _without_flats(mesh, region)]
-    return sorted(_with_strays(mesh, found), key=lambda region: region.rows[0])
+    found = [_named(mesh, region) for region in _with_strays(mesh, found)]
+    return sorted(found, key=lambda region: region.rows[0])
+
+
+def _named(mesh: Facets, region: Region) -> Region:
+    """Fit a surface to a free-form region, which may have lost the triangles that were off its surface."""
+    if region.surface is not None:
+        return region
+    surface = surface_of(mesh, region.rows, LOOSE_TOLERANCE * mesh.tolerance, torus=True, thorough=True)
+    return region if surface is None or isinstance(surface, Plane) else Region(surface, region.rows)
 
 
 def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
@@ -64,7 +77,7 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
     and smaller angles (`_CREASE_ANGLES`). `within` (triangles, 2) pairs each triangle with the first of its facet.
     """
     one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
-    surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one)
+    surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one, thorough=True)
     if surface is not None:
         return [Region(surface, rows)]
     found: list[Region] = []
@@ -77,7 +90,7 @@ def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
         pieces = grouped(components(len(rows), links[np.all(links >= 0, axis=1)]))
         taken = np.zeros(len(rows), bool)
         for piece in pieces:
-            if np.isinf(angle) or _mostly_sharp(mesh, rows[piece]):
+            if np.isinf(angle) or _is_bounded(mesh, rows[piece], angle):
                 surface = _rough_surface(mesh, rows[piece])
                 if surface is not None:
                     found.append(Region(surface, rows[piece]))
@@ -103,22 +116,30 @@ def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
     extent = float(np.linalg.norm(np.ptp(points, axis=0)))
     rough = min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
     for tolerance in (LOOSE_TOLERANCE * mesh.tolerance, rough):
-        surface = surface_of(mesh, rows, tolerance, torus=True)
+        surface = surface_of(mesh, rows, tolerance, torus=True, thorough=True)
         if surface is not None:
             return None if isinstance(surface, Plane) else surface
     return None
 
 
-def _mostly_sharp(mesh: Facets, rows: Rows) -> bool:
-    """Check that most of the rim of some triangles, by length, are edges at angles of `SMOOTH_ANGLE` or more."""
+def _is_bounded(mesh: Facets, rows: Rows, angle: float) -> bool:
+    """Check that most of the rim of some triangles, by length, is an edge of a face.
+
+    Such an edge has an angle of `SMOOTH_ANGLE` or more, or more than `angle` (radians) with a flat face next to it: a
+    facet much larger than those of the triangles `rows`.
+    """
     inside = np.zeros(len(mesh.triangles), bool)
     inside[rows] = True
     rim = mesh.pairs[inside[mesh.pairs[:, 0]] != inside[mesh.pairs[:, 1]]]
     if not len(rim):
         return True
+    outer = np.where(inside[rim[:, 0]], rim[:, 1], rim[:, 0])
+    area = np.bincount(mesh.facet_of, mesh.areas)[mesh.facet_of]
+    flat = area[outer] > _FLAT_NEIGHBOUR_RATIO * area[rows].max()
+    bend = mesh.angles(*rim.T)
+    sharp = (bend >= SMOOTH_ANGLE) | (flat & (bend >= angle))
     shared = [np.intersect1d(*mesh.triangles[pair]) for pair in rim]
     lengths = np.array([np.linalg.norm(np.ptp(mesh.points[edge], axis=0)) for edge in shared])
-    sharp = mesh.angles(*rim.T) >= SMOOTH_ANGLE
     return bool(lengths[sharp].sum() > _SHARP_SHARE * lengths.sum())
 
 
