@@ -27,6 +27,19 @@ A little above 2 pi / 10, the angle in a cylinder of ten facets."""
 SLIVER_HEIGHT = 20.0
 """Height of a triangle, in units of `Facets.tolerance`, below which it is a sliver, whose own normal is not used."""
 
+FLAT_TOLERANCE = 5.0
+"""Largest distance of the corners of a facet from its mean plane, in units of `Facets.tolerance`.
+
+Larger than 1, because CAD kernels compute the edges of faces less exactly than they write the coordinates."""
+
+FACET_SHARE = 0.9
+"""Smallest share of the area of a set of triangles on one surface for which its other triangles are split off.
+
+Such a set belongs to the surface but for small triangles of the next face that happen to lie in the same plane."""
+
+_MAX_PLANE_FITS = 8
+"""Largest number of times that triangles off the mean plane are left out and the mean plane is computed anew."""
+
 Rows = Int[np.ndarray, "_"]
 """Indices of triangles."""
 
@@ -56,6 +69,10 @@ class Facets:
     def count(self) -> int:
         """Number of facets."""
         return int(self.facet_of.max(initial=-1)) + 1
+
+    def angles(self, one: Rows, other: Rows) -> Float[np.ndarray, "_"]:
+        """Compute the angles between the normals of triangles, pair by pair, 0 to pi."""
+        return _angles(self.normals[one], self.normals[other])
 
     def corner_normals(self, rows: Rows) -> Float[np.ndarray, "_ 3 3"]:
         """Estimate the normals of the true surface at the three corners of each of the triangles `rows`.
@@ -89,17 +106,21 @@ def facets(points: Points, triangles: np.ndarray, pairs: Int[np.ndarray, "_ 2"],
     edges = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=-1)
     heights = double / edges.max(axis=1)
     leader = _leaders(triangles, pairs, edges, heights < SLIVER_HEIGHT * tolerance)
+    # a sliver of a round face at the sharp rim of a flat one is not in the plane of the flat one
+    off = np.abs(np.einsum("nki,ni->nk", corners - corners[leader][:, :1], normals[leader])).max(axis=1)
+    leader = np.where(off <= FLAT_TOLERANCE * tolerance, leader, np.arange(len(leader)))
     normals = normals[leader]
 
     i, j = pairs.T
     angle = _angles(normals[i], normals[j])
     noise = tolerance * (1 / heights[leader[i]] + 1 / heights[leader[j]])
     flat = (angle < np.maximum(COPLANAR_ANGLE, noise)) | (leader[i] == leader[j])
-    label = components(len(triangles), np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], -1)]))
+    flat_pairs = np.concatenate([pairs[flat], np.stack([np.arange(len(leader)), leader], axis=-1)])
+    label = components(len(triangles), flat_pairs)
     # triangles at angles below COPLANAR_ANGLE may together be a curved strip, which is no facet
-    bent = np.flatnonzero(_bent(label, normals, corners, double, 5 * tolerance))
-    label[bent] = label.max(initial=0) + 1 + np.arange(len(bent))
-    label = np.unique(label, return_inverse=True)[1]
+    single = _off_plane(label, normals, corners, double, FLAT_TOLERANCE * tolerance)
+    if single.any():
+        label = components(len(triangles), flat_pairs[~single[flat_pairs].any(axis=1)])
     smooth = (angle < SMOOTH_ANGLE) & (label[i] != label[j])
     return Facets(points, triangles, tolerance, normals, double / 2, label, pairs, pairs[smooth])
 
@@ -124,20 +145,37 @@ def _leaders(triangles: np.ndarray, pairs: np.ndarray, edges: np.ndarray, sliver
     return leader
 
 
-def _bent(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
-    """Mark the triangles of groups whose corners do not all lie within `tolerance` (a length) of their mean plane.
+def _off_plane(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray, tolerance: float) -> np.ndarray:
+    """Mark the triangles that are in no plane with their group: each of them is a facet of its own.
 
-    `label` (triangles,) numbers the groups, `corners` are (triangles, 3, 3), `weights` those of the normals.
+    `label` (triangles,) numbers the groups, `corners` are (triangles, 3, 3), `weights` are proportional to areas. A
+    triangle is in the plane if its corners are within `tolerance` (a length) of the mean plane of its group, which is
+    computed anew without the triangles off it. Where the plane has less than `FACET_SHARE` of the area of the group,
+    the group is a curved strip, and all its triangles are marked. Returns a mask (triangles,).
     """
-    count = np.maximum(np.bincount(label), 1)
+    marked = np.zeros(len(label), bool)
+    open_groups = np.ones(int(label.max(initial=0)) + 1, bool)
+    for _ in range(_MAX_PLANE_FITS):
+        off = _heights(label, normals, corners, np.where(marked, 0.0, weights)) > tolerance
+        changed = np.bincount(label, off != marked, len(open_groups)) > 0
+        open_groups &= changed
+        marked = np.where(open_groups[label], off, marked)
+        if not open_groups.any():
+            break
+    area = np.bincount(label, weights)
+    strip = np.bincount(label, np.where(marked, 0.0, weights)) < FACET_SHARE * area
+    return marked | strip[label]
+
+
+def _heights(label: Rows, normals: Points, corners: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Compute for each triangle the largest distance of its corners from the mean plane of its group (triangles,)."""
+    total = np.bincount(label, weights)
     normal = np.stack([np.bincount(label, weights * n) for n in normals.T], axis=-1)
     length = np.linalg.norm(normal, axis=-1, keepdims=True)
     normal = normal / np.where(length > 0, length, 1.0)
-    middle = np.stack([np.bincount(label, c) for c in corners.mean(axis=1).T], axis=-1) / count[:, None]
-    height = np.abs(np.einsum("nki,ni->nk", corners - middle[label][:, None], normal[label])).max(axis=1)
-    worst = np.zeros(len(count))
-    np.maximum.at(worst, label, height)
-    return worst[label] > tolerance
+    middle = np.stack([np.bincount(label, weights * c) for c in corners.mean(axis=1).T], axis=-1)
+    middle = middle / np.where(total > 0, total, 1.0)[:, None]
+    return np.abs(np.einsum("nki,ni->nk", corners - middle[label][:, None], normal[label])).max(axis=1)
 
 
 def _angles(a: Points, b: Points) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from jaxtyping import Float
@@ -24,6 +25,12 @@ _AXIS_ALLOWANCE = 0.1
 _MIN_ALIGNED = 0.9
 """Smallest share of points at which the normal of the surface must agree with that given, since the apex of a cone and
 the pole of a spline have no normal of their own."""
+
+
+_APEX_DISTANCES = (1.5, 4.0)
+"""Distances of the apex of a cone from the middle of its points, in units of their half extent, that are guessed.
+
+From one of these, the fit finds cones with 0.5 to 20 in the chamfers of nuts."""
 
 
 def rounding(points: Points) -> float:
@@ -43,19 +50,25 @@ def flipped(surface: Surface) -> Surface:
 
 
 def fit_surface(
-    points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], tolerance: float, angle: float
+    points: Float[np.ndarray, "n 3"],
+    normals: Float[np.ndarray, "n 3"],
+    tolerance: float,
+    angle: float,
+    *,
+    thorough: bool = False,
 ) -> Surface | None:
     """Find the simplest of plane, cylinder, cone, sphere that all points lie on within `tolerance` (a length).
 
     `normals` are unit vectors out of the material at the points. A surface whose own normals deviate from them by more
-    than `angle` (radians) is rejected: it passes through the points by chance. Returns None where no surface fits, or
+    than `angle` (radians) is rejected: it passes through the points by chance. With `thorough`, cones are also fitted
+    from guesses that do not need the normals, which are wrong on a narrow strip. Returns None where no surface fits, or
     where there are too few points to tell.
     """
     points, first = np.unique(points, axis=0, return_index=True)
     normals = normals[first]
     centre = points.mean(axis=0)
     scale = float(np.abs(points - centre).max()) or 1.0
-    for candidate in _candidates((points - centre) / scale, normals, angle):
+    for candidate in _candidates((points - centre) / scale, normals, angle, thorough):
         surface = _scaled(candidate, centre, scale)
         surface = surface if np.sum(surface.normals(points) * normals) >= 0 else flipped(surface)
         if np.abs(surface.distance(points)).max() <= tolerance:
@@ -65,7 +78,7 @@ def fit_surface(
     return None
 
 
-def _candidates(points: Points, normals: Points, angle: float) -> Iterator[Surface]:
+def _candidates(points: Points, normals: Points, angle: float, thorough: bool) -> Iterator[Surface]:
     """Fit each kind of surface that the normals allow, the simplest first, to points with mean 0 and largest entry 1.
 
     A kind is tried only with enough points: for curved surfaces at least one more than the surface has parameters.
@@ -75,6 +88,8 @@ def _candidates(points: Points, normals: Points, angle: float) -> Iterator[Surfa
             surface = fit(points, normals, angle)
             if surface is not None:
                 yield surface
+        if fit is _cone and thorough and len(points) >= min_points:
+            yield from _cones(points, normals)
 
 
 def _plane(points: Points, normals: Points, angle: float) -> Plane:
@@ -109,6 +124,30 @@ def _cone(points: Points, normals: Points, angle: float) -> Cone | None:
     half_angle = np.arcsin(np.clip(abs(float(normals.mean(axis=0) @ axis)), 0.0, 1.0))
     found = refined(Cone(apex, axis, float(half_angle), 1), points)
     return found if 0 < found.half_angle < np.pi / 2 else None
+
+
+def _cones(points: Points, normals: Points) -> Iterator[Cone]:
+    """Fit cones whose rulings are first taken along the axis of the cylinder that fits best.
+
+    The apex may be at either end of the rulings, and at any distance: `_APEX_DISTANCES` are tried.
+    """
+    along = np.linalg.eigh(normals.T @ normals)[1][:, 0]
+    x = perpendicular(along)
+    flat = np.stack([x, np.cross(along, x)], axis=-1)
+    middle, radius = _ball(points @ flat)
+    cylinder = refined(Cylinder(flat @ middle, along, radius, 1), points)
+    foot = cylinder.point - (cylinder.point @ cylinder.axis) * cylinder.axis
+    distance = float(np.linalg.norm(foot))
+    if not 0 < distance < np.inf or not 0 < cylinder.radius < np.inf:
+        return
+    away = -foot / distance  # from the axis of the cylinder to the points, whose mean is the origin
+    for height, end in product(_APEX_DISTANCES, (1, -1)):
+        ruling = end * cylinder.axis
+        half_angle = float(np.arctan2(cylinder.radius, height))
+        apex = foot + cylinder.radius * away - height * ruling
+        found = refined(Cone(apex, np.cos(half_angle) * ruling - np.sin(half_angle) * away, half_angle, 1), points)
+        if 0 < found.half_angle < np.pi / 2 and np.mean((points - found.apex) @ found.axis > 0) > _MIN_ALIGNED:
+            yield found
 
 
 def _sphere(points: Points, normals: Points, angle: float) -> Sphere:

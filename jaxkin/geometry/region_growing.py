@@ -15,7 +15,7 @@ from itertools import combinations, product
 import numpy as np
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import Facets, Rows
+from jaxkin.geometry.facets import FACET_SHARE, Facets, Rows
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import CHORD_ANGLE, MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
@@ -29,6 +29,11 @@ LOOSE_TOLERANCE = 5.0
 """Largest distance of corners from their surface in the second pass, in units of `Facets.tolerance`.
 
 Larger than 1, because CAD kernels compute the edges of faces less exactly than they write the coordinates."""
+
+_MIN_LOOSE_CORNERS = 14
+"""Smallest number of corners of a region some of which are farther than `TIGHT_TOLERANCE` from its surface.
+
+Fewer lie by chance within `LOOSE_TOLERANCE` of some surface: each small patch of a free-form face lies on a cylinder."""
 
 MAX_FAILURES = 300
 """Number of seeds tried in a row without finding a face, after which a pass over the seeds ends.
@@ -44,11 +49,6 @@ _MAX_ROUNDS = 8
 """Largest number of alternations between growing a region and fitting its surface anew.
 
 A few are enough: only the fit to the seed, which is small, is inexact at the far end of the face."""
-
-_FACET_SHARE = 0.9
-"""Smallest share of the area of a facet on the surface for which its other triangles are split off as a new facet.
-
-Such a facet belongs to the face but for small triangles of the next face that happen to lie in the same plane."""
 
 _MAX_AREA_RATIO = 100.0
 """Largest ratio of the areas of two facets of one seed.
@@ -185,9 +185,14 @@ class RegionGrowing:
             surface, same, taken = better, np.array_equal(grown, taken), grown
             if same:
                 break
+        rows = self._triangles(np.flatnonzero(taken))
+        corners = np.unique(self.mesh.triangles[rows])
+        off = float(np.abs(surface.distance(self.mesh.points[corners])).max())
+        if len(corners) < _MIN_LOOSE_CORNERS and off > TIGHT_TOLERANCE * self.mesh.tolerance:
+            return None
         self.failures = 0
         self.free &= ~taken
-        return Region(surface, self._triangles(np.flatnonzero(taken)))
+        return Region(surface, rows)
 
     def _split_off(self, on_surface: np.ndarray) -> int:
         """Make triangles off the surface facets of their own where nearly all of their facet is on the surface.
@@ -196,7 +201,7 @@ class RegionGrowing:
         in one plane with a small triangle of the next face.
         """
         share = np.bincount(self.facet_of, on_surface * self.mesh.areas[self.rows]) / self.area
-        split = np.flatnonzero(~on_surface & (self.free & (share > _FACET_SHARE))[self.facet_of])
+        split = np.flatnonzero(~on_surface & (self.free & (share > FACET_SHARE))[self.facet_of])
         if len(split):
             facet_of = self.facet_of.copy()
             facet_of[split] = self.count + np.arange(len(split))
@@ -228,9 +233,10 @@ class RegionGrowing:
         """Divide the facets that are still free into flat faces, one facet each, and connected free-form faces."""
         found = []
         free_form = self.free.copy()
-        for k in np.flatnonzero(self.free).tolist():
-            near = [n for n in self.neighbours[k] if self.free[n]]
-            if not near or self.area[k] > _FLAT_FACE_RATIO * np.max(self.area[near]):
+        for k in np.argsort(-self.area, kind="stable").tolist():
+            # facets between flat faces, such as the bevels of a nut, are flat faces too
+            near = [n for n in self.neighbours[k] if (free_form if len(self.members[k]) > 1 else self.free)[n]]
+            if free_form[k] and (not near or self.area[k] > _FLAT_FACE_RATIO * np.max(self.area[near])):
                 rows = self._triangles([k])
                 found.append(
                     Region(surface_of(self.mesh, rows, LOOSE_TOLERANCE * self.mesh.tolerance, one_facet=True), rows)

@@ -10,12 +10,41 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.components import components, grouped
-from jaxkin.geometry.facets import Facets
+from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, Rows
 from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
+from jaxkin.geometry.region_union import united
+from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
+from jaxkin.geometry.torus import Torus
 
 _STRAY_ANGLE = 0.8
 """Largest angle, radians, between a lone triangle and the surface of the neighbouring face that its corners lie on."""
+
+_CREASE_ANGLES = (0.45, 0.3, 0.2)
+"""Angles, radians, at edges along which triangles that join smoothly are cut, where no surface fits all of them.
+
+Two round faces meet at angles from a right one to a small one, as where a bore goes out through the side of a shaft. The
+smallest is above the angle between the facets of a usual tessellation."""
+
+_SHARP_SHARE = 0.6
+"""Smallest share of sharp edges in the rim of a face that is cut out so.
+
+A band of facets of a torus, which alone lies on a cone, has at most a half."""
+
+_FLAT_NEIGHBOUR_RATIO = 10.0
+"""Smallest ratio of the area of a facet to that of the facets of a round face for the facet to be a flat face next to
+it, as the side of a nut is next to its chamfer."""
+
+_ROUGH_TOLERANCE = 50.0
+"""Largest distance of corners from the surface of a face between sharp edges, in units of `Facets.tolerance`.
+
+CAD kernels compute the curve in which two surfaces intersect to some 5e-5 of the size of a part."""
+
+_MAX_ROUGHNESS = 5e-4
+"""Largest distance of corners from the surface of a face between sharp edges, over the extent of the face."""
+
+_MIN_ROUGH_CORNERS = 12
+"""Smallest number of corners of a face between sharp edges."""
 
 _MAX_LEFTOVER = 4
 """Largest number of triangles of a region on no surface, each of which is then tried as part of a neighbouring face."""
@@ -27,11 +56,91 @@ def regions(mesh: Facets) -> list[Region]:
     _, first = np.unique(mesh.facet_of, return_index=True)
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
-        one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
-        surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one)
-        found += [Region(surface, rows)] if surface is not None else RegionGrowing(mesh, rows).regions()
-    found = [piece for region in found for piece in _without_flats(mesh, region)]
-    return sorted(_with_strays(mesh, found), key=lambda region: region.rows[0])
+        found += _divided(mesh, rows, within)
+    found = [piece for region in united(mesh, found) for piece in _without_flats(mesh, region)]
+    found = [_named(mesh, region) for region in _with_strays(mesh, found)]
+    return sorted(found, key=lambda region: region.rows[0])
+
+
+def _named(mesh: Facets, region: Region) -> Region:
+    """Fit a surface to a free-form region, which may have lost the triangles that were off its surface."""
+    if region.surface is not None:
+        return region
+    surface = surface_of(mesh, region.rows, LOOSE_TOLERANCE * mesh.tolerance, torus=True, thorough=True)
+    return region if surface is None or isinstance(surface, Plane) else Region(surface, region.rows)
+
+
+def _divided(mesh: Facets, rows: Rows, within: np.ndarray) -> list[Region]:
+    """Divide triangles that join smoothly into faces.
+
+    One surface is fitted to all of them first, then to what is left of them when they are cut along edges of smaller
+    and smaller angles (`_CREASE_ANGLES`). `within` (triangles, 2) pairs each triangle with the first of its facet.
+    """
+    one = bool(np.all(mesh.facet_of[rows] == mesh.facet_of[rows[0]]))
+    surface = surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=one, thorough=True)
+    if surface is not None:
+        return [Region(surface, rows)]
+    found: list[Region] = []
+    i, j = mesh.smooth.T
+    angles = mesh.angles(i, j)
+    for angle in (np.inf, *_CREASE_ANGLES):
+        number = np.full(len(mesh.triangles), -1)
+        number[rows] = np.arange(len(rows))
+        links = number[np.concatenate([mesh.smooth[angles < angle], within])]
+        pieces = grouped(components(len(rows), links[np.all(links >= 0, axis=1)]))
+        taken = np.zeros(len(rows), bool)
+        for piece in pieces:
+            if np.isinf(angle) or _is_bounded(mesh, rows[piece], angle):
+                surface = _rough_surface(mesh, rows[piece])
+                if surface is not None:
+                    found.append(Region(surface, rows[piece]))
+                    taken[piece] = True
+        rows = rows[~taken]
+        if not len(rows):
+            return found
+    number = np.full(len(mesh.triangles), -1)
+    number[rows] = np.arange(len(rows))
+    links = number[np.concatenate([mesh.smooth, within])]
+    for piece in grouped(components(len(rows), links[np.all(links >= 0, axis=1)])):
+        one = bool(np.all(mesh.facet_of[rows[piece]] == mesh.facet_of[rows[piece[0]]]))
+        surface = surface_of(mesh, rows[piece], LOOSE_TOLERANCE * mesh.tolerance, one_facet=one) if found else None
+        found += [Region(surface, rows[piece])] if surface is not None else RegionGrowing(mesh, rows[piece]).regions()
+    return found
+
+
+def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
+    """Find the round surface of triangles that are bounded by sharp edges, whose corners may be less exact."""
+    points = mesh.points[np.unique(mesh.triangles[rows])]
+    if len(points) < _MIN_ROUGH_CORNERS:
+        return None
+    extent = float(np.linalg.norm(np.ptp(points, axis=0)))
+    rough = min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
+    for tolerance in (LOOSE_TOLERANCE * mesh.tolerance, rough):
+        surface = surface_of(mesh, rows, tolerance, torus=True, thorough=True)
+        if surface is not None:
+            return None if isinstance(surface, Plane) else surface
+    return None
+
+
+def _is_bounded(mesh: Facets, rows: Rows, angle: float) -> bool:
+    """Check that most of the rim of some triangles, by length, is an edge of a face.
+
+    Such an edge has an angle of `SMOOTH_ANGLE` or more, or more than `angle` (radians) with a flat face next to it: a
+    facet much larger than those of the triangles `rows`.
+    """
+    inside = np.zeros(len(mesh.triangles), bool)
+    inside[rows] = True
+    rim = mesh.pairs[inside[mesh.pairs[:, 0]] != inside[mesh.pairs[:, 1]]]
+    if not len(rim):
+        return True
+    outer = np.where(inside[rim[:, 0]], rim[:, 1], rim[:, 0])
+    area = np.bincount(mesh.facet_of, mesh.areas)[mesh.facet_of]
+    flat = area[outer] > _FLAT_NEIGHBOUR_RATIO * area[rows].max()
+    bend = mesh.angles(*rim.T)
+    sharp = (bend >= SMOOTH_ANGLE) | (flat & (bend >= angle))
+    shared = [np.intersect1d(*mesh.triangles[pair]) for pair in rim]
+    lengths = np.array([np.linalg.norm(np.ptp(mesh.points[edge], axis=0)) for edge in shared])
+    return bool(lengths[sharp].sum() > _SHARP_SHARE * lengths.sum())
 
 
 def _without_flats(mesh: Facets, region: Region) -> list[Region]:

@@ -41,12 +41,12 @@ _APEX_DISTANCE = 20
 
 
 def surface_of(
-    mesh: Facets, rows: Rows, tolerance: float, *, one_facet: bool = False, torus: bool = False
+    mesh: Facets, rows: Rows, tolerance: float, *, one_facet: bool = False, torus: bool = False, thorough: bool = False
 ) -> Surface | Torus | None:
     """Find the surface that the triangles `rows` are a tessellation of; None if there is none.
 
     `tolerance`, a length, is the largest distance of a corner from the surface. `one_facet` says that all triangles are
-    of one facet; with `torus` a torus is tried too, after the other kinds.
+    of one facet; with `torus` a torus is tried too, after the other kinds; `thorough` is that of `fit_surface`.
     """
     corners = mesh.points[mesh.triangles[rows]].reshape(-1, 3)
     normals = mesh.normals[rows][:, None].repeat(3, 1) if one_facet else mesh.corner_normals(rows)
@@ -57,7 +57,7 @@ def surface_of(
         else np.random.default_rng(0).choice(first, _MAX_FITTED_POINTS, replace=False)
     )
     points, directions = corners[some], normals.reshape(-1, 3)[some]
-    surface = fit_surface(points, directions, tolerance, CHORD_ANGLE)
+    surface = fit_surface(points, directions, tolerance, CHORD_ANGLE, thorough=thorough)
     if surface is None and torus:
         surface = fit_torus(points, directions, tolerance)
     if surface is None or np.abs(surface.distance(corners)).max() > tolerance:
