@@ -15,7 +15,7 @@ from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.mechanism.reassembly import Reassembly
+from jaxkin.mechanism.reassembly import Reassembly, close
 from jaxkin.topology.structure import structure
 
 
@@ -36,9 +36,9 @@ def closed_export(
     linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
     held = [f"{each.name}.{name}" for each in joints if each.name in exported.motors for name in each.coordinates]
     mechanism = Mechanism(linkage, unit)
-    found = mechanism.close(hold=held)
+    found = close(mechanism, held, look_around=False)
     if not found.closed and held:
-        free = mechanism.close()
+        free = close(mechanism, look_around=False)
         found = free if free.closed else found
     if not found.closed:
         note = f"the loops of the file do not close, and each joint is taken as it stands on its first part: {found}"

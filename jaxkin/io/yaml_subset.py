@@ -51,9 +51,7 @@ def parse_yaml(text: str, source: str) -> dict[str, Value]:
         said = _KEY.fullmatch(line.rstrip())
         where = f"{source}, line {number}"
         if said is None:
-            raise ValueError(
-                f"{where}: expected a key and a value, as in name_mot: ['hip', 'knee'], got {line.strip()!r}"
-            )
+            raise ValueError(f"{where}: expected a key and its value, name_mot: ['hip', 'knee'], got {line.strip()!r}")
         key, value = said[1], said[2]
         if key in found:
             raise ValueError(f"{where}: the key {key!r} is there twice")

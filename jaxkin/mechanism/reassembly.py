@@ -102,8 +102,13 @@ class Reassembly:
         return "\n".join(lines)
 
 
-def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
-    """The mechanism with its loops closed: see `Mechanism.close`."""
+def close(
+    mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None, look_around: bool = True
+) -> Reassembly:
+    """The mechanism with its loops closed: see `Mechanism.close`.
+
+    Without `look_around` other assembly modes are not looked for, which takes most of the time.
+    """
     noise = asked_noise(align)
     if traced(mechanism):
         raise ValueError(
@@ -123,7 +128,8 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
     if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [group for group in groups if group.q.any()]
-    others = [apart for group in moved for apart in other_modes(group.loops, group.q, group.held)]
+    searched = moved if look_around else []
+    others = [apart for group in searched for apart in other_modes(group.loops, group.q, group.held)]
     coordinates = [np.zeros(joint.freedoms) for joint in given.joints]
     for group in moved:
         for index, columns in group.loops.slices.items():
@@ -148,7 +154,7 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         contacts=contacts,
     )
     moves = {part: _move(given, part, place) for part, place in places.items()}
-    starts = STARTS * len(moved)
+    starts = STARTS * len(searched)
     by_name = {joint.name: q for joint, q in zip(given.joints, coordinates, strict=True)}
     return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None, places, by_name)
 
