@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.screws import freedoms
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +52,11 @@ class Exported:
     """Names of the constraints that the file says are actuated."""
     system: str = "CAD system"
     """What the file is from, for messages: "CAD system", "robot file"."""
+
+    @property
+    def joint_values(self) -> dict[str, tuple[float, ...]]:
+        """What the file calls the displacements of each joint at the assembled pose; displacements count from there."""
+        return {each.name: each.values or (0.0,) * freedoms(each.chain.movements) for each in self.constraints}
 
     def renamed(self, names: Mapping[str, str]) -> Exported:
         """The same with other names for some parts."""

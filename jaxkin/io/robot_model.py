@@ -29,7 +29,8 @@ class Shape:
     kind: str
     """"box", "sphere", "cylinder", "capsule" (along z, about the origin), or "mesh"."""
     size: tuple[float, ...] = ()
-    """Metres: of a box its three edges, of a sphere its radius, else radius and length; of a mesh its three scales."""
+    """Metres: of a box its three edges, of a sphere its radius, or three of them along its axes, else radius and
+    length; of a mesh its three scales."""
     file: str = ""
     """Of a mesh, as the robot file names it."""
 

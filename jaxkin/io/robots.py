@@ -21,9 +21,10 @@ from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
 from jaxkin.io.time_limit import TimeLimit
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import universal
 
 MOVEMENT_OF = {str(movement.pair): key for key, movement in MOVEMENTS.items() if movement.pair} | {
-    str(JointKind.UNIVERSAL): "T_theta_phi"
+    str(JointKind.UNIVERSAL): universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
 }
 """Kind of a joint -> key of its movement."""
 
@@ -108,7 +109,7 @@ def _corners(shape: Shape) -> np.ndarray:
 
     make = {
         "box": lambda: trimesh.creation.box(shape.size),
-        "sphere": lambda: trimesh.creation.icosphere(2, shape.size[0]),
+        "sphere": lambda: trimesh.creation.icosphere(2).apply_scale(np.broadcast_to(shape.size, 3)),
         "cylinder": lambda: trimesh.creation.cylinder(*shape.size, sections=32),
         "capsule": lambda: trimesh.creation.capsule(shape.size[1], shape.size[0], count=(16, 16)),
     }
