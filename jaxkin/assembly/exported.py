@@ -6,7 +6,9 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from jaxkin.joints.combine import Chain
+from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.screws import freedoms
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +28,13 @@ class Constraint:
     """Distance between the two places that the export gives for its axis or centre, in the unit of the assembly."""
     tilt: float = 0.0
     """Angle between its two axes, radians."""
+    limits: Limits = ()
+    """Limits of its coordinates, counted from the assembled pose: see `jaxkin.joints.joint.Limits`."""
+    pitch: float = 0.0
+    """Advance per turn of a screw, in the unit of the assembly."""
+    values: tuple[float, ...] = ()
+    """What the file itself calls the displacements of its coordinates at the assembled pose, radians or lengths; empty
+    where these are zero."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +48,15 @@ class Exported:
     constraints: tuple[Constraint, ...]
     notes: tuple[str, ...]
     """What is in the export and was not understood, a line each."""
+    motors: tuple[str, ...] = ()
+    """Names of the constraints that the file says are actuated."""
+    system: str = "CAD system"
+    """What the file is from, for messages: "CAD system", "robot file"."""
+
+    @property
+    def joint_values(self) -> dict[str, tuple[float, ...]]:
+        """What the file calls the displacements of each joint at the assembled pose; displacements count from there."""
+        return {each.name: each.values or (0.0,) * freedoms(each.chain.movements) for each in self.constraints}
 
     def renamed(self, names: Mapping[str, str]) -> Exported:
         """The same with other names for some parts."""
@@ -50,7 +68,8 @@ class Exported:
             replace(each, parts=(names.get(each.parts[0], each.parts[0]), names.get(each.parts[1], each.parts[1])))
             for each in self.constraints
         )
-        return Exported(new(self.fixed), tuple(map(new, self.rigid)), constraints, self.notes)
+        rigid = tuple(map(new, self.rigid))
+        return replace(self, fixed=new(self.fixed), rigid=rigid, constraints=constraints)
 
     def without(self, parts: Collection[str]) -> Exported:
         """The same without some parts, and what it says of them."""
@@ -60,4 +79,4 @@ class Exported:
 
         constraints = tuple(each for each in self.constraints if not {*each.parts} & {*parts})
         groups = tuple(group for group in map(left, self.rigid) if len(group) > 1)
-        return Exported(left(self.fixed), groups, constraints, self.notes)
+        return replace(self, fixed=left(self.fixed), rigid=groups, constraints=constraints)

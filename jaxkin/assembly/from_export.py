@@ -45,7 +45,7 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     said = said._replace(fixed=said.fixed or exported.fixed)
     if not said.fixed:
         raise ValueError(
-            f"{assembly.source}: its CAD system holds no part; say which parts are fixed, as in "
+            f"{assembly.source}: its {exported.system} holds no part; say which parts are fixed, as in "
             f"fixed=[{assembly.names[0]!r}]"
         )
     check_said(assembly.names, said)
@@ -55,15 +55,19 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     constraints = [each for each in exported.constraints if not _replaced(each, said)]
     while locked := _locked(assembly, said, groups, constraints, noise):
         groups += locked
-    joints = _joints(assembly, said, groups, constraints, noise, notes)
+    joints = _joints(assembly, said, groups, constraints, noise, notes, exported.motors)
     groups += rigid_subassemblies(assembly.parts, said, groups, [each.joint.parts for each in joints if each.joint])
     known = Known(assembly._measured, Contacts(()), said.fixed, said.rigid, said.joints)
     known.add(groups)
     body = known.body
     known.found += [each for each in joints if body[each.parts[0]] != body[each.parts[1]]]
     known.add(tied_to_nothing(known))
-    mechanism = from_words(assembly, Contacts(()), said, known.found)
-    return replace(mechanism, history=(*notes, *mechanism.history))
+    mechanism = from_words(assembly, Contacts(()), said, known.found, exported.system)
+    motors = tuple(name for name in exported.motors if name in mechanism.joints)
+    driven = {part for name in motors for part in mechanism.joints[name].parts}
+    spinning = tuple(each for each in mechanism.linkage.spinning if each.name not in driven)
+    linkage = replace(mechanism.linkage, spinning=spinning)
+    return replace(mechanism, linkage=linkage, history=(*notes, *mechanism.history), motors=motors)
 
 
 def _groups(exported: Exported, said: Said) -> list[Inference]:
@@ -115,12 +119,14 @@ def _joints(
     constraints: Sequence[Constraint],
     noise: Noise,
     notes: list[str],
+    motors: Sequence[str],
 ) -> list[Inference]:
     """The joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
     taken = {given.name for given in said.joints}
     result = []
     for several in _between(assembly, said, groups, constraints):
-        for name, found in _joints_of_two(several, noise, notes):
+        whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in motors for each in several)
+        for name, found in _joints_of_two(several, noise, notes, whole):
             unique = next(each for each in _numbered(name) if each not in taken)
             taken.add(unique)
             evidence = found.evidence or Evidence(EvidenceKind.EXPORT)
@@ -128,10 +134,12 @@ def _joints(
     return result
 
 
-def _joints_of_two(several: Sequence[Constraint], noise: Noise, notes: list[str]) -> list[tuple[str, Joint]]:
-    """The joints of two bodies with names that others may have too: one lower pair where there is one."""
+def _joints_of_two(
+    several: Sequence[Constraint], noise: Noise, notes: list[str], whole: bool
+) -> list[tuple[str, Joint]]:
+    """The joints of two bodies with names that others may have too: with `whole` one lower pair where there is one."""
     parts = several[0].parts
-    if len(several) > 1 and (pair := lower_pair([each.chain for each in several], noise)) is not None:
+    if whole and (pair := lower_pair([each.chain for each in several], noise)) is not None:
         evidence = _evidence(several, notes, noise)
         made = joint("-".join(parts), parts, pair.kind, (pair.movement,), [pair.frame], evidence=evidence)
         return [("-".join(parts), made)]
@@ -145,7 +153,8 @@ def _joints_of_two(several: Sequence[Constraint], noise: Noise, notes: list[str]
         else:
             movements, frames = tuple(each.chain.movements), each.chain.frames
             evidence = _evidence([each], notes, noise)
-            result.append((each.name, joint(each.name, each.parts, each.kind, movements, frames, evidence=evidence)))
+            more = {"pitch": each.pitch, "evidence": evidence, "limits": each.limits}
+            result.append((each.name, joint(each.name, each.parts, each.kind, movements, frames, **more)))
     return result
 
 

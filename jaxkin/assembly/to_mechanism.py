@@ -71,9 +71,13 @@ def check_said(names: Sequence[str], said: Said) -> None:
 
 
 def from_words(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said, inferences: Sequence[Inference] = ()
+    assembly: Assembly,
+    contacts: Sequence[Contact],
+    said: Said,
+    inferences: Sequence[Inference] = (),
+    system: str = "CAD system",
 ) -> Mechanism:
-    """The mechanism that contacts, the user's words and some inferences make."""
+    """The mechanism that contacts, the user's words and some inferences make; `system` has exported some of these."""
     groups = [each.parts for each in inferences if each.joint is None]
     joints = (*said.joints, *(each.joint for each in inferences if each.joint is not None))
     names, combine, align = assembly.names, said.combine, said.align
@@ -94,7 +98,7 @@ def from_words(
     kept = [contact for contact in moving if _pair(contact.parts, body) not in by_hand]
     begun = Begun((*joints, *ties), names, tuple(fixed), assembly.unit, assembly.parts)
     mechanism = _joined(begun, kept, body, noise_of(assembly.parts, moving), combine, align)
-    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences), *_told(contacts))
+    told = (*_left_out(len(contacts) - len(used), replaced, own, body), *told_of(inferences, system), *_told(contacts))
     bonds = (
         *(Bond(tuple(group)) for group in said.rigid),
         *(Bond(each.parts, each.evidence) for each in inferences if each.joint is None),
@@ -102,8 +106,8 @@ def from_words(
     return replace(mechanism, history=(*told, *mechanism.history), bonds=bonds)
 
 
-def told_of(inferences: Sequence[Inference]) -> list[str]:
-    """Tell inferences one by one, but what the CAD system said itself as counts: there is nothing to doubt in it."""
+def told_of(inferences: Sequence[Inference], system: str = "CAD system") -> list[str]:
+    """Tell inferences one by one, but what the exporting system said itself as counts: nothing in it is in doubt."""
     said = Counter(
         str(each.joint.kind) if each.joint else "weld or rigid group"
         for each in inferences
@@ -111,7 +115,7 @@ def told_of(inferences: Sequence[Inference]) -> list[str]:
     )
     counts = ", ".join(f"{count} {kind}" for kind, count in said.most_common())
     others = [str(each) for each in inferences if each.evidence.kind is not EvidenceKind.EXPORT]
-    return [f"joints and bodies as the CAD system exported them: {counts}", *others] if said else others
+    return [f"joints and bodies as the {system} has them: {counts}", *others] if said else others
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:

@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -50,14 +51,14 @@ PARALLEL = 1e-5
 mates to about 1e-6."""
 
 
-def read_exported(path: Path, read_solids: Reader) -> tuple[tuple[Part, ...], str, Exported]:
-    """Read the parts of an export in world coordinates, their unit, and what the CAD system says of them.
+def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple[Part, ...], str, Exported]:
+    """Read the parts of an export in world coordinates, their unit, and what the CAD system says; `root` is its XML.
 
     Each instance is a part; an instance of several solids is a rigid group. Lengths are in the unit of the first file
     of a solid; solids in another unit are converted. Warns of parts without a file: they are small boxes. Raises
     ValueError where the XML is not understood.
     """
-    export = read_export(path)
+    export = read_export(path, root)
     if not export.parts:
         raise ValueError(f"{path.name}: there are no parts in its InstanceTree; export the assembly again")
     files, missing = _files(path.parent, export.parts)

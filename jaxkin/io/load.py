@@ -12,13 +12,15 @@ from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
 from jaxkin.io.exports import read_exported
 from jaxkin.io.mesh import MESHES, read_mesh
+from jaxkin.io.robot_files import ROBOT_ROOTS, ROBOT_SUFFIXES, read_robot
 from jaxkin.io.step import read_step
 from jaxkin.io.units import METRES
+from jaxkin.io.xml_tree import read_xml
 
 STEP_SUFFIXES = (".step", ".stp")
 
-EXPORT = ".xml"
-"""The suffix of exports for Simscape Multibody."""
+XML = ".xml"
+"""The suffix of exports for Simscape Multibody, and of MuJoCo's robots."""
 
 _TWINS = 1e-6
 """Of the size of the assembly; two copies in the same place differ by the rounding of their placements at most."""
@@ -29,6 +31,7 @@ def load(
     *,
     unit: str | None = None,
     seconds: float | None = None,
+    loops: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Assembly:
     """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
@@ -36,7 +39,10 @@ def load(
     STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
     one mesh file a part is a node, or a connected body where there is but one node. Of an export for Simscape Multibody
     (.xml), which SolidWorks, Creo, Inventor and Onshape write, the joints, mates and rigid groups are read too; the
-    files of its solids are those beside it.
+    files of its solids are those beside it. Of a robot (.urdf) the links are the parts, in metres, and its joints are
+    read with their limits and motors. A URDF is a tree; `loops` is the YAML file that closes its loops, as in Gepetto's
+    example-parallel-robots. Where the file's own pose is open, the loops are closed, and a note says how far parts were
+    moved.
 
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
     have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
@@ -50,13 +56,20 @@ def load(
     if unit is not None and unit not in METRES:
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     if isinstance(source, str | Path):
-        name = Path(source).name
-        if Path(source).suffix.lower() == EXPORT:
-            parts, said, exported = read_exported(Path(source), lambda file: _read(file, seconds))
+        path, name = Path(source), Path(source).name
+        suffix = path.suffix.lower()
+        root = read_xml(path) if suffix == XML else None
+        if suffix in ROBOT_SUFFIXES or (root is not None and root.tag in ROBOT_ROOTS):
+            parts, said, exported = read_robot(path, root, None if loops is None else Path(loops), seconds)
+            return Assembly(parts, _agreed({name: said}, unit), name, exported)
+        if loops is not None:
+            raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {name} is none")
+        if root is not None:
+            parts, said, exported = read_exported(path, root, lambda file: _read(file, seconds))
             twice = tuple(f"the parts {twins} are the same solid in the same place" for twins in _twins(parts))
             exported = replace(exported, notes=(*exported.notes, *twice))
             return Assembly(parts, _agreed({name: said}, unit), name, exported)
-        parts, said = _read(Path(source), seconds, progress=progress)
+        parts, said = _read(path, seconds, progress=progress)
         return Assembly(_apart(parts, f"{name}: "), _agreed({name: said}, unit), name)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(

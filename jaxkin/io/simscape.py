@@ -103,14 +103,14 @@ class Export:
     """What is in the file and was not understood, one line each."""
 
 
-def read_export(path: str | Path) -> Export:
-    """Read the XML of Simscape Multibody Link or of a CAD system that writes the same.
+def read_export(path: str | Path, root: Element | None = None) -> Export:
+    """Read the XML of Simscape Multibody Link or of a CAD system that writes the same; `root` where it is parsed.
 
     Raises FileNotFoundError where there is no file, and ValueError where the XML is damaged, is of another kind, has
     an unknown unit, or places an instance by numbers that are not finite.
     """
     path = Path(path)
-    root = read_xml(path)
+    root = read_xml(path) if root is None else root
     if root.tag != "SimscapeMultibodyImportXML" or (assembly := root.find("RootAssembly")) is None:
         raise ValueError(f"{path.name}: expected SimscapeMultibodyImportXML with a RootAssembly, got <{root.tag}>")
     return _Reader(path.name, root).export(assembly)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax
@@ -26,6 +26,10 @@ from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.kinds import JointKind
 
 Array = np.ndarray | jax.Array
+
+Limits = tuple[tuple[float, float], ...]
+"""For each coordinate of a joint its lowest and highest displacement from the assembled pose, radians or lengths in the
+unit of the mechanism, -inf and inf where it has none; empty where no coordinate has limits."""
 
 _CONTACT_STATES = {(JointKind.of_state(state.letter), state.movements): state for state in CONTACT_STATES}
 """(kind, movements) -> contact state. The movements distinguish a contact on a circle, (j) and (n), from the contact at
@@ -50,6 +54,8 @@ class Joint:
     """Advance per turn of a screw, in the unit of the mechanism; zero for all others."""
     evidence: Evidence | None = None
     """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
+    limits: Limits = ()
+    """Limits of the coordinates, as they were given or read: see `Limits`. Poses beyond them are computed too."""
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -87,15 +93,23 @@ class Joint:
 _LEAVES = ("frames_1", "frames_2", "pitch")
 
 
-def _static(joint: Joint) -> tuple[str, tuple[str, str], JointKind, tuple[str, ...]]:
-    """The static fields of a joint, in the order of the class."""
-    return joint.name, joint.parts, joint.kind, joint.movements
+_STATIC = ("name", "parts", "kind", "movements", "limits")
+
+
+def _static(joint: Joint) -> tuple[Any, ...]:
+    """The static fields of a joint."""
+    return tuple(getattr(joint, name) for name in _STATIC)
+
+
+def _rebuilt(static: tuple[Any, ...], leaves: Iterable[Any]) -> Joint:
+    """Make a joint of its static fields and its leaves."""
+    return Joint(**dict(zip(_STATIC, static, strict=True)), **dict(zip(_LEAVES, leaves, strict=True)))
 
 
 jax.tree_util.register_pytree_with_keys(
     Joint,
     lambda joint: ([(GetAttrKey(name), getattr(joint, name)) for name in _LEAVES], _static(joint)),
-    lambda static, leaves: Joint(*static, *leaves),
+    _rebuilt,
     lambda joint: ([getattr(joint, name) for name in _LEAVES], _static(joint)),
 )
 
@@ -108,6 +122,7 @@ def joint(
     frames: Sequence[Array] | Array,
     pitch: float | int | Array = 0.0,
     evidence: Evidence = BY_HAND,
+    limits: Limits = (),
 ) -> Joint:
     """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 
@@ -116,7 +131,13 @@ def joint(
     """
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
-    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence)
+    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence, limits)
+
+
+def shifted(given: Joint, q: Float[np.ndarray, " freedoms"]) -> Joint:
+    """Count the limits of a joint from its displacement `q`, where its new assembled pose is."""
+    limits = tuple((low - by, high - by) for (low, high), by in zip(given.limits, map(float, q), strict=False))
+    return replace(given, limits=limits)
 
 
 def check_joints(given: Any) -> None:

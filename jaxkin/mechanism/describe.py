@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import listed
 from jaxkin.joints.evidence import EvidenceKind
@@ -14,6 +16,10 @@ from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
+
+
+_NOT_ALWAYS = ("limits", "known from")
+"""Headings of the columns of the table of joints that are left out where nothing is in them."""
 
 
 def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
@@ -30,6 +36,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     lines += [*_bodies(mechanism), ""] if brief else []
     joints = [joint for joint in mechanism.all_joints if joint.freedoms or not brief]
     lines += _joints(joints)
+    lines += ["", f"Motors: {(listed if brief else ', '.join)(mechanism.motors)}"] if mechanism.motors else []
     loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     lines += ["", *describe_mobility(mechanism)]
@@ -47,16 +54,24 @@ def _bodies(mechanism: Mechanism) -> list[str]:
 
 
 def _joints(joints: Sequence[Joint]) -> list[str]:
-    """A table, one row a joint; what it is known from where that is neither the user nor contacts that fit exactly."""
-    rows = [("joint", "parts", "kind", "coordinates", "known from")]
+    """A table, one row a joint; limits where there are any; what a joint is known from where that is in any doubt."""
+    rows = [("joint", "parts", "kind", "coordinates", "limits", "known from")]
     for joint in joints:
         inferred = joint.evidence is not None and joint.evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER)
         known = str(joint.evidence) if inferred else ""
-        rows.append((joint.name, " - ".join(joint.parts), joint.kind, ", ".join(joint.coordinates) or "none", known))
-    if not any(row[4] for row in rows[1:]):
-        rows = [row[:4] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        coordinates = ", ".join(joint.coordinates) or "none"
+        rows.append((joint.name, " - ".join(joint.parts), joint.kind, coordinates, _limits(joint), known))
+    columns = [column for column in zip(*rows, strict=True) if any(column[1:]) or column[0] not in _NOT_ALWAYS]
+    widths = [max(map(len, column)) for column in columns]
+    rows = list(zip(*columns, strict=True))
     return ["  " + "  ".join(map(str.ljust, row, widths)).rstrip() for row in rows]
+
+
+def _limits(joint: Joint) -> str:
+    """The limits of a joint from the assembled pose, radians or lengths: "-0.5 to 1"; empty where it has none."""
+    return ", ".join(
+        f"{low:.4g} to {high:.4g}" if np.isfinite([low, high]).any() else "none" for low, high in joint.limits
+    )
 
 
 def describe_mobility(mechanism: Mechanism) -> list[str]:

@@ -56,6 +56,8 @@ class Mechanism:
     """Contacts of parts that only spin and are left at rest, which no joint stands for."""
     bonds: tuple[Bond, ...] = field(default=())
     """Which parts were taken as one, those of the fixed body too, each with what that is known from."""
+    motors: tuple[str, ...] = field(default=())
+    """Names of the joints that the file of a robot says are actuated, in the order of the file."""
 
     @staticmethod
     def build(
@@ -295,5 +297,7 @@ class Mechanism:
 
 
 jax.tree_util.register_pytree_node(
-    Mechanism, lambda mechanism: ((mechanism.linkage,), mechanism.unit), lambda unit, leaves: Mechanism(*leaves, unit)
+    Mechanism,
+    lambda mechanism: ((mechanism.linkage,), (mechanism.unit, mechanism.motors)),
+    lambda static, leaves: Mechanism(*leaves, static[0], motors=static[1]),
 )

@@ -9,7 +9,7 @@ tell whether there is another one near.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import astuple, dataclass, replace
+from dataclasses import astuple, dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +19,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, turned_by
-from jaxkin.joints.joint import Joint
+from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.screws import chain, freedoms
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
@@ -68,6 +68,10 @@ class Reassembly:
     """How many other starts were tried."""
     left: Opening | None
     """What stays open; None where nothing does."""
+    places: Mapping[str, Pose] = field(default_factory=dict)
+    """Displacement (4, 4) of each part from the given pose, in world coordinates; empty where no part was moved."""
+    coordinates: Mapping[str, Row] = field(default_factory=dict)
+    """Displacement of each joint from the given pose, by name, a number for each of its coordinates; empty likewise."""
 
     def __str__(self) -> str:
         if self.left is not None:
@@ -98,8 +102,13 @@ class Reassembly:
         return "\n".join(lines)
 
 
-def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
-    """The mechanism with its loops closed: see `Mechanism.close`."""
+def close(
+    mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None, look_around: bool = True
+) -> Reassembly:
+    """The mechanism with its loops closed: see `Mechanism.close`.
+
+    Without `look_around` other assembly modes are not looked for, which takes most of the time.
+    """
     noise = asked_noise(align)
     if traced(mechanism):
         raise ValueError(
@@ -119,13 +128,17 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
     if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [group for group in groups if group.q.any()]
-    others = [apart for group in moved for apart in other_modes(group.loops, group.q, group.held)]
+    searched = moved if look_around else []
+    others = [apart for group in searched for apart in other_modes(group.loops, group.q, group.held)]
     coordinates = [np.zeros(joint.freedoms) for joint in given.joints]
     for group in moved:
         for index, columns in group.loops.slices.items():
             coordinates[index] = (group.q * group.loops.units)[columns]
     places = _places(given, coordinates)
-    joints = [_placed(joint, places[joint.parts[0]], q) for joint, q in zip(given.joints, coordinates, strict=True)]
+    joints = [
+        shifted(_placed(joint, places[joint.parts[0]], q), q)
+        for joint, q in zip(given.joints, coordinates, strict=True)
+    ]
     linkage, notes = aligned(given.with_joints(joints), noise, mechanism.unit)
     solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
     history = mechanism.history
@@ -141,8 +154,9 @@ def close(mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | N
         contacts=contacts,
     )
     moves = {part: _move(given, part, place) for part, place in places.items()}
-    starts = STARTS * len(moved)
-    return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None)
+    starts = STARTS * len(searched)
+    by_name = {joint.name: q for joint, q in zip(given.joints, coordinates, strict=True)}
+    return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None, places, by_name)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,78 @@
+"""Close the loops of an export whose own pose is open, so that its parts and joints stand in an assembled pose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.geometry.part import Part, moved
+from jaxkin.joints.combine import Chain
+from jaxkin.joints.evidence import BY_HAND
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.reassembly import Reassembly, close
+from jaxkin.topology.structure import structure
+
+
+def closed_export(
+    parts: Sequence[Part], exported: Exported, frames_2: Sequence[np.ndarray], unit: str
+) -> tuple[tuple[Part, ...], Exported]:
+    """Move the parts of an export to a pose in which the two frames of each joint coincide as its movement allows.
+
+    `frames_2` are the frames (frames, 4, 4) of each constraint on the side of its second part; those of the first part
+    are in its chain. Motors are held where the file has them, if the loops close so. Limits and values of joints are
+    counted on. Notes tell how far parts were moved; where the loops do not close, nothing is moved, each joint is taken
+    as it stands on its first part, and a note tells how far they are open.
+    """
+    joints = [_joint(each, frames) for each, frames in zip(exported.constraints, frames_2, strict=True)]
+    if all(np.array_equal(each.frames_1, each.frames_2) for each in joints):
+        return tuple(parts), exported
+    described = [(each.name, *each.parts) for each in joints]
+    linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
+    held = [f"{each.name}.{name}" for each in joints if each.name in exported.motors for name in each.coordinates]
+    mechanism = Mechanism(linkage, unit)
+    found = close(mechanism, held, look_around=False)
+    if not found.closed and held:
+        free = close(mechanism, look_around=False)
+        found = free if free.closed else found
+    if not found.closed:
+        note = f"the loops of the file do not close, and each joint is taken as it stands on its first part: {found}"
+        return tuple(parts), replace(exported, notes=(*exported.notes, note))
+    if not found.places:
+        return tuple(parts), exported
+    made = found.mechanism.joints
+    constraints = tuple(_placed(each, made[each.name], found) for each in exported.constraints)
+    moving = [name for name in exported.motors if np.any(found.coordinates[name])]
+    notes = [f"the pose at the zero of the file is open; {found}", *found.mechanism.alignment]
+    if moving:
+        notes.append(f"to close the loops, motors were moved from the zero of the file: {listed(moving)}")
+    beyond = [each.name for each in constraints if any(low > 0 or high < 0 for low, high in each.limits)]
+    if beyond:
+        notes.append(f"the assembled pose is beyond the limits of {listed(beyond)}")
+    there = tuple(moved(part, found.places[part.name]) for part in parts)
+    return there, replace(exported, constraints=constraints, notes=(*exported.notes, *notes))
+
+
+def _joint(each: Constraint, frames_2: np.ndarray) -> Joint:
+    """The joint of a constraint, its two frames where they are; ValueError for a constraint that is no joint."""
+    if each.kind is None:
+        raise ValueError(f"{each.text} is no joint by itself: it has no kind")
+    movements, pitch = tuple(each.chain.movements), np.asarray(each.pitch, float)
+    return Joint(each.name, each.parts, each.kind, movements, each.chain.frames, frames_2, pitch, BY_HAND, each.limits)
+
+
+def _placed(each: Constraint, made: Joint, found: Reassembly) -> Constraint:
+    """The constraint in the closed pose."""
+    q = found.coordinates[each.name]
+    values = each.values or (0.0,) * len(q)
+    return replace(
+        each,
+        chain=Chain(each.chain.movements, np.asarray(made.frames_1)),
+        limits=made.limits,
+        values=tuple(value + float(by) for value, by in zip(values, q, strict=True)) if np.any(q) else each.values,
+    )

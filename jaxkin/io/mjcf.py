@@ -1,0 +1,202 @@
+"""MJCF, the models of MuJoCo: bodies inside bodies with their joints, loops by <equality>, motors by <actuator>.
+
+The assembled pose is MuJoCo's own at `qpos0`: the bodies as they are written. There a joint has the value `ref`. Only
+where that is beyond the ranges of joints it is the pose of a keyframe.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.mjcf_keyframe import at_keyframe
+from jaxkin.io.mjcf_shapes import Shapes
+from jaxkin.io.mjcf_text import Compiler, Defaults, included
+from jaxkin.io.mjcf_ties import Ties
+from jaxkin.io.robot_model import (
+    WORLD,
+    RobotJoint,
+    RobotLink,
+    RobotModel,
+    Shape,
+    along,
+    direction,
+    numbers,
+    placed,
+    tag,
+    unknown_parts,
+)  # fmt: skip
+from jaxkin.joints.joint import Limits
+from jaxkin.joints.kinds import JointKind
+
+KINDS = {"hinge": JointKind.REVOLUTE, "slide": JointKind.PRISMATIC, "ball": JointKind.SPHERICAL}
+"""Types of joints -> kind; "free" joints have none."""
+
+SECTIONS = ("compiler", "option", "size", "visual", "statistic", "default", "custom", "asset", "worldbody", "contact",
+            "equality", "tendon", "actuator", "sensor", "keyframe")  # fmt: skip
+"""Elements of a model that are read, or are about forces, contacts, measurement and pictures."""
+
+BODY = ("inertial", "joint", "freejoint", "geom", "site", "body", "frame", "camera", "light")
+"""Elements of a body that are read, or are not about motion."""
+
+
+@dataclass
+class Bodies:
+    """What the bodies of a model are: gathered on the way through them, at MuJoCo's `qpos0`."""
+
+    poses: dict[str, Pose] = field(default_factory=lambda: {WORLD: np.eye(4)})
+    """From each body to the world, metres."""
+    shapes: dict[str, list[Shape]] = field(default_factory=lambda: {WORLD: []})
+    joints: list[RobotJoint] = field(default_factory=list)
+    order: list[str] = field(default_factory=list)
+    """Names of the joints in the order of `qpos`; "" for a free one."""
+    sites: dict[str, tuple[str, Pose]] = field(default_factory=dict)
+    """Bodies of the sites by name, and their places in the world."""
+    floating: list[str] = field(default_factory=list)
+    """Bodies that are held at rest, since they float or are moved from outside."""
+    springs: list[str] = field(default_factory=list)
+    """Names of joints with a spring."""
+    notes: list[str] = field(default_factory=list)
+
+
+def read_mjcf(path: Path, root: Element) -> RobotModel:
+    """Read a model; ValueError, in one line, for what is wrong, FileNotFoundError for a missing include."""
+    return _Reader(path, included(root, path)).model()
+
+
+class _Reader:
+    """The elements of one model."""
+
+    def __init__(self, path: Path, root: Element) -> None:
+        self.file, self.root = path.name, root
+        self.compiler, self.defaults = Compiler(root, path.name), Defaults(root, path.name)
+        self.shapes = Shapes(root, self.compiler, self.defaults)
+        self.found = Bodies(notes=unknown_parts(root, SECTIONS, path.name))
+
+    def model(self) -> RobotModel:
+        """Go through the bodies, then what ties them together and what moves them."""
+        found = self.found
+        for world in self.root.iterfind("worldbody"):
+            self._inside(world, WORLD, np.eye(4), None)
+        if len(found.poses) == 1:
+            raise ValueError(f"{self.file}: there is no <body> in its <worldbody>")
+        ties = Ties(self.file, self.root, self.compiler, self.defaults, found.poses, found.sites)
+        loops = ties.loops({each.name for each in found.joints})
+        motors = ties.motors(found.joints)
+        joints = (*found.joints, *loops)
+        left = [name for name in found.springs if name not in motors]
+        if left:
+            found.notes.append(
+                f"{self.file}: the joints {listed(list(map(repr, left)))} have a spring (stiffness) and no motor: each "
+                "is a freedom of its own; drive it with zeros to hold it"
+            )
+        needed = {part for each in joints for part in each.parts}
+        names = [name for name in found.poses if name != WORLD or WORLD in needed]
+        fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
+        links = tuple(RobotLink(name, found.poses[name], tuple(found.shapes[name])) for name in names)
+        model = RobotModel(links, joints, tuple(fixed), motors, (*found.notes, *ties.notes))
+        model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints))
+        return replace(model, notes=(*model.notes, *notes))
+
+    def _inside(self, element: Element, body: str, at: Pose, child_class: str | None) -> None:
+        """Read what is inside a body, or inside a frame in it; `at` is the place of either in the world."""
+        self.found.notes += unknown_parts(element, BODY, f"{self.file}: {tag(element)}")
+        for each in element:
+            where = f"{self.file}: {tag(each)}"
+            if each.tag == "frame":
+                inner = at @ self.compiler.pose(each.attrib, where)
+                self._inside(each, body, inner, each.get("childclass", child_class))
+            elif each.tag == "body":
+                self._body(each, body, at, child_class)
+            elif each.tag == "geom":
+                shape = self.shapes.shape(each, child_class, where)
+                if shape is not None:
+                    place = np.linalg.inv(self.found.poses[body]) @ at @ shape.pose
+                    self.found.shapes[body].append(replace(shape, pose=place))
+            elif each.tag == "site" and each.get("name"):
+                said = self.defaults.said(each, child_class)
+                self.found.sites[each.get("name", "")] = (body, at @ self.compiler.pose(said, where))
+
+    def _body(self, element: Element, parent: str, at: Pose, child_class: str | None) -> None:
+        """Read a body, its joints to the one around it, and what is inside."""
+        found = self.found
+        name = element.get("name") or f"{parent}/body {len(found.poses)}"
+        where = f"{self.file}: {tag(element)}"
+        if name in found.poses:
+            raise ValueError(f"{where}: another body has its name; every body needs one of its own")
+        child_class = element.get("childclass", child_class)
+        pose = at @ self.compiler.pose(element.attrib, where)
+        found.poses[name], found.shapes[name] = pose, []
+        free = element.find("freejoint") is not None or any(
+            self.defaults.said(each, child_class).get("type") == "free" for each in element.iterfind("joint")
+        )
+        if free or element.get("mocap") == "true":
+            how = "floats" if free else "is moved from outside (mocap)"
+            found.notes.append(f"{where}: it {how}: held at rest; give fixed= to hold another part instead")
+            found.floating.append(name)
+            found.order += [""] if free else []
+        else:
+            joints = [*self._own_joints(element, pose, where)]
+            self._chain(joints, parent, name, pose, child_class)
+        self._inside(element, name, pose, child_class)
+
+    def _own_joints(self, element: Element, at: Pose, where: str) -> Iterator[tuple[Element, Pose]]:
+        """Yield the joints of a body with the place that they are given in: those in frames are given in these."""
+        for each in element:
+            if each.tag == "joint":
+                yield each, at
+            elif each.tag == "frame":
+                yield from self._own_joints(each, at @ self.compiler.pose(each.attrib, where), where)
+
+    def _chain(
+        self, joints: list[tuple[Element, Pose]], parent: str, body: str, pose: Pose, child_class: str | None
+    ) -> None:
+        """Join a body to the one around it by its joints in turn; between two of them is a part without a solid."""
+        found = self.found
+        if not joints:
+            text = f"body {body!r} in {parent!r}"
+            found.joints.append(RobotJoint(f"{body} on {parent}", (parent, body), JointKind.FIXED, pose, pose, text))
+        before = parent
+        for number, (each, at) in enumerate(joints, start=1):
+            after = body if number == len(joints) else f"{body}/{number}"
+            if after != body:
+                found.poses[after], found.shapes[after] = pose, []
+            name = each.get("name") or f"{body}/joint {number}"
+            found.joints.append(self._joint(each, name, (before, after), at, child_class))
+            found.order.append(name)
+            before = after
+
+    def _joint(self, each: Element, name: str, parts: tuple[str, str], at: Pose, child_class: str | None) -> RobotJoint:
+        """Read a joint between two parts."""
+        said, where = self.defaults.said(each, child_class), f"{self.file}: {tag(each)}"
+        written = said.get("type", "hinge")
+        if written not in KINDS:
+            raise ValueError(f"{where}: expected one of the types {', '.join(KINDS)}, free, got {written!r}")
+        kind = KINDS[written]
+        point = numbers(said.get("pos"), 3, where, (0, 0, 0))
+        axis = direction(numbers(said.get("axis"), 3, where, (0, 0, 1)), where)
+        frame = at @ placed(along(axis) if kind is not JointKind.SPHERICAL else np.eye(3), point)
+        unit = self.compiler.radians if kind is not JointKind.PRISMATIC else 1.0
+        value = float(numbers(said.get("ref"), 1, where, (0,))[0]) * unit
+        if float(numbers((said.get("stiffness") or "0").split()[0], 1, where)[0]) != 0.0:
+            self.found.springs.append(name)
+        limits = self._limits(said, unit, value, where)
+        if limits and kind is JointKind.SPHERICAL:
+            self.found.notes.append(f"{where}: its range limits the angle of a ball, which is not kept")
+            limits = ()
+        values = (value,) if value and kind is not JointKind.SPHERICAL else ()
+        return RobotJoint(name, parts, kind, frame, frame, f"{written} {name!r}", limits, values)
+
+    def _limits(self, said: dict[str, str], unit: float, value: float, where: str) -> Limits:
+        """The range of a joint from the pose that is written, where it is limited."""
+        limited = said.get("limited", "auto")
+        if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
+            return ()
+        low, high = numbers(said["range"], 2, where) * unit - value
+        return ((float(low), float(high)),) if low < high else ()

@@ -1,0 +1,69 @@
+"""The solids of a MuJoCo model: its <geom> elements, and the <mesh> assets that they name."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.geometry.pose import inverse
+from jaxkin.io.mjcf_text import Compiler, Defaults
+from jaxkin.io.robot_model import Shape, along, direction, numbers, placed, quaternion
+
+SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
+"""Types of solids -> how many sizes each needs."""
+
+COLLIDING = 3
+"""Group of solids that by custom are drawn in debuggers only: they stand for those of the groups below."""
+
+
+class Shapes:
+    """The meshes of a model by name."""
+
+    def __init__(self, root: Element, compiler: Compiler, defaults: Defaults) -> None:
+        self.compiler, self.defaults = compiler, defaults
+        self.meshes = {}
+        for each in root.iterfind("asset/mesh"):
+            said = defaults.said(each)
+            file = said.get("file", "")
+            stem = file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+            self.meshes[said.get("name", stem)] = said
+
+    def shape(self, geom: Element, child_class: str | None, where: str) -> Shape | None:
+        """Read a solid in the frame that it is written in; None for a plane, and for what is only for collisions."""
+        said = self.defaults.said(geom, child_class)
+        kind = said.get("type", "mesh" if "mesh" in said and "type" not in said else "sphere")
+        if said.get("group", "0").strip().isdigit() and int(said.get("group", "0")) >= COLLIDING:
+            return None
+        pose = self.compiler.pose(said, where)
+        if kind == "mesh":
+            return self._mesh(said.get("mesh", ""), where, pose)
+        if kind not in SIZES:
+            return None
+        size = np.array((said.get("size") or "").split(), float)
+        if "fromto" in said and kind != "sphere":
+            start, end = numbers(said["fromto"], 6, where).reshape(2, 3)
+            pose = placed(along(direction(end - start, where)), (start + end) / 2)
+            half = float(np.linalg.norm(end - start)) / 2
+            size = np.array([size[0], half] if SIZES[kind] == 2 else [size[0], size[0], half])
+        if len(size) < SIZES[kind] or not np.isfinite(size).all() or np.any(size[: SIZES[kind]] <= 0):
+            return None
+        if kind in ("capsule", "cylinder"):
+            return Shape(pose, kind, (float(size[0]), 2 * float(size[1])))
+        lengths = tuple(float(each) for each in size[: SIZES[kind]])
+        if kind == "box":
+            return Shape(pose, "box", tuple(2 * each for each in lengths))
+        return Shape(pose, "sphere", lengths)
+
+    def _mesh(self, name: str, where: str, pose: np.ndarray) -> Shape:
+        said = self.meshes.get(name, {"file": name})
+        file = said.get("file", "")
+        if self.compiler.strip:
+            file = file.replace("\\", "/").rpartition("/")[2]
+        reference = placed(
+            quaternion(numbers(said.get("refquat"), 4, where, (1, 0, 0, 0)), where),
+            numbers(said.get("refpos"), 3, where, (0, 0, 0)),
+        )
+        scale = tuple(numbers(said.get("scale"), 3, where, (1, 1, 1)))
+        folder = self.compiler.folder.rstrip("/")
+        return Shape(pose @ inverse(reference), "mesh", scale, f"{folder}/{file}" if folder else file)

@@ -1,0 +1,126 @@
+"""What ties the bodies of a MuJoCo model beside their joints, <equality>, and what moves them, <actuator>."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin._names import listed, nearest
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.mjcf_text import Compiler, Defaults
+from jaxkin.io.names import unique
+from jaxkin.io.robot_model import WORLD, RobotJoint, numbers, placed, quaternion, tag
+from jaxkin.joints.kinds import JointKind
+
+KINDS = {"connect": JointKind.SPHERICAL, "weld": JointKind.FIXED}
+"""Constraints between two bodies -> kind of the joint that they are."""
+
+ON_JOINTS = ("joint", "jointinparent")
+"""Attributes by which an actuator names a joint."""
+
+
+class Ties:
+    """The constraints and actuators of one model; `notes` tell those that are not kept."""
+
+    def __init__(
+        self,
+        file: str,
+        root: Element,
+        compiler: Compiler,
+        defaults: Defaults,
+        poses: Mapping[str, Pose],
+        sites: Mapping[str, tuple[str, Pose]],
+    ) -> None:
+        """Take the elements of a model; `poses` and `sites` are its bodies and sites in the world, metres."""
+        self.file, self.root = file, root
+        self.compiler, self.defaults, self.poses, self.sites = compiler, defaults, poses, sites
+        self.notes: list[str] = []
+
+    def loops(self, taken: Collection[str]) -> list[RobotJoint]:
+        """Make the joints of <connect> and <weld>; `taken` are names of joints that there are."""
+        result: list[RobotJoint] = []
+        names = {*taken}
+        for each in self.root.iterfind("equality/*"):
+            said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
+            if said.get("active", "true") == "false":
+                self.notes.append(f"{where} is not active; left out")
+            elif each.tag not in KINDS:
+                about = [repr(value) for key, value in each.attrib.items() if key.rstrip("12") in ("joint", "tendon")]
+                self.notes.append(f"{where} between {listed(about)} is not kept: they move on their own")
+            else:
+                made = self._loop(each, said, names, where)
+                names.add(made.name)
+                result.append(made)
+        return result
+
+    def _loop(self, each: Element, said: dict[str, str], names: Collection[str], where: str) -> RobotJoint:
+        """Make the joint of a constraint, closed where the bodies are written unless two sites or a pose say else."""
+        kind = KINDS[each.tag]
+        if "site1" in said or "site2" in said:
+            (one, first), (other, second) = (self._site(said.get(key, ""), where) for key in ("site1", "site2"))
+        else:
+            one, other = self._body(said.get("body1", ""), where), self._body(said.get("body2", WORLD), where)
+            anchor = numbers(said.get("anchor"), 3, where, (0, 0, 0))
+            if kind is JointKind.SPHERICAL:
+                first = second = self.poses[one] @ placed(np.eye(3), anchor)
+            else:
+                first = second = self.poses[other]
+                relative = numbers(said.get("relpose"), 7, where, (0, 1, 0, 0, 0, 0, 0))
+                if relative[3:].any():  # else the bodies hold each other as they are written
+                    first = self.poses[one] @ placed(quaternion(relative[3:], where), relative[:3])
+        if kind is JointKind.SPHERICAL:  # its coordinates are zero where the file has the bodies
+            first, second = placed(np.eye(3), first[:3, 3]), placed(np.eye(3), second[:3, 3])
+        name = said.get("name") or f"{one}-{other}"
+        name = unique([*names, name])[-1]
+        return RobotJoint(name, (one, other), kind, first, second, f"{each.tag} {name!r}")
+
+    def _body(self, name: str, where: str) -> str:
+        if name not in self.poses:
+            raise ValueError(f"{where}: unknown body {name!r}{nearest(name, self.poses)}")
+        return name
+
+    def _site(self, name: str, where: str) -> tuple[str, Pose]:
+        if name not in self.sites:
+            raise ValueError(f"{where}: unknown site {name!r}{nearest(name, self.sites)}")
+        return self.sites[name]
+
+    def motors(self, joints: Sequence[RobotJoint]) -> tuple[str, ...]:
+        """Find the joints that actuators move, those of the fixed tendons that they pull too."""
+        kinds = {each.name: each.kind for each in joints}
+        tendons = {
+            each.get("name", ""): [joint.get("joint", "") for joint in each.iterfind("joint")]
+            for each in self.root.iterfind("tendon/fixed")
+        }
+        found: dict[str, None] = {}
+        pulled: set[str] = set()
+        for each in self.root.iterfind("actuator/*"):
+            where = f"{self.file}: {tag(each)}"
+            name = next((each.get(key, "") for key in ON_JOINTS if key in each.attrib), None)
+            tendon = each.get("tendon")
+            if tendon in tendons:
+                moved = [joint for joint in tendons[tendon] if joint in kinds]
+                pulled.add(tendon)
+                self.notes.append(
+                    f"{where} pulls the tendon {tendon!r}, which is not kept: each of the joints "
+                    f"{listed(list(map(repr, moved)))} is taken for a motor"
+                )
+                found |= dict.fromkeys(moved)
+            elif name is None:
+                on = ", ".join(f"{key}={value!r}" for key, value in each.attrib.items() if key in _OTHERS)
+                self.notes.append(f"{where}, an actuator of {on or 'no joint'}, moves no joint by itself; left out")
+            elif kinds.get(name) in (JointKind.REVOLUTE, JointKind.PRISMATIC):
+                found[name] = None
+            elif name in kinds:
+                self.notes.append(f"{where} moves the ball {name!r} about one axis; not kept as a motor")
+            else:
+                self.notes.append(f"{where} is of {name!r}, which is no joint that is read; left out")
+        for each in self.root.iterfind("tendon/*"):
+            if each.get("name", "") not in pulled:
+                self.notes.append(f"{self.file}: {tag(each)}, a tendon, is not kept")
+        return tuple(found)
+
+
+_OTHERS = ("tendon", "site", "body", "cranksite", "slidersite", "refsite")
+"""Attributes by which an actuator names what is no joint."""

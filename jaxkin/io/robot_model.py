@@ -1,0 +1,152 @@
+"""What the file of a robot says: links with their shapes, and joints given by a frame on each of two links.
+
+Each format has a reader that makes a `RobotModel` of it; `jaxkin.io.robots` makes an assembly of that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.geometry.pose import Pose, rotation
+from jaxkin.joints.joint import Limits
+from jaxkin.joints.kinds import JointKind
+
+WORLD = "world"
+"""Name of the part that stands for the ground, in the formats that have such a name."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """One solid of a link."""
+
+    pose: Pose
+    """From the frame of the solid to that of the link, metres."""
+    kind: str
+    """"box", "sphere", "cylinder", "capsule" (along z, about the origin), or "mesh"."""
+    size: tuple[float, ...] = ()
+    """Metres: of a box its three edges, of a sphere its radius, or three of them along its axes, else radius and
+    length; of a mesh its three scales."""
+    file: str = ""
+    """Of a mesh, as the robot file names it."""
+
+
+@dataclass(frozen=True, eq=False)
+class RobotLink:
+    """A rigid link at the zero of the file."""
+
+    name: str
+    pose: Pose
+    """From the link to the world, metres."""
+    shapes: tuple[Shape, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class RobotJoint:
+    """A joint between two links. Its two frames coincide where the zero of the file closes the loop that it is in."""
+
+    name: str
+    parts: tuple[str, str]
+    kind: JointKind
+    frame_1: Pose
+    """On the first link, in the world at the zero of the file, metres; the axis is z. A universal joint turns in the
+    first link about y, and the second link on it about x."""
+    frame_2: Pose
+    """On the second link."""
+    text: str
+    """What the file calls it, such as "<joint name='hip'>"."""
+    limits: Limits = ()
+    """Counted from the zero of the file."""
+    values: tuple[float, ...] = ()
+    """What the file calls its coordinates at the zero; empty where that is zero too."""
+    pitch: float = 0.0
+    """Metres a turn, of a screw."""
+
+
+@dataclass(frozen=True, eq=False)
+class RobotModel:
+    """What one robot file says."""
+
+    links: tuple[RobotLink, ...]
+    joints: tuple[RobotJoint, ...]
+    fixed: tuple[str, ...]
+    """Links at rest."""
+    motors: tuple[str, ...] = ()
+    """Names of the actuated joints."""
+    notes: tuple[str, ...] = ()
+    """What was not understood or taken otherwise, a line each, with the element of the file."""
+    folders: tuple[Path, ...] = field(default=())
+    """Where meshes are looked for, beside the folder of the file and those above it."""
+
+
+def numbers(text: str | None, count: int, where: str, default: Sequence[float] | None = None) -> np.ndarray:
+    """Read finite numbers that blanks separate; `default` where there is no text, ValueError where they are others."""
+    if text is None and default is not None:
+        return np.array(default, float)
+    try:
+        found = np.array((text or "").split(), float)
+    except ValueError:
+        found = np.empty(0)
+    if len(found) != count or not np.isfinite(found).all():
+        raise ValueError(f"{where}: expected {count} finite number{'s' if count > 1 else ''}, got {text!r}")
+    return found
+
+
+def direction(vector: np.ndarray, where: str) -> np.ndarray:
+    """Divide a vector by its length; ValueError for zero."""
+    length = float(np.linalg.norm(vector))
+    if length == 0.0:
+        raise ValueError(f"{where}: expected the direction of an axis, got the zero vector")
+    return vector / length
+
+
+def placed(turn: np.ndarray, point: Sequence[float] | np.ndarray) -> Pose:
+    """Make a pose of a rotation matrix (3, 3) and a point."""
+    pose = np.eye(4)
+    pose[:3, :3], pose[:3, 3] = turn, point
+    return pose
+
+
+def roll_pitch_yaw(angles: Sequence[float] | np.ndarray) -> np.ndarray:
+    """Make the rotation Rz(yaw) Ry(pitch) Rx(roll): fixed axes, as URDF and SDF have them, radians."""
+    x, y, z = np.eye(3)
+    return rotation(z, angles[2]) @ rotation(y, angles[1]) @ rotation(x, angles[0])
+
+
+def quaternion(wxyz: Sequence[float] | np.ndarray, where: str) -> np.ndarray:
+    """Make the rotation matrix of a quaternion (w, x, y, z) of any length but zero."""
+    w, *xyz = direction(np.asarray(wxyz, float), where)
+    sine = float(np.linalg.norm(xyz))
+    return np.eye(3) if sine == 0.0 else rotation(np.array(xyz) / sine, 2.0 * np.arctan2(sine, w))
+
+
+def along(axis: np.ndarray) -> np.ndarray:
+    """Make the least rotation that turns the z axis into a unit vector."""
+    z = np.array([0.0, 0.0, 1.0])
+    across = np.cross(z, axis)
+    sine, cosine = float(np.linalg.norm(across)), float(axis[2])
+    if sine < np.finfo(float).eps:
+        return np.eye(3) if cosine > 0 else np.diag([1.0, -1.0, -1.0])
+    return rotation(across / sine, np.arctan2(sine, cosine))
+
+
+def tag(element: Element) -> str:
+    """Tell an element of a file with its name, for messages."""
+    name = element.get("name")
+    return f"<{element.tag}>" if name is None else f"<{element.tag} name={name!r}>"
+
+
+def unknown_parts(element: Element, known: Sequence[str], where: str) -> list[str]:
+    """Notes on the elements inside one that are not among the `known` tags, one for each tag."""
+    others: dict[str, list[Element]] = {}
+    for each in element:
+        if each.tag not in known:
+            others.setdefault(each.tag, []).append(each)
+    return [
+        f"{where}: {tag(found[0])}{f' and {len(found) - 1} more' if len(found) > 1 else ''} is not understood; left out"
+        for found in others.values()
+    ]

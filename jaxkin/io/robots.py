@@ -1,0 +1,175 @@
+"""Assemblies from robot files: each link a part with its solids, each joint a constraint, the loops closed."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin.assembly.close_export import closed_export
+from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import apply
+from jaxkin.io.mesh import MESHES
+from jaxkin.io.mesh_nodes import read_nodes
+from jaxkin.io.names import cleaned, unique
+from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
+from jaxkin.io.time_limit import TimeLimit
+from jaxkin.joints.combine import Chain
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.pairs import universal
+
+MOVEMENT_OF = {str(movement.pair): key for key, movement in MOVEMENTS.items() if movement.pair} | {
+    str(JointKind.UNIVERSAL): universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
+}
+"""Kind of a joint -> key of its movement."""
+
+METRES = "m"
+"""Unit of the formats of robots."""
+
+MARK = 0.02
+"""Edge of the box that is drawn for a link without a solid, over the extent of the robot."""
+
+LEAST_EXTENT = 1e-3
+"""Extent in metres that a robot is given at least: all links of one may begin at the same point."""
+
+FOLDERS_UP = 4
+"""Folders above that of a robot file in which its meshes are looked for: packages of ROS keep urdf/ and meshes/ side by
+side, at most two or three levels below the folder that package:// stands for."""
+
+PREFIXES = ("package://", "model://", "file://")
+"""Beginnings of the names of meshes that stand for folders of other machines."""
+
+
+def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tuple[Part, ...], str, Exported]:
+    """Make the parts of a robot in a closed pose, their unit, and what the file says of joints and bodies.
+
+    Meshes that are there are read as they are, without looking for faces; links without a solid are small boxes.
+    `seconds` is the time allowed for each mesh. Raises ValueError where names repeat.
+    """
+    _refuse_repeats(path.name, "link", [link.name for link in model.links])
+    _refuse_repeats(path.name, "joint", [joint.name for joint in model.joints])
+    link_names = _clean_names([link.name for link in model.links])
+    joint_names = _clean_names([each.name for each in model.joints])
+    meshes = _Meshes(path, model.folders, seconds)
+    mark = MARK * _extent(model)
+    parts = tuple(_part(link, link_names[link.name], meshes.triangles, mark) for link in model.links)
+    constraints = [_constraint(each, joint_names[each.name], link_names) for each in model.joints]
+    exported = Exported(
+        fixed=tuple(link_names[name] for name in model.fixed),
+        rigid=(),
+        constraints=tuple(constraints),
+        notes=(*model.notes, *meshes.notes()),
+        motors=tuple(joint_names[name] for name in model.motors),
+        system="robot file",
+    )
+    parts, exported = closed_export(parts, exported, [each.frame_2[None] for each in model.joints], METRES)
+    return parts, METRES, exported
+
+
+def _clean_names(names: list[str]) -> dict[str, str]:
+    """Names as the file has them -> names that are fit for messages."""
+    return dict(zip(names, unique(cleaned(name) or "unnamed" for name in names), strict=True))
+
+
+def _refuse_repeats(file: str, what: str, names: list[str]) -> None:
+    if repeated := [name for name, count in Counter(names).items() if count > 1]:
+        raise ValueError(f"{file}: {what} {repeated[0]!r} is there twice; every {what} needs a name of its own")
+
+
+def _constraint(each: RobotJoint, name: str, link_names: Mapping[str, str]) -> Constraint:
+    parts = (link_names[each.parts[0]], link_names[each.parts[1]])
+    chain = Chain((MOVEMENT_OF[each.kind],), each.frame_1[None])
+    return Constraint(
+        name, parts, each.text, chain, each.kind, limits=each.limits, pitch=each.pitch, values=each.values
+    )
+
+
+def _extent(model: RobotModel) -> float:
+    """The largest extent of the origins of links and joints, metres."""
+    points = [link.pose[:3, 3] for link in model.links] + [joint.frame_1[:3, 3] for joint in model.joints]
+    return max(LEAST_EXTENT, float(np.ptp(points, axis=0).max()))
+
+
+def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.ndarray | None], mark: float) -> Part:
+    """A link as a part in the world; a small box at its origin where none of its solids is there."""
+    found = [triangles for shape in link.shapes if (triangles := triangles_of(shape, link.name)) is not None]
+    notes = () if found or not link.shapes else ("no file of its solid",)
+    corners = np.concatenate(found) if found else _corners(Shape(np.eye(4), "box", (mark,) * 3))
+    return Part(name, (), apply(link.pose, corners), notes=notes, original_name=link.name)
+
+
+def _corners(shape: Shape) -> np.ndarray:
+    """Triangles (n, 3, 3) of a solid that needs no file, in the frame of its link, metres."""
+    import trimesh
+
+    make = {
+        "box": lambda: trimesh.creation.box(shape.size),
+        "sphere": lambda: trimesh.creation.icosphere(2).apply_scale(np.broadcast_to(shape.size, 3)),
+        "cylinder": lambda: trimesh.creation.cylinder(*shape.size, sections=32),
+        "capsule": lambda: trimesh.creation.capsule(shape.size[1], shape.size[0], count=(16, 16)),
+    }
+    corners = np.array(make[shape.kind]().triangles, float)
+    if shape.kind == "capsule":  # trimesh centres a capsule at the middle of one of its ends in some versions
+        corners -= (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
+    return apply(shape.pose, corners)
+
+
+class _Meshes:
+    """The mesh files of a robot, each read once."""
+
+    def __init__(self, path: Path, folders: tuple[Path, ...], seconds: float | None) -> None:
+        self.path, self.seconds = path, seconds
+        above = [path.resolve().parent, *path.resolve().parent.parents][: FOLDERS_UP + 1]
+        self.folders = (*folders, *above)
+        self.read: dict[str, np.ndarray | str] = {}
+        """Triangles in the unit of the file, or why there are none."""
+        self.missing: dict[str, list[str]] = {}
+        """Why there are none -> the links."""
+
+    def triangles(self, shape: Shape, link: str) -> np.ndarray | None:
+        """Make the triangles (n, 3, 3) of a solid in the frame of its link, metres; None where there is no file."""
+        if shape.kind != "mesh":
+            return _corners(shape)
+        if shape.file not in self.read:
+            self.read[shape.file] = self._read(shape.file)
+        found = self.read[shape.file]
+        if isinstance(found, str):
+            links = self.missing.setdefault(found, [])
+            links += [link] if link not in links else []
+            return None
+        corners = found * np.array(shape.size or (1.0, 1.0, 1.0))
+        if np.prod(shape.size or (1.0,)) < 0:
+            corners = corners[:, ::-1]
+        return apply(shape.pose, corners)
+
+    def notes(self) -> list[str]:
+        """The meshes that are not there, with their links."""
+        return [
+            f"{self.path.name}: {why}; {listed(list(map(repr, links)))} {'is' if len(links) == 1 else 'are'} drawn "
+            "without it"
+            for why, links in self.missing.items()
+        ]
+
+    def _read(self, name: str) -> np.ndarray | str:
+        rest = name
+        for prefix in PREFIXES:
+            rest = rest.removeprefix(prefix)
+        rest = rest.replace("\\", "/").lstrip("/")
+        if Path(rest).suffix.lower() not in MESHES:
+            return f"mesh {name!r} is not read: its format is none of {', '.join(MESHES)}"
+        shorter = rest.partition("/")[2]  # without the name of the package
+        tries = [folder / part for folder in self.folders for part in (rest, shorter) if part]
+        absolute = [Path(f"/{rest}")] if name.startswith(("/", "file:///")) else []
+        file = next((each for each in (*absolute, *tries) if each.is_file()), None)
+        if file is None:
+            return f"mesh {name!r} is not there"
+        try:
+            nodes, _ = read_nodes(file, TimeLimit.start(file, self.seconds))
+        except ValueError as error:
+            return f"mesh {name!r} cannot be read: {error}"
+        return np.concatenate([node.corners for node in nodes])
