@@ -28,7 +28,7 @@ def lying_on_one(known: Known) -> list[Inference]:
     ties: dict[str, set[str]] = {}
     planes: dict[Pair, list[Vector]] = {}
     jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
-    for parts in (*(contact.parts for contact in known.contacts), *jointed):
+    for parts in (*map(tuple, known.touching), *jointed):
         one, other = (body[part] for part in parts)
         ties.setdefault(one, set()).add(other)
         ties.setdefault(other, set()).add(one)
