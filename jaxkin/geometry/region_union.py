@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.facets import Facets, Rows
-from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, Region
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.geometry.tessellation_test import arcs, on, surface_of
 
@@ -76,7 +76,8 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
     """Give the leftovers of a round face to it: small neighbouring regions that lie on its surface and are tangent.
 
     Such a region is free-form, a single triangle, of the kind of the face, or has up to `_FEW_CORNERS` corners. It is
-    smaller than the face, and all its corners are within `rough_tolerance` of the surface.
+    smaller than the face, and all its corners are within `rough_tolerance` of the surface. A facet that two round faces
+    share, since they are tangent to each other in the middle of it, is divided between them.
     """
     rows: list[Rows] = [region.rows for region in found]
     owner = np.empty(len(mesh.triangles), int)
@@ -99,6 +100,17 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
             ):
                 rows[large] = np.sort(np.concatenate([rows[large], rows[small]]))
                 owner[rows[small]], rows[small], changed = large, rows[small][:0], True
+    for k, region in enumerate(found):
+        if isinstance(region.surface, Plane) and len(rows[k]) > 1:
+            beside = mesh.pairs[np.sum(owner[mesh.pairs] == k, axis=1) == 1]
+            near = [n for n in np.unique(owner[beside]).tolist() if found[n].is_round]
+            share = np.full(len(rows[k]), -1)
+            for n in near:
+                share[on(mesh, found[n].surface, rows[k], TIGHT_TOLERANCE * mesh.tolerance, tilts[n])] = n
+            if len(np.unique(share)) > 1 and np.all(share >= 0):
+                for n in np.unique(share).tolist():
+                    rows[n] = np.sort(np.concatenate([rows[n], rows[k][share == n]]))
+                owner[rows[k]], rows[k] = share, rows[k][:0]
     return [Region(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
 
 
