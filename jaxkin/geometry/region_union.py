@@ -2,7 +2,7 @@
 
 The corners of a face may lie farther from its surface than `TIGHT_TOLERANCE`, as along the curve in which two cylinders
 intersect, which CAD kernels compute less exactly than they write coordinates. Region growing then finds several pieces
-of the face, each on a surface of its own.
+of the face, each on a surface of its own, and facets between them on no surface.
 """
 
 from __future__ import annotations
@@ -10,14 +10,34 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.facets import Facets, Rows
-from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, Region
+from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region
 from jaxkin.geometry.surfaces import Plane
-from jaxkin.geometry.tessellation_test import surface_of
+from jaxkin.geometry.tessellation_test import arcs, on, surface_of
+
+_ROUGH_TOLERANCE = 50.0
+"""Largest distance of corners at the rim of a face from its surface, in units of `Facets.tolerance`.
+
+CAD kernels compute the curve in which two surfaces intersect to some 5e-5 of the size of a part."""
+
+_MAX_ROUGHNESS = 5e-4
+"""Largest distance of corners at the rim of a face from its surface, over the extent of the face."""
+
+_FEW_CORNERS = 14
+"""Largest number of corners of a region that may lie on its surface by chance, and be a piece of a face of any kind."""
+
+_MAX_TILT_RATIO = 2.0
+"""Largest angle between a triangle and the surface of the face that takes it in, over the largest one in that face."""
 
 _MAX_UNION_TRIALS = 1000
 """Largest number of fits to two neighbouring regions.
 
 Bounds the time that free-form faces take, on which many small regions are found by chance."""
+
+
+def rough_tolerance(mesh: Facets, rows: Rows) -> float:
+    """Return how far corners of the triangles `rows` may lie from their surface, a length, where a face ends there."""
+    extent = float(np.linalg.norm(np.ptp(mesh.points[mesh.triangles[rows]].reshape(-1, 3), axis=0)))
+    return min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
 
 
 def united(mesh: Facets, found: list[Region]) -> list[Region]:
@@ -50,3 +70,53 @@ def united(mesh: Facets, found: list[Region]) -> list[Region]:
         else:
             kept = (k for k, region in enumerate(found) if not region.is_round or owner[region.rows[0]] == k)
             return [Region(surfaces[k], rows[k]) for k in kept]
+
+
+def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
+    """Give the leftovers of a round face to it: small neighbouring regions that lie on its surface and are tangent.
+
+    Such a region is free-form, a single triangle, of the kind of the face, or has up to `_FEW_CORNERS` corners. It is
+    smaller than the face, and all its corners are within `rough_tolerance` of the surface. A facet that two round faces
+    share, since they are tangent to each other in the middle of it, is divided between them.
+    """
+    rows: list[Rows] = [region.rows for region in found]
+    owner = np.empty(len(mesh.triangles), int)
+    for k, region in enumerate(found):
+        owner[region.rows] = k
+    tilts = [_MAX_TILT_RATIO * arcs(mesh, r.surface, r.rows).max() if r.is_round else 0.0 for r in found]
+    within = [rough_tolerance(mesh, r.rows) if r.is_round else 0.0 for r in found]
+    changed = True
+    while changed:
+        changed = False
+        met = owner[mesh.pairs]
+        met = met[met[:, 0] != met[:, 1]]
+        met = np.unique(np.concatenate([met, met[:, ::-1]]), axis=0)
+        for small, large in met.tolist():
+            surface = found[large].surface
+            if not found[large].is_round or len(rows[small]) >= len(rows[large]) or not len(rows[small]):
+                continue
+            if _is_leftover(mesh, found[small], type(surface)) and np.all(
+                on(mesh, surface, rows[small], within[large], tilts[large])
+            ):
+                rows[large] = np.sort(np.concatenate([rows[large], rows[small]]))
+                owner[rows[small]], rows[small], changed = large, rows[small][:0], True
+    for k, region in enumerate(found):
+        if isinstance(region.surface, Plane) and len(rows[k]) > 1:
+            beside = mesh.pairs[np.sum(owner[mesh.pairs] == k, axis=1) == 1]
+            near = [n for n in np.unique(owner[beside]).tolist() if found[n].is_round]
+            share = np.full(len(rows[k]), -1)
+            for n in near:
+                share[on(mesh, found[n].surface, rows[k], TIGHT_TOLERANCE * mesh.tolerance, tilts[n])] = n
+            if len(np.unique(share)) > 1 and np.all(share >= 0):
+                for n in np.unique(share).tolist():
+                    rows[n] = np.sort(np.concatenate([rows[n], rows[k][share == n]]))
+                owner[rows[k]], rows[k] = share, rows[k][:0]
+    return [Region(region.surface, rows[k]) for k, region in enumerate(found) if len(rows[k])]
+
+
+def _is_leftover(mesh: Facets, region: Region, kind: type) -> bool:
+    """Check whether a region may be a piece of a face of a given kind of surface."""
+    few = len(np.unique(mesh.triangles[region.rows])) <= _FEW_CORNERS
+    if isinstance(region.surface, Plane):
+        return len(region.rows) == 1
+    return region.surface is None or few or isinstance(region.surface, kind)

@@ -12,7 +12,7 @@ import numpy as np
 from jaxkin.geometry.components import components, grouped
 from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, Rows
 from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
-from jaxkin.geometry.region_union import united
+from jaxkin.geometry.region_union import absorbed, rough_tolerance, united
 from jaxkin.geometry.surfaces import Plane, Surface
 from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
@@ -35,14 +35,6 @@ _FLAT_NEIGHBOUR_RATIO = 10.0
 """Smallest ratio of the area of a facet to that of the facets of a round face for the facet to be a flat face next to
 it, as the side of a nut is next to its chamfer."""
 
-_ROUGH_TOLERANCE = 50.0
-"""Largest distance of corners from the surface of a face between sharp edges, in units of `Facets.tolerance`.
-
-CAD kernels compute the curve in which two surfaces intersect to some 5e-5 of the size of a part."""
-
-_MAX_ROUGHNESS = 5e-4
-"""Largest distance of corners from the surface of a face between sharp edges, over the extent of the face."""
-
 _MIN_ROUGH_CORNERS = 12
 """Smallest number of corners of a face between sharp edges."""
 
@@ -57,7 +49,7 @@ def regions(mesh: Facets) -> list[Region]:
     within = np.stack([np.arange(len(mesh.triangles)), first[mesh.facet_of]], axis=-1)
     for rows in grouped(components(len(mesh.triangles), np.concatenate([mesh.smooth, within]))):
         found += _divided(mesh, rows, within)
-    found = [piece for region in united(mesh, found) for piece in _without_flats(mesh, region)]
+    found = [piece for region in absorbed(mesh, united(mesh, found)) for piece in _without_flats(mesh, region)]
     found = [_named(mesh, region) for region in _with_strays(mesh, found)]
     return sorted(found, key=lambda region: region.rows[0])
 
@@ -113,9 +105,7 @@ def _rough_surface(mesh: Facets, rows: Rows) -> Surface | Torus | None:
     points = mesh.points[np.unique(mesh.triangles[rows])]
     if len(points) < _MIN_ROUGH_CORNERS:
         return None
-    extent = float(np.linalg.norm(np.ptp(points, axis=0)))
-    rough = min(_ROUGH_TOLERANCE * mesh.tolerance, _MAX_ROUGHNESS * extent)
-    for tolerance in (LOOSE_TOLERANCE * mesh.tolerance, rough):
+    for tolerance in (LOOSE_TOLERANCE * mesh.tolerance, rough_tolerance(mesh, rows)):
         surface = surface_of(mesh, rows, tolerance, torus=True, thorough=True)
         if surface is not None:
             return None if isinstance(surface, Plane) else surface
@@ -168,9 +158,12 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
     triangles along jagged rims; they span so large an arc of the round face that they are far from tangent to it.
     """
     owner = np.full(len(mesh.triangles), -1)
+    within = np.full(len(found), TIGHT_TOLERANCE * mesh.tolerance)  # or as far as the corners of the face itself are
     for k, region in enumerate(found):
-        if region.is_round:
+        if region.surface is not None and region.is_round:
             owner[region.rows] = k
+            off = np.abs(region.surface.distance(mesh.points[mesh.triangles[region.rows]]))
+            within[k] = max(within[k], float(off.max()))
     lone = np.bincount(mesh.facet_of)[mesh.facet_of] == 1
     for region in found:
         if len(region.rows) == 1 or (region.surface is None and len(region.rows) <= _MAX_LEFTOVER):
@@ -183,7 +176,7 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
             one, beyond = one[edge], owner[other[edge]]
             for k in np.unique(beyond).tolist():
                 rows = np.unique(one[beyond == k])
-                owner[rows[on(mesh, found[k].surface, rows, TIGHT_TOLERANCE * mesh.tolerance, _STRAY_ANGLE)]] = k
+                owner[rows[on(mesh, found[k].surface, rows, within[k], _STRAY_ANGLE)]] = k
     result = []
     for k, region in enumerate(found):
         rows = np.flatnonzero(owner == k) if region.is_round else region.rows[owner[region.rows] < 0]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Float, Int
 
@@ -25,6 +27,23 @@ _MAX_WINDING_ERROR = 0.25
 """Largest deviation of a winding number from 0 or 1 that counts as rounding; off the surface it is a whole number."""
 
 
+_MAX_CRACK_RATIO = 0.02
+"""Largest width of a crack over its extent. The chords of a circle of 16 leave the circle by 1 percent of its diameter."""
+
+_MAX_RIMS = 200
+"""Largest number of rims that are compared with each other: bounds the time; more are all holes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crack:
+    """A narrow gap between two tessellations of one line that do not share their corners."""
+
+    place: Points
+    """The middle of its rim, (3,)."""
+    width: float
+    """A length."""
+
+
 def open_loops(welded: Welded, tolerance: float) -> list[Points]:
     """Find the holes of a surface; returns for each the points of its rim (_, 3).
 
@@ -32,19 +51,66 @@ def open_loops(welded: Welded, tolerance: float) -> list[Points]:
     Where two tessellations meet with different corners along a common line, such edges lie on each other, enclose no
     area, and are no hole.
     """
+    return [rim[:, 0] for rim in _rims(welded) if _is_wide(rim, tolerance)]
+
+
+def holes_and_cracks(welded: Welded, tolerance: float) -> tuple[list[Points], list[Crack]]:
+    """Find the holes of a surface as `open_loops` does, and tell narrow cracks from them.
+
+    A crack is a rim, or two rims beside each other, whose width is up to `_MAX_CRACK_RATIO` of its extent, as where two
+    faces of one edge were tessellated apart. Returns the points of the rim of each hole (_, 3), and the cracks.
+    """
+    rims = [rim for rim in _rims(welded) if _is_wide(rim, tolerance)]
+    holes: list[Points] = []
+    cracks: list[Crack] = []
+    left = list(range(len(rims)))
+    while left:
+        k = left.pop(0)
+        extent = float(np.linalg.norm(np.ptp(rims[k].reshape(-1, 3), axis=0)))
+        width = 2 * _area(rims[k]) / np.linalg.norm(rims[k][:, 1] - rims[k][:, 0], axis=-1).sum()
+        beside = left if len(rims) <= _MAX_RIMS else []
+        apart = {n: max(_distance(rims[k], rims[n]), _distance(rims[n], rims[k])) for n in beside}
+        nearest = min(apart, key=lambda n: apart[n], default=None)
+        if width <= _MAX_CRACK_RATIO * extent:
+            cracks.append(Crack(rims[k][:, 0].mean(axis=0), float(width)))
+        elif nearest is not None and apart[nearest] <= _MAX_CRACK_RATIO * extent:
+            cracks.append(Crack(rims[k][:, 0].mean(axis=0), apart[nearest]))
+            left.remove(nearest)
+        else:
+            holes.append(rims[k][:, 0])
+    return holes, cracks
+
+
+def _rims(welded: Welded) -> list[Float[np.ndarray, "_ 2 3"]]:
+    """Collect the connected open edges: [edge, start or end, coordinate] of each rim."""
     edges = welded.open_edges
     if not len(edges):
         return []
     _, index = np.unique(edges, return_inverse=True)
     label = components(int(index.max()) + 1, index.reshape(-1, 2))[index.reshape(-1, 2)[:, 0]]
-    start, end = welded.points[edges[:, 0]], welded.points[edges[:, 1]]
-    found = []
-    for k in range(int(label.max()) + 1):
-        a, b = start[label == k], end[label == k]
-        area = np.linalg.norm(np.cross(a - a[0], b - a[0]).sum(axis=0)) / 2
-        if area > 2 * tolerance * np.linalg.norm(b - a, axis=-1).sum():
-            found.append(a)
-    return found
+    return [welded.points[edges[label == k]] for k in range(int(label.max()) + 1)]
+
+
+def _area(rim: Float[np.ndarray, "_ 2 3"]) -> float:
+    """Compute the area that a rim encloses, the length of its vector area."""
+    a, b = rim[:, 0], rim[:, 1]
+    return float(np.linalg.norm(np.cross(a - a[0], b - a[0]).sum(axis=0)) / 2)
+
+
+def _is_wide(rim: Float[np.ndarray, "_ 2 3"], tolerance: float) -> bool:
+    """Check whether a rim encloses an area wider than `tolerance`, a length."""
+    return bool(_area(rim) > 2 * tolerance * np.linalg.norm(rim[:, 1] - rim[:, 0], axis=-1).sum())
+
+
+def _distance(rim: Float[np.ndarray, "_ 2 3"], other: Float[np.ndarray, "_ 2 3"]) -> float:
+    """Compute the largest distance of the points of a rim from the edges of another rim."""
+    start, along = other[:, 0], other[:, 1] - other[:, 0]
+    square = np.maximum(np.sum(along**2, axis=-1), np.finfo(float).tiny)
+    worst = 0.0
+    for point in rim[:, 0]:
+        share = np.clip(np.sum((point - start) * along, axis=-1) / square, 0, 1)
+        worst = max(worst, float(np.linalg.norm(point - start - share[:, None] * along, axis=-1).min()))
+    return worst
 
 
 def shells(welded: Welded) -> list[Rows]:

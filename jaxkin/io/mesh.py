@@ -12,7 +12,7 @@ from jaxkin.geometry.facets import facets
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.regions import regions
-from jaxkin.geometry.shells import bodies, open_loops, shells, volume, wrong_side
+from jaxkin.geometry.shells import bodies, holes_and_cracks, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
 from jaxkin.geometry.weld import weld
 from jaxkin.io.mesh_check import MAX_MESH_NODES
@@ -80,12 +80,19 @@ def _part(name: str, solid: Node, source: str) -> Part:
     where = f"{source}: the part {name!r}"
     if not len(corners):
         raise ValueError(f"{where} has no triangles but points and lines: export it as a solid")
-    if loops := open_loops(welded, solid.tolerance):
+    loops, cracks = holes_and_cracks(welded, solid.tolerance)
+    if loops:
         place = ", ".join(f"{x:.4g}" for x in loops[0].mean(axis=0))
         holes = "a hole" if len(loops) == 1 else f"{len(loops)} holes"
         raise ValueError(
             f"{where} is not closed, or its triangles are not all wound the same way: there is {holes}, the first near "
             f"({place}); repair the mesh, or export the part as a solid"
+        )
+    if cracks:
+        place = ", ".join(f"{x:.4g}" for x in cracks[0].place)
+        notes.append(
+            f"its faces do not meet along {len(cracks)} of their edges, the first near ({place}), by up to "
+            f"{max(crack.width for crack in cracks):.2g}: export it with shared corners if faces are missed there"
         )
     triangles = welded.triangles
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=-1).sum() / 2
