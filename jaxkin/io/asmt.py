@@ -43,9 +43,12 @@ IN_TURN = {
 """Joints that are two in turn, with a part without a solid between them: from the first marker to the second."""
 
 NOT_KEPT = ("AngleJoint", "GearJoint", "NoRotationJoint", "ParallelAxesJoint", "PerpendicularJoint", "RackPinionJoint",
-            "ConstantVelocityJoint", "SphSphJoint", "CylSphJoint", "RevCylJoint", "RevRevJoint", "LineInPlaneJoint",
-            "ScrewJoint")  # fmt: skip
+            "ConstantVelocityJoint", "SphSphJoint", "CylSphJoint", "RevCylJoint", "RevRevJoint",
+            "LineInPlaneJoint")  # fmt: skip
 """Joints that are relations between others, or that no joint here is."""
+
+SCREW = "ScrewJoint"
+"""A relation between the turn and the advance of a cylindrical joint."""
 
 MOTIONS = {"RotationalMotion": "phi", "TranslationalMotion": "z"}
 """Motions -> the coordinate of a joint that they drive."""
@@ -141,6 +144,9 @@ class _Reader:
             sides[f"/{self.name}/{each.said('Name')}"] = each.said("MarkerI"), each.said("MarkerJ")
             self._joint(each)
         known = {each.name: each for each in self.joints}
+        for each in self.root.every("ConstraintSets", "Joints"):
+            if each.text == SCREW:
+                self._screw(each, known)
         motors = [self._motor(each, known, sides) for each in self.root.every("ConstraintSets", "Motions")]
         for each in self.root.every("ConstraintSets", "Limits"):
             self._limit(each, known, sides)
@@ -172,6 +178,8 @@ class _Reader:
         """Read a joint; what is none is added to the notes."""
         name = node.said("Name")
         where = f"{self.file}: {node.text} {name!r}"
+        if node.text == SCREW:
+            return  # it relates the coordinates of another joint
         if node.text in NOT_KEPT:
             self.notes.append(f"{where} is not kept")
             return
@@ -191,6 +199,17 @@ class _Reader:
             self._add(f"{name}/1", (one, between), kinds[0], first, placed(first[:3, :3], second[:3, 3]), text, where)
             first, before = second, between
         self._add(name, (before, other), kinds[-1], first, second, text, where)
+
+    def _screw(self, node: Node, known: dict[str, RobotJoint]) -> None:
+        """Make a screw of the cylindrical joint between the same two parts; without one it is noted."""
+        where = f"{self.file}: {node.text} {node.said('Name')!r}"
+        parts = {self._marker(node.said(key), where)[0] for key in ("MarkerI", "MarkerJ")}
+        pin = next((e for e in known.values() if e.kind is JointKind.CYLINDRICAL and {*e.parts} == parts), None)
+        if pin is None:
+            self.notes.append(f"{where} is not kept: there is no CylindricalJoint between its two parts")
+        else:
+            pitch = float(numbers(node.said("pitch"), 1, f"{where}: pitch")[0])
+            known[pin.name] = replace(pin, kind=JointKind.SCREW, pitch=pitch, values=pin.values[1:])
 
     def _add(self, name: str, parts: tuple, kind: JointKind, first: Pose, second: Pose, text: str, where: str) -> None:
         try:
@@ -241,6 +260,7 @@ class _Reader:
 COORDINATES = {
     JointKind.REVOLUTE: ("phi",),
     JointKind.PRISMATIC: ("z",),
+    JointKind.SCREW: ("phi",),
     JointKind.CYLINDRICAL: ("z", "phi"),
 }
 """Kinds of joints whose coordinates motions and limits are of -> names of these."""
