@@ -34,7 +34,12 @@ def closed_export(
         return tuple(parts), exported
     described = [(each.name, *each.parts) for each in joints]
     linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
-    held = [f"{each.name}.{name}" for each in joints if each.name in exported.motors for name in each.coordinates]
+    held = [
+        coordinate
+        for each in joints
+        for name in each.coordinates
+        if {each.name, coordinate := f"{each.name}.{name}"} & {*exported.motors}
+    ]
     mechanism = Mechanism(linkage, unit)
     found = close(mechanism, held, look_around=False)
     if not found.closed and held:
@@ -47,8 +52,13 @@ def closed_export(
         return tuple(parts), exported
     made = found.mechanism.joints
     constraints = tuple(_placed(each, made[each.name], found) for each in exported.constraints)
-    moving = [name for name in exported.motors if np.any(found.coordinates[name])]
-    notes = [f"the pose at the zero of the file is open; {found}", *found.mechanism.alignment]
+    moving = [
+        name
+        for each in joints
+        for name in held
+        if name.startswith(f"{each.name}.") and found.coordinates[each.name].any()
+    ]
+    notes = [f"the pose of the file is open; {found}", *found.mechanism.alignment]
     if moving:
         notes.append(f"to close the loops, motors were moved from the zero of the file: {listed(moving)}")
     beyond = [each.name for each in constraints if any(low > 0 or high < 0 for low, high in each.limits)]

@@ -49,7 +49,7 @@ class Exported:
     notes: tuple[str, ...]
     """What is in the export and was not understood, a line each."""
     motors: tuple[str, ...] = ()
-    """Names of the constraints that the file says are actuated."""
+    """Names of the constraints that the file says are actuated, or "name.coordinate" of one of several."""
     system: str = "CAD system"
     """What the file is from, for messages: "CAD system", "robot file"."""
 

@@ -63,8 +63,9 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     known.found += [each for each in joints if body[each.parts[0]] != body[each.parts[1]]]
     known.add(tied_to_nothing(known))
     mechanism = from_words(assembly, Contacts(()), said, known.found, exported.system)
-    motors = tuple(name for name in exported.motors if name in mechanism.joints)
-    driven = {part for name in motors for part in mechanism.joints[name].parts}
+    owner = {name: name if name in mechanism.joints else name.rpartition(".")[0] for name in exported.motors}
+    motors = tuple(name for name, joint in owner.items() if joint in mechanism.joints)
+    driven = {part for name in motors for part in mechanism.joints[owner[name]].parts}
     spinning = tuple(each for each in mechanism.linkage.spinning if each.name not in driven)
     linkage = replace(mechanism.linkage, spinning=spinning)
     return replace(mechanism, linkage=linkage, history=(*notes, *mechanism.history), motors=motors)
@@ -123,9 +124,10 @@ def _joints(
 ) -> list[Inference]:
     """The joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
     taken = {given.name for given in said.joints}
+    driven = {*motors, *(name.rpartition(".")[0] for name in motors)}
     result = []
     for several in _between(assembly, said, groups, constraints):
-        whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in motors for each in several)
+        whole = len(several) > 1 and not any(each.limits or each.pitch or each.name in driven for each in several)
         for name, found in _joints_of_two(several, noise, notes, whole):
             unique = next(each for each in _numbered(name) if each not in taken)
             taken.add(unique)

@@ -31,7 +31,7 @@ from jaxkin.io.robot_model import (
     placed,
     tag,
     unknown_parts,
-)  # fmt: skip
+)
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 

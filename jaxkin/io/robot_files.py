@@ -7,15 +7,20 @@ from xml.etree.ElementTree import Element
 
 from jaxkin.assembly.exported import Exported
 from jaxkin.geometry.part import Part
+from jaxkin.io.asmt import read_asmt
 from jaxkin.io.mjcf import read_mjcf
 from jaxkin.io.robots import assembled
+from jaxkin.io.sdf import read_sdf
 from jaxkin.io.urdf import read_urdf
 from jaxkin.io.xml_tree import read_xml
 
-ROBOT_SUFFIXES = (".urdf", ".mjcf")
+ASMT = ".asmt"
+"""The suffix of assemblies of FreeCAD's solver."""
+
+ROBOT_SUFFIXES = (".urdf", ".mjcf", ".sdf", ".world", ASMT)
 """Suffixes of robot files; those of MuJoCo are ".xml", as other files are too."""
 
-ROBOT_ROOTS = ("robot", "mujoco")
+ROBOT_ROOTS = ("robot", "mujoco", "sdf")
 """First elements of robot files."""
 
 
@@ -27,11 +32,20 @@ def read_robot(
     `loops` is the YAML file of the loops of a URDF. Raises FileNotFoundError where a file is not there, and ValueError,
     in one line, for what is not understood or not safe to leave out.
     """
+    if path.suffix.lower() == ASMT:
+        _refuse_loops(path, loops)
+        return assembled(read_asmt(path), path, seconds)
     root = read_xml(path) if root is None else root
     if root.tag == "robot":
         return assembled(read_urdf(path, root, loops), path, seconds)
-    if loops is not None:
-        raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {path.name} is none: it has its own")
+    _refuse_loops(path, loops)
     if root.tag == "mujoco":
         return assembled(read_mjcf(path, root), path, seconds)
-    raise ValueError(f"{path.name}: expected a robot in URDF (<robot>) or MJCF (<mujoco>), got <{root.tag}>")
+    if root.tag == "sdf":
+        return assembled(read_sdf(path, root), path, seconds)
+    raise ValueError(f"{path.name}: expected URDF (<robot>), MJCF (<mujoco>) or SDF (<sdf>), got <{root.tag}>")
+
+
+def _refuse_loops(path: Path, loops: Path | None) -> None:
+    if loops is not None:
+        raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {path.name} is none: it has its own")

@@ -6,8 +6,7 @@ Each format has a reader that makes a `RobotModel` of it; `jaxkin.io.robots` mak
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -79,8 +78,8 @@ class RobotModel:
     """Names of the actuated joints."""
     notes: tuple[str, ...] = ()
     """What was not understood or taken otherwise, a line each, with the element of the file."""
-    folders: tuple[Path, ...] = field(default=())
-    """Where meshes are looked for, beside the folder of the file and those above it."""
+    unit: str = "m"
+    """Unit of all lengths; "" where the format says none."""
 
 
 def numbers(text: str | None, count: int, where: str, default: Sequence[float] | None = None) -> np.ndarray:
@@ -93,6 +92,17 @@ def numbers(text: str | None, count: int, where: str, default: Sequence[float] |
         found = np.empty(0)
     if len(found) != count or not np.isfinite(found).all():
         raise ValueError(f"{where}: expected {count} finite number{'s' if count > 1 else ''}, got {text!r}")
+    return found
+
+
+def limit(text: str | None, where: str, none: float) -> float:
+    """Read a limit, a number that may be infinite; `none` where there is no text."""
+    try:
+        found = none if text is None else float(text)
+    except ValueError:
+        found = np.nan
+    if np.isnan(found):
+        raise ValueError(f"{where}: expected a number, got {text!r}")
     return found
 
 

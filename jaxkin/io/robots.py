@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,14 +23,12 @@ from jaxkin.io.time_limit import TimeLimit
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.pairs import universal
+from jaxkin.topology.components import connected
 
 MOVEMENT_OF = {str(movement.pair): key for key, movement in MOVEMENTS.items() if movement.pair} | {
     str(JointKind.UNIVERSAL): universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
 }
 """Kind of a joint -> key of its movement."""
-
-METRES = "m"
-"""Unit of the formats of robots."""
 
 MARK = 0.02
 """Edge of the box that is drawn for a link without a solid, over the extent of the robot."""
@@ -55,7 +54,8 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
     _refuse_repeats(path.name, "joint", [joint.name for joint in model.joints])
     link_names = _clean_names([link.name for link in model.links])
     joint_names = _clean_names([each.name for each in model.joints])
-    meshes = _Meshes(path, model.folders, seconds)
+    model = _held(model, path.name)
+    meshes = _Meshes(path, seconds)
     mark = MARK * _extent(model)
     parts = tuple(_part(link, link_names[link.name], meshes.triangles, mark) for link in model.links)
     constraints = [_constraint(each, joint_names[each.name], link_names) for each in model.joints]
@@ -64,11 +64,32 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
         rigid=(),
         constraints=tuple(constraints),
         notes=(*model.notes, *meshes.notes()),
-        motors=tuple(joint_names[name] for name in model.motors),
+        motors=tuple(_renamed(name, joint_names) for name in model.motors),
         system="robot file",
     )
-    parts, exported = closed_export(parts, exported, [each.frame_2[None] for each in model.joints], METRES)
-    return parts, METRES, exported
+    parts, exported = closed_export(parts, exported, [each.frame_2[None] for each in model.joints], model.unit)
+    return parts, model.unit, exported
+
+
+def _held(model: RobotModel, file: str) -> RobotModel:
+    """Hold one link of each group of links that no joints tie to those at rest: the first; a note says so."""
+    names = [link.name for link in model.links]
+    ties = [*(each.parts for each in model.joints), *((model.fixed[0], name) for name in model.fixed[1:])]
+    loose = [group for group in connected(names, ties) if not group & {*model.fixed}]
+    if not loose:
+        return model
+    held = tuple(min(group, key=names.index) for group in loose)
+    note = (
+        f"{file}: nothing ties {listed(list(map(repr, held)))} to the ground: held at rest; give fixed= to hold "
+        "another part instead"
+    )
+    return replace(model, fixed=(*model.fixed, *held), notes=(*model.notes, note))
+
+
+def _renamed(motor: str, names: Mapping[str, str]) -> str:
+    """The name of a motor, which is a joint, or a coordinate of one, "joint.phi"."""
+    joint, _, coordinate = motor.rpartition(".")
+    return names[motor] if motor in names else f"{names[joint]}.{coordinate}"
 
 
 def _clean_names(names: list[str]) -> dict[str, str]:
@@ -122,10 +143,9 @@ def _corners(shape: Shape) -> np.ndarray:
 class _Meshes:
     """The mesh files of a robot, each read once."""
 
-    def __init__(self, path: Path, folders: tuple[Path, ...], seconds: float | None) -> None:
+    def __init__(self, path: Path, seconds: float | None) -> None:
         self.path, self.seconds = path, seconds
-        above = [path.resolve().parent, *path.resolve().parent.parents][: FOLDERS_UP + 1]
-        self.folders = (*folders, *above)
+        self.folders = [path.resolve().parent, *path.resolve().parent.parents][: FOLDERS_UP + 1]
         self.read: dict[str, np.ndarray | str] = {}
         """Triangles in the unit of the file, or why there are none."""
         self.missing: dict[str, list[str]] = {}

@@ -17,12 +17,13 @@ from jaxkin.io.robot_model import (
     Shape,
     along,
     direction,
+    limit,
     numbers,
     placed,
     roll_pitch_yaw,
     tag,
     unknown_parts,
-)  # fmt: skip
+)
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 
@@ -170,7 +171,7 @@ class _Reader:
         found = each.find("limit")
         if found is None or (found.get("lower") is None and found.get("upper") is None):
             return ()
-        low, high = (float(numbers(found.get(side), 1, f"{where}: limit", (0,))[0]) for side in ("lower", "upper"))
+        low, high = (limit(found.get(side), f"{where}: limit", 0.0) for side in ("lower", "upper"))
         if low > high:
             self.notes.append(f"{where}: its lower limit {low:g} is above the upper one {high:g}; left out")
         return ((low, high),) if low <= high else ()

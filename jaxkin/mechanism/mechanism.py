@@ -57,7 +57,7 @@ class Mechanism:
     bonds: tuple[Bond, ...] = field(default=())
     """Which parts were taken as one, those of the fixed body too, each with what that is known from."""
     motors: tuple[str, ...] = field(default=())
-    """Names of the joints that the file of a robot says are actuated, in the order of the file."""
+    """What the file of a robot says is actuated, in its order, as `sweep` takes it: joints by name, or "joint.phi"."""
 
     @staticmethod
     def build(

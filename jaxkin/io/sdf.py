@@ -1,0 +1,260 @@
+"""SDF, the models of Gazebo: links and joints as a graph, so that loops are joints like all others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.robot_model import (
+    WORLD,
+    RobotJoint,
+    RobotLink,
+    RobotModel,
+    Shape,
+    along,
+    direction,
+    limit,
+    numbers,
+    placed,
+    tag,
+    unknown_parts,
+)
+from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
+from jaxkin.io.xml_tree import read_xml
+from jaxkin.joints.joint import Limits
+from jaxkin.joints.kinds import JointKind
+
+KINDS = {
+    "revolute": JointKind.REVOLUTE, "continuous": JointKind.REVOLUTE, "prismatic": JointKind.PRISMATIC,
+    "ball": JointKind.SPHERICAL, "fixed": JointKind.FIXED, "universal": JointKind.UNIVERSAL, "screw": JointKind.SCREW,
+    "piston": JointKind.CYLINDRICAL, "revolute2": JointKind.REVOLUTE,
+}  # fmt: skip
+"""Types of SDF -> kind; "revolute2" is two of them in turn."""
+
+RELATIONS = ("gearbox",)
+"""Types of SDF that relate two joints and join nothing."""
+
+NO_LIMIT = 1e15
+"""Limits from here on are none: SDF writes 1e16 for infinity."""
+
+SQUARE = 1e-6
+"""Cosine between the axes of a universal joint up to which they are perpendicular: six digits."""
+
+MODEL = ("link", "joint", "model", "frame", "pose", "static", "self_collide", "allow_auto_disable", "enable_wind",
+         "plugin", "gripper")  # fmt: skip
+"""Elements of a model that are read, or are not about motion."""
+
+WORLD_PARTS = ("model", "light", "gui", "scene", "physics", "plugin", "state", "gravity", "magnetic_field", "wind",
+               "atmosphere", "spherical_coordinates", "audio", "road", "population", "frame")  # fmt: skip
+"""Elements of a world that are read, or are not about motion."""
+
+MAX_INCLUDED = 20
+"""Files that include each other, one in the other."""
+
+
+def read_sdf(path: Path, root: Element) -> RobotModel:
+    """Read the models of a file; ValueError in one line for what is wrong, FileNotFoundError for a missing include."""
+    return _Reader(path, root).model()
+
+
+def _included(element: Element, folder: Path, file: str, depth: int = 0) -> None:
+    """Put the models of other files in the place of each <include>."""
+    for number, each in enumerate(list(element)):
+        if each.tag == "model":
+            _included(each, folder, file, depth)
+        if each.tag != "include":
+            continue
+        uri = (each.findtext("uri") or "").strip()
+        name = uri.removeprefix("model://").removeprefix("file://")
+        tries = [base / name for base in (folder, folder.parent, folder.parent.parent)]
+        found = next((t / "model.sdf" if t.is_dir() else t for t in tries if t.exists()), None)
+        if found is None or not found.is_file():
+            raise FileNotFoundError(f"{file}: it includes {uri!r}, which is not there; put it beside {file}")
+        if depth >= MAX_INCLUDED:
+            raise ValueError(f"{file}: its includes go {MAX_INCLUDED} deep, or in a circle")
+        model = read_xml(found).find("model")
+        if model is None:
+            raise ValueError(f"{file}: it includes {uri!r}, in which there is no <model>")
+        for key in ("name", "placement_frame"):
+            if said := (each.findtext(key) or "").strip():
+                model.set(key, said)
+        for key in ("pose", "static"):
+            if (said := each.find(key)) is not None:
+                for old in model.findall(key):
+                    model.remove(old)
+                model.append(said)
+        element[number] = model
+        _included(model, found.parent, file, depth + 1)
+
+
+class _Reader:
+    """The models of one file."""
+
+    def __init__(self, path: Path, root: Element) -> None:
+        self.file = path.name
+        self.notes: list[str] = []
+        world = root.find("world")
+        self.top = root if world is None else world
+        _included(self.top, path.parent, self.file)
+        if world is not None:
+            self.notes += unknown_parts(world, WORLD_PARTS, self.file)
+        self.version = root.get("version", "1.7")
+        self.links: dict[str, RobotLink] = {WORLD: RobotLink(WORLD, np.eye(4))}
+        self.joints: list[RobotJoint] = []
+        self.fixed: list[str] = []
+        self.motors: list[str] = []
+
+    def model(self) -> RobotModel:
+        models = self.top.findall("model")
+        if not models:
+            raise ValueError(f"{self.file}: there is no <model> in it")
+        for each in models:
+            prefix = "" if len(models) == 1 else each.get("name", "") + IN_ANOTHER
+            frames = self._frames(each)
+            pose = read_pose(each, f"{self.file}: {tag(each)}") @ frames.placement()
+            self._read(each, frames, prefix, pose, False)
+        if len(self.links) == 1:
+            raise ValueError(f"{self.file}: there is no <link> in it")
+        needed = {part for each in self.joints for part in each.parts}
+        links = [link for name, link in self.links.items() if name != WORLD or WORLD in needed]
+        fixed = [*([WORLD] if WORLD in needed else []), *self.fixed]
+        known = {each.name for each in self.joints if each.kind is not JointKind.FIXED}
+        for name in self.motors:
+            if name not in known:
+                self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
+        motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
+        return RobotModel(tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes))
+
+    def _frames(self, model: Element) -> Frames:
+        inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
+        return Frames(self.file, model, inner)
+
+    def _read(self, model: Element, frames: Frames, prefix: str, pose: Pose, static: bool) -> None:
+        """Read the links and joints of a model at a pose in the world, and those of the models in it."""
+        where = f"{self.file}: {tag(model)}"
+        self.notes += unknown_parts(model, MODEL, where)
+        static = static or (model.findtext("static") or "").strip() in ("true", "1")
+        for each in model.iterfind("link"):
+            name = each.get("name", "")
+            shapes = tuple(self._shapes(each))
+            self.links[prefix + name] = RobotLink(prefix + name, pose @ frames.in_model(name), shapes)
+            self.fixed += [prefix + name] if static else []
+        for each in model.iterfind("model"):
+            name = each.get("name", "")
+            self._read(each, frames.inner[name], f"{prefix}{name}{IN_ANOTHER}", pose @ frames.in_model(name), static)
+        for each in model.iterfind("joint"):
+            self._joint(each, frames, prefix, pose, static)
+        for plugin in model.iterfind("plugin"):
+            if "control" in f"{plugin.get('name', '')} {plugin.get('filename', '')}".lower():
+                self.motors += [prefix + (joint.text or "").strip() for joint in plugin.iter("joint_name")]
+
+    def _joint(self, each: Element, frames: Frames, prefix: str, pose: Pose, static: bool) -> None:
+        """Read a joint: of "revolute2" two, with a part without a solid between them."""
+        name, said = prefix + each.get("name", ""), each.get("type", "")
+        where = f"{self.file}: {tag(each)}"
+        if said in RELATIONS:
+            self.notes.append(f"{where} of type {said!r} is not kept: the two joints move on their own")
+            return
+        if said not in KINDS:
+            raise ValueError(f"{where}: expected one of the types {', '.join((*KINDS, *RELATIONS))}, got {said!r}")
+        ends = []
+        for side in ("parent", "child"):
+            link = frames.link_of((each.findtext(side) or "").strip())
+            ends.append(link if link == WORLD else prefix + link)
+        if static:
+            return  # all of its links are at rest
+        if ends[0] == ends[1]:
+            raise ValueError(f"{where}: its parent and its child are the same link, {ends[0]!r}")
+        own = frames.in_model(each.get("name", ""))
+        axes = [(axis, self._axis(axis, own, frames, where)) for axis in (each.find("axis"), each.find("axis2"))]
+        kind, text = KINDS[said], f"{said} {name!r}"
+        for axis, _ in axes:
+            if axis is not None and (mimic := axis.find("mimic")) is not None:
+                self.notes.append(f"{where}: that it mimics {mimic.get('joint')!r} is not kept: it moves by itself")
+        (first, one), (second, other) = axes
+        turn = np.eye(3)
+        limits: Limits = ()
+        if kind is JointKind.UNIVERSAL:
+            turn = _cross(one, other, where)
+            limits = _both(self._limits(second, where), self._limits(first, where))
+        elif kind not in (JointKind.FIXED, JointKind.SPHERICAL):
+            turn = along(one)
+            limits = self._limits(first, where) if kind is not JointKind.CYLINDRICAL else ()
+        frame = pose @ placed(turn, own[:3, 3])
+        parts = (ends[0], ends[1])
+        if said == "revolute2":
+            between = f"{name}/1"
+            self.links[between] = RobotLink(between, frame)
+            self.joints.append(RobotJoint(f"{name} 1", (ends[0], between), kind, frame, frame, text, limits))
+            frame = pose @ placed(along(other), own[:3, 3])
+            name, parts, limits = f"{name} 2", (between, ends[1]), self._limits(second, where)
+        pitch = self._pitch(each, where) if kind is JointKind.SCREW else 0.0
+        self.joints.append(RobotJoint(name, parts, kind, frame, frame, text, limits, pitch=pitch))
+
+    def _axis(self, axis: Element | None, own: Pose, frames: Frames, where: str) -> np.ndarray:
+        """The direction of an axis in the frame of the model; z where none is written."""
+        if axis is None:
+            return own[:3, 2]
+        found = axis.find("xyz")
+        written = direction(numbers(None if found is None else found.text, 3, f"{where}: axis", (0, 0, 1)), where)
+        named = None if found is None else found.get("expressed_in")
+        if named:
+            return frames.in_model(named)[:3, :3] @ written
+        old = [int(part) for part in self.version.split(".")[:2] if part.isdigit()] < [1, 5]
+        in_model = old or (axis.findtext("use_parent_model_frame") or "").strip() in ("true", "1")
+        return written if in_model else own[:3, :3] @ written
+
+    def _limits(self, axis: Element | None, where: str) -> Limits:
+        low, high = (
+            limit(None if axis is None else axis.findtext(f"limit/{side}"), f"{where}: limit", none)
+            for side, none in (("lower", -np.inf), ("upper", np.inf))
+        )
+        low, high = (-np.inf if low < -NO_LIMIT else low), (np.inf if high > NO_LIMIT else high)
+        if low > high:
+            self.notes.append(f"{where}: its lower limit {low:g} is above the upper one {high:g}; left out")
+        return ((low, high),) if low <= high and np.isfinite([low, high]).any() else ()
+
+    def _pitch(self, each: Element, where: str) -> float:
+        """Metres a turn. The older <thread_pitch> is radians a metre, positive where the thread is left-handed."""
+        if (said := each.findtext("screw_thread_pitch")) is not None:
+            return float(numbers(said, 1, where)[0])
+        turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
+        return -2 * np.pi / turns if turns else 0.0
+
+    def _shapes(self, link: Element) -> list[Shape]:
+        """What is seen of a link; where that is nothing, what it collides with."""
+        found = []
+        for each in link.findall("visual") or link.findall("collision"):
+            pose = read_pose(each, f"{self.file}: {tag(link)}")
+            where = f"{self.file}: {tag(link)}: {tag(each)}"
+            for solid in each.iterfind("geometry/*"):
+                sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),
+                         "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
+                if solid.tag == "mesh":
+                    scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
+                    found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
+                elif solid.tag in sizes:
+                    size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
+                            for key in sizes[solid.tag]]  # fmt: skip
+                    kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
+                    found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
+                elif solid.tag not in ("plane", "empty"):
+                    self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
+        return found
+
+
+def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:
+    """The rotation of the frame of a universal joint: y along the axis in the parent, x along that in the child."""
+    if abs(one @ other) > SQUARE:
+        raise ValueError(f"{where}: the axes of a universal joint must be perpendicular, got {one} and {other}")
+    x = direction(other - (other @ one) * one, where)
+    return np.stack([x, one, np.cross(x, one)], axis=1)
+
+
+def _both(first: Limits, second: Limits) -> Limits:
+    """The limits of two coordinates, of which each may have none."""
+    none = ((-np.inf, np.inf),)
+    return (*(first or none), *(second or none)) if first or second else ()

@@ -1,0 +1,76 @@
+"""Joints given by a frame on each of their two parts: coordinates that count from where the parts are."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.geometry.pose import Pose, inverse, rotation, unit
+from jaxkin.joints.kinds import JointKind
+
+PERPENDICULAR = 1e-6
+"""Cosine between the two axes of a universal joint up to which they are perpendicular: numbers of six digits."""
+
+Z = np.array([0.0, 0.0, 1.0])
+"""The axis of joint frames."""
+
+
+class TwoFrames(NamedTuple):
+    """The frames of a joint on its two parts, with coordinates zero where the parts are."""
+
+    frame_1: Pose
+    frame_2: Pose
+    values: tuple[float, ...]
+    """What the frames as they were given make the coordinates there: angles in -pi to pi; empty for joints of which
+    only the axes, or the point, are given."""
+
+
+def two_frames(kind: JointKind, first: Pose, second: Pose) -> TwoFrames:
+    """Move the frames of a joint along what it leaves free, until they differ only in what it forbids.
+
+    `first` and `second` (4, 4) are the frames on part 1 and part 2, in world coordinates, where the parts are now; the
+    axis of a joint is z, of a universal joint z on each part. Frames that agree in what the joint forbids coincide
+    afterwards: the joint is closed. Raises ValueError for the axes of a universal joint that are not perpendicular.
+    """
+    if kind is JointKind.SPHERICAL:
+        return TwoFrames(_at(first[:3, 3]), _at(second[:3, 3]), ())
+    if kind is JointKind.UNIVERSAL:
+        return TwoFrames(*_cross(first, second), ())
+    if kind is JointKind.PLANAR:
+        first = first.copy()
+        along = float((second[:3, 3] - first[:3, 3]) @ first[:3, 2])
+        first[:3, 3] = second[:3, 3] - along * first[:3, 2]
+    between = inverse(first) @ second
+    angle = float(np.arctan2(between[1, 0], between[0, 0]))
+    advance = float(between[2, 3])
+    turns = kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL, JointKind.PLANAR, JointKind.SCREW)
+    slides = kind in (JointKind.PRISMATIC, JointKind.CYLINDRICAL, JointKind.SCREW)
+    back = np.eye(4)
+    back[:3, :3] = rotation(Z, -angle) if turns else np.eye(3)
+    back[2, 3] = -advance if slides else 0.0
+    values = {
+        JointKind.REVOLUTE: (angle,),
+        JointKind.PRISMATIC: (advance,),
+        JointKind.CYLINDRICAL: (advance, angle),
+        JointKind.SCREW: (angle,),
+    }
+    return TwoFrames(first, second @ back, values.get(kind, ()))
+
+
+def _at(point: np.ndarray) -> Pose:
+    pose = np.eye(4)
+    pose[:3, 3] = point
+    return pose
+
+
+def _cross(first: Pose, second: Pose) -> tuple[Pose, Pose]:
+    """The frames of a universal joint: y along the axis on part 1, x along that on part 2."""
+    y, x = first[:3, 2], second[:3, 2]
+    if abs(float(x @ y)) > PERPENDICULAR:
+        raise ValueError(f"the axes of a universal joint must be perpendicular, the cosine between them is {x @ y:.3g}")
+    x = unit(x - (x @ y) * y)
+    turn = np.stack([x, y, np.cross(x, y)], axis=1)
+    one, other = first.copy(), second.copy()
+    one[:3, :3] = other[:3, :3] = turn
+    return one, other
