@@ -28,7 +28,10 @@ def lying_on_one(known: Known) -> list[Inference]:
     ties: dict[str, set[str]] = {}
     planes: dict[Pair, list[Vector]] = {}
     jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
-    for parts in (*map(tuple, known.touching), *jointed):
+    # in the order of the file: the first of several bodies that could be added decides what the others touch
+    touching = [sorted(pair, key=known.order.__getitem__) for pair in known.touching]
+    touching.sort(key=lambda pair: [known.order[part] for part in pair])
+    for parts in (*touching, *jointed):
         one, other = (body[part] for part in parts)
         ties.setdefault(one, set()).add(other)
         ties.setdefault(other, set()).add(one)
