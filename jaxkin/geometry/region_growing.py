@@ -33,7 +33,7 @@ Larger than 1, because CAD kernels compute the edges of faces less exactly than 
 _MIN_LOOSE_CORNERS = 14
 """Smallest number of corners of a region some of which are farther than `TIGHT_TOLERANCE` from its surface.
 
-Fewer lie by chance within `LOOSE_TOLERANCE` of some surface: each small patch of a free-form face lies on a cylinder."""
+Fewer lie by chance within `LOOSE_TOLERANCE` of some surface: a small patch of a free-form face lies on a cylinder."""
 
 MAX_FAILURES = 300
 """Number of seeds tried in a row without finding a face, after which a pass over the seeds ends.

@@ -83,7 +83,7 @@ def absorbed(mesh: Facets, found: list[Region]) -> list[Region]:
     owner = np.empty(len(mesh.triangles), int)
     for k, region in enumerate(found):
         owner[region.rows] = k
-    tilts = [_MAX_TILT_RATIO * arcs(mesh, r.surface, r.rows).max() if r.is_round else 0.0 for r in found]
+    tilts = [_MAX_TILT_RATIO * arcs(mesh, r.surface, r.rows).max() if r.surface and r.is_round else 0.0 for r in found]
     within = [rough_tolerance(mesh, r.rows) if r.is_round else 0.0 for r in found]
     changed = True
     while changed:

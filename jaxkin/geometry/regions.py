@@ -23,8 +23,8 @@ _STRAY_ANGLE = 0.8
 _CREASE_ANGLES = (0.45, 0.3, 0.2)
 """Angles, radians, at edges along which triangles that join smoothly are cut, where no surface fits all of them.
 
-Two round faces meet at angles from a right one to a small one, as where a bore goes out through the side of a shaft. The
-smallest is above the angle between the facets of a usual tessellation."""
+Two round faces meet at angles from a right one to a small one, as where a bore goes out through the side of a shaft.
+The smallest is above the angle between the facets of a usual tessellation."""
 
 _SHARP_SHARE = 0.6
 """Smallest share of sharp edges in the rim of a face that is cut out so.
@@ -176,7 +176,7 @@ def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:
             one, beyond = one[edge], owner[other[edge]]
             for k in np.unique(beyond).tolist():
                 rows = np.unique(one[beyond == k])
-                owner[rows[on(mesh, found[k].surface, rows, within[k], _STRAY_ANGLE)]] = k
+                owner[rows[on(mesh, found[k].surface, rows, float(within[k]), _STRAY_ANGLE)]] = k
     result = []
     for k, region in enumerate(found):
         rows = np.flatnonzero(owner == k) if region.is_round else region.rows[owner[region.rows] < 0]

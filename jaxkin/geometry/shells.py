@@ -28,7 +28,7 @@ _MAX_WINDING_ERROR = 0.25
 
 
 _MAX_CRACK_RATIO = 0.02
-"""Largest width of a crack over its extent. The chords of a circle of 16 leave the circle by 1 percent of its diameter."""
+"""Largest width of a crack over its extent. Sixteen chords leave their circle by 1 percent of its diameter."""
 
 _MAX_RIMS = 200
 """Largest number of rims that are compared with each other: bounds the time; more are all holes."""

@@ -24,6 +24,17 @@ _EXACT = 1e-4
 """The uncertainty over the size of the solid that files may say of their geometry: of more they would have to warn. An
 exporter that writes 1e-6 m has faces that are off by 3e-5 of a screw."""
 
+_SPLINE_ACCURACY = 1e-5
+"""Distance over the extent of a face up to which a spline is taken for one of the four surfaces.
+
+Exact conversions are right to 1e-7; free forms whose few corners lie on some cylinder were met from 4e-5 on."""
+
+_SPLINE_ANGLE = 1e-3
+"""Angle, radians, between a spline and the surface that it is taken for, at nine of ten corners.
+
+Normals are float32, which takes exact conversions to 3e-4; free forms whose corners lie on a cylinder by chance were
+met with 2.6e-3."""
+
 Rows = Int[np.ndarray, "rows"]
 
 
@@ -59,7 +70,11 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
             damages.append(f"{label}: it came without triangles, so where it ends is not known: left out")
             continue
         corners, normals = triangles[rows].reshape(-1, 3), mesh.normals[rows].reshape(-1, 3)
-        surface = _analytic(described, corners, metres) or fit_surface(corners, normals, 5 * tolerance, angle=1e-2)
+        surface = _analytic(described, corners, metres)
+        if surface is None:
+            extent = float(np.linalg.norm(np.ptp(corners, axis=0)))
+            within = max(tolerance, _SPLINE_ACCURACY * extent)
+            surface = fit_surface(corners, normals, within, _SPLINE_ANGLE, thorough=True)
         if surface is None:
             kind = described["type"] if described else "freeform surface"
             notes.append(f"{label}: {kind}, not one of the four surfaces")

@@ -24,7 +24,7 @@ def band(low, high):
 
 
 def ring(outer, flat, turn=0.0):
-    """A ring of radii 30 and 40, height 12: `outer` chords in its outer cylinder, `flat` in the rims of its flat faces."""
+    """A ring of radii 30 and 40, height 12: `outer` chords outside, `flat` ones in the rims of its flat faces."""
     walls = [
         band(circle(40, outer, 0, turn), circle(40, outer, 12, turn)),
         band(circle(30, flat, 12), circle(30, flat, 0)),
