@@ -6,6 +6,7 @@ four-bar as meshes.
 
 import shlex
 import shutil
+import tarfile
 import textwrap
 from importlib import resources
 from pathlib import Path
@@ -18,7 +19,8 @@ import jaxkin as jk
 from documents import PAGES, blocks, name
 
 LONG = {
-    f"docs/{page}.md" for page in ("index", "how-to/by-hand", "how-to/design", "how-to/derivatives", "how-to/sweep")
+    f"docs/{page}.md"
+    for page in ("index", "how-to/by-hand", "how-to/robots", "how-to/design", "how-to/derivatives", "how-to/sweep")
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
 CONSOLE = ("sh", "console", "bash")
@@ -33,6 +35,11 @@ def files(tmp_path_factory) -> Path:
         if file.name.endswith(".step"):
             shutil.copy(str(file), folder)
     shutil.copy(folder / "fourbar.step", folder / "machine.step")
+    with tarfile.open(Path(__file__).parents[1] / "io" / "data" / "robots" / "robots.tar.xz") as packed:
+        for suffix in (".urdf", ".yaml"):
+            content = packed.extractfile(f"gepetto__5bar_linkage{suffix}")
+            assert content is not None
+            (folder / f"robot{suffix}").write_bytes(content.read())
     for part in jk.load(folder / "fourbar.step").parts:
         mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(part.triangles))
         mesh.export(folder / f"{part.name}.stl")

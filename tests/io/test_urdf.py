@@ -74,6 +74,29 @@ def test_all_motors_sweep_as_the_file_says(folder, name):
             np.testing.assert_allclose(np.asarray(motion.transforms[link])[pose] @ begun[link], links[link], atol=1e-11)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("name", ROBOTS)
+def test_links_are_where_pinocchio_has_them(folder, name):
+    pinocchio = pytest.importorskip("pinocchio")
+    path, assembly = robot(folder, name)
+    model = pinocchio.buildModelFromUrdf(str(path))
+    data, q = model.createData(), pinocchio.neutral(model)
+    for joint, values in assembly.exported.joint_values.items():
+        if model.existJointName(joint) and values:
+            own = model.joints[model.getJointId(joint)]
+            # Pinocchio has a hinge without limits as cosine and sine
+            q[own.idx_q : own.idx_q + own.nq] = values if own.nq == 1 else (np.cos(values[0]), np.sin(values[0]))
+    pinocchio.framesForwardKinematics(model, data, q)
+    mechanism = assembly.mechanism()
+    for joint in mechanism.all_joints:
+        if joint.freedoms and model.existJointName(joint.name):
+            place = data.oMi[model.getJointId(joint.name)]
+            np.testing.assert_allclose(joint.frames_1[0][:3, 3], place.translation, atol=CLOSED)
+    for one, other in parse_yaml(path.with_suffix(".yaml").read_text(), "robot.yaml")["closed_loop"]:
+        first, second = (data.oMf[model.getFrameId(frame)].homogeneous for frame in (one, other))
+        np.testing.assert_allclose(first, second, atol=CLOSED)
+
+
 ARM = """<robot name="arm">
 <link name="base"/><link name="upper"><visual><origin xyz="0 0 0.2"/><geometry><box size="0.1 0.1 0.4"/></geometry>
 </visual></link><link name="lower"/><link name="hand"/>

@@ -26,7 +26,7 @@ def urdf_poses(path, values):
     while left:
         ready = [joint for joint in left if joint.find("parent").get("link") in links]
         for joint in ready:
-            origin = joint.find("origin")
+            origin = {} if joint.find("origin") is None else joint.find("origin").attrib
             turn = Rotation.from_euler("xyz", floats(origin.get("rpy", "0 0 0"))).as_matrix()
             frame = links[joint.find("parent").get("link")] @ pose(turn, floats(origin.get("xyz", "0 0 0")))
             step = np.eye(4)

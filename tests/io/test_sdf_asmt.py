@@ -1,0 +1,175 @@
+"""Models of Gazebo (SDF) and of FreeCAD's solver (ASMT): graphs of joints, frames and markers."""
+
+import re
+
+import numpy as np
+import pytest
+
+import jaxkin as jk
+
+FOURBAR = """<sdf version="{version}"><model name="fourbar"><pose>0 0 1 0 0 0</pose>
+<link name="AB"/><link name="BC"><pose>0 0 0.4 0 0.3 0</pose></link>
+<link name="CD"><pose relative_to="D">0 0 0 0 0 0</pose></link><frame name="D"><pose>0.5 0 0 0 0 0</pose></frame>
+<joint name="A" type="revolute"><parent>world</parent><child>AB</child><axis><xyz>0 1 0</xyz>
+<limit><lower>-1</lower><upper>1e16</upper></limit></axis></joint>
+<joint name="B" type="revolute"><parent>AB</parent><child>BC</child><axis><xyz>0 1 0</xyz></axis></joint>
+<joint name="C" type="ball"><pose relative_to="D">0 0 0.5 0 0 0</pose><parent>BC</parent><child>CD</child></joint>
+<joint name="E" type="continuous"><parent>world</parent><child>CD</child>
+<axis><xyz expressed_in="__model__">0 1 0</xyz></axis></joint>
+<plugin name="JointPositionController" filename="x"><joint_name>A</joint_name></plugin>{more}</model></sdf>"""
+
+
+def sdf(folder, more="", version="1.7"):
+    (folder / "robot.sdf").write_text(FOURBAR.replace("{more}", more).replace("{version}", version))
+    return jk.load(folder / "robot.sdf")
+
+
+def test_a_loop_of_sdf_is_closed_by_its_joints(tmp_path):
+    mechanism = sdf(tmp_path).mechanism()
+    assert mechanism.mobility().useful == 1 and mechanism.motors == ("A",)
+    np.testing.assert_allclose(mechanism.joints["C"].frames_1[0][:3, 3], [0.5, 0, 1.5], atol=1e-15)
+    np.testing.assert_allclose(mechanism.joints["E"].frames_1[0][:3, 3], [0.5, 0, 1], atol=1e-15)
+    assert mechanism.joints["A"].limits == ((-1.0, np.inf),)
+
+
+@pytest.mark.parametrize(("version", "axis"), [("1.4", [1, 0, 0]), ("1.6", [0, 1, 0]), ("1.9", [0, 1, 0])])
+def test_axes_are_in_the_model_in_old_files_and_in_the_joint_in_new_ones(tmp_path, version, axis):
+    more = """<link name="x"><pose>0 0 0 0 0 1.5707963267948966</pose></link>
+    <joint name="j" type="prismatic"><parent>AB</parent><child>x</child><axis><xyz>1 0 0</xyz></axis></joint>"""
+    frame = sdf(tmp_path, more, version).mechanism().joints["j"].frames_1[0]
+    np.testing.assert_allclose(frame[:3, 2], axis, atol=1e-15)
+
+
+def test_what_floats_is_held_and_what_is_not_kept_is_named(tmp_path):
+    more = """<link name="loose"/><odd/><joint name="g" type="gearbox"><parent>AB</parent><child>CD</child></joint>"""
+    mechanism = sdf(tmp_path, more).mechanism()
+    notes = "\n".join(mechanism.notes)
+    assert "loose" in mechanism.fixed and "nothing ties 'loose'" in notes
+    assert "'gearbox' is not kept" in notes and "<odd> is not understood" in notes
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        ('<joint name="j" type="bend"><parent>AB</parent><child>CD</child></joint>', "got 'bend'"),
+        ('<joint name="j" type="fixed"><parent>AB</parent><child>XY</child></joint>', "no link or frame 'XY'"),
+        ('<joint name="j" type="fixed"><parent>AB</parent><child>AB</child></joint>', "the same link"),
+        ('<frame name="p"><pose relative_to="p"/></frame><link name="l"><pose relative_to="p"/></link>', "to itself"),
+        ('<link name="AB"/>', "two elements of the name 'AB'"),
+    ],
+)
+def test_sdf_that_is_wrong_is_refused(tmp_path, more, message):
+    with pytest.raises(ValueError, match=message):
+        sdf(tmp_path, more)
+
+
+def test_an_include_that_is_missing_is_refused_and_others_are_read(tmp_path):
+    text = '<sdf version="1.7"><world name="w"><include><uri>model://arm</uri><name>left</name></include></world></sdf>'
+    (tmp_path / "w.sdf").write_text(text)
+    with pytest.raises(FileNotFoundError, match="includes 'model://arm', which is not there"):
+        jk.load(tmp_path / "w.sdf")
+    (tmp_path / "arm").mkdir()
+    (tmp_path / "arm" / "model.sdf").write_text(FOURBAR.replace("{more}", "").replace("{version}", "1.7"))
+    assert jk.load(tmp_path / "w.sdf").mechanism().mobility().useful == 1
+
+
+def block(depth, *lines):
+    return "".join("\t" * (depth + extra) + f"{text}\n" for extra, text in lines)
+
+
+ALONG = ("1\t0\t0", "0\t1\t0", "0\t0\t1")
+"""The rows of a rotation that turns nothing."""
+
+
+def placed(depth, point, turn=ALONG):
+    return block(depth, (0, "Position3D"), (1, "\t".join(map(str, point)))) + block(
+        depth, (0, "RotationMatrix"), *((1, row) for row in turn)
+    )
+
+
+def named(depth, kind, name):
+    return block(depth, (0, kind), (1, "Name"), (2, name))
+
+
+def markers(depth, **points):
+    own = "".join(named(depth + 3, "Marker", name) + placed(depth + 4, point) for name, point in points.items())
+    return (
+        block(depth, (0, "RefPoints"), (1, "RefPoint"))
+        + placed(depth + 2, (0, 0, 0))
+        + block(depth, (2, "Markers"))
+        + own
+    )
+
+
+UP = ("0\t-1\t0", "1\t0\t0", "0\t0\t1")
+"""A quarter turn about z."""
+
+
+PARTS = (("crank", (0, 0, 0), UP, 1), ("rod", (0, 1, 0), ALONG, 4), ("rocker", (4, 0, 0), UP, 2))
+
+
+def asmt(folder, joints, more=""):
+    text = "OndselSolver\nAssembly\n" + block(1, (0, "Name"), (1, "A")) + placed(1, (0, 0, 0))
+    text += markers(1, G1=(0, 0, 0), G2=(4, 0, 0)) + "\tParts\n"
+    for name, point, turn, length in (
+        ("crank", (0, 0, 0), UP, 1),
+        ("rod", (0, 1, 0), UP[1:] and None, 4),
+        ("rocker", (4, 0, 0), UP, 2),
+    ):
+        text += named(2, "Part", name) + (placed(3, point, turn) if turn else placed(3, point))
+        text += markers(3, E1=(0, 0, 0), E2=(length, 0, 0))
+    text += "\tConstraintSets\n\t\tJoints\n"
+    for kind, name, one, other in joints:
+        text += named(3, kind, name) + block(4, (0, "MarkerI"), (1, f"/A/{one}"), (0, "MarkerJ"), (1, f"/A/{other}"))
+    (folder / "robot.asmt").write_text(f"{text}{more}\tForceTorques\nTimeSeries\nNumber\tInput\n")
+    return jk.load(folder / "robot.asmt")
+
+
+JOINTS = (("RevoluteJoint", "J1", "G1", "crank/E1"), ("RevoluteJoint", "J2", "crank/E2", "rod/E1"),
+          ("RevoluteJoint", "J3", "rod/E2", "rocker/E2"), ("RevoluteJoint", "J4", "G2", "rocker/E1"))  # fmt: skip
+
+MORE = (
+    "\t\tMotions\n" + named(3, "RotationalMotion", "M") + block(4, (0, "MotionJoint"), (1, "/A/J1"))
+    + "\t\tLimits\n" + named(3, "RotationLimit", "L")
+    + block(4, (0, "MotionJoint"), (1, "/A/J1"), (0, "Limit"), (1, "30.0*pi/180.0"), (0, "Type"), (1, "=>"))
+)  # fmt: skip
+
+
+def test_markers_of_asmt_are_closed_without_turning_the_motor(tmp_path):
+    assembly = asmt(tmp_path, JOINTS, MORE)
+    mechanism = assembly.mechanism()
+    assert mechanism.motors == ("J1",) and mechanism.mobility().useful == 1
+    # the crank stays upright: the end of the rod is 4 from (0, 1), and 2 from (4, 0)
+    x, y, _ = mechanism.joints["J3"].frames_1[0][:3, 3]
+    np.testing.assert_allclose([np.hypot(x, y - 1), np.hypot(x - 4, y)], [4, 2], atol=1e-12)
+    np.testing.assert_allclose(assembly.exported.joint_values["J1"], [np.pi / 2], atol=1e-12)
+    (limits,) = mechanism.joints["J1"].limits
+    np.testing.assert_allclose(limits, [np.pi / 6 - np.pi / 2, np.inf], atol=1e-12)
+
+
+def test_a_pin_that_screws_and_a_point_in_a_line(tmp_path):
+    screw = named(3, "ScrewJoint", "S") + block(
+        4, (0, "MarkerI"), (1, "/A/G2"), (0, "MarkerJ"), (1, "/A/rocker/E1"), (0, "pitch"), (1, "0.5")
+    )
+    joints = (
+        *JOINTS[:2],
+        ("PointInLineJoint", "J3", "rod/E2", "rocker/E2"),
+        ("CylindricalJoint", "J4", "G2", "rocker/E1"),
+    )
+    mechanism = asmt(tmp_path, joints, screw).mechanism()
+    assert str(mechanism.joints["J4"].kind) == "screw" and float(mechanism.joints["J4"].pitch) == 0.5
+    assert mechanism.mobility().useful == 1
+
+
+def test_gears_are_named_and_unknown_joints_and_markers_refused(tmp_path):
+    gear = ("GearJoint", "gear", "crank/E1", "rocker/E1")
+    assert any("GearJoint 'gear' is not kept" in note for note in asmt(tmp_path, (*JOINTS, gear)).mechanism().notes)
+    for joint, message in (
+        (("BentJoint", "b", "G1", "rod/E1"), "BentJoint 'b': expected one of"),
+        (("RevoluteJoint", "b", "G1", "rod/E9"), "unknown marker '/A/rod/E9'"),
+    ):
+        with pytest.raises(ValueError, match=re.escape(message)):
+            asmt(tmp_path, (*JOINTS, joint))
+    (tmp_path / "bad.asmt").write_text("something else\n")
+    with pytest.raises(ValueError, match="in line 1"):
+        jk.load(tmp_path / "bad.asmt")
