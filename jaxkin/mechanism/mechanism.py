@@ -57,7 +57,7 @@ class Mechanism:
     bonds: tuple[Bond, ...] = field(default=())
     """Which parts were taken as one, those of the fixed body too, each with what that is known from."""
     motors: tuple[str, ...] = field(default=())
-    """What the file of a robot says is actuated, in its order, as `sweep` takes it: joints by name, or "joint.phi"."""
+    """What a robot file says is actuated, as `sweep` takes it: joints, or "joint.phi"."""
 
     @staticmethod
     def build(
@@ -71,11 +71,10 @@ class Mechanism:
 
         Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is wrong.
         """
-        noise = asked_noise(align)
         check_joints(joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
-        described = [(joint.name, *joint.parts) for joint in joints]
-        linkage, notes = aligned(Linkage.of(joints, structure(parts, described, fixed)), noise, unit)
+        found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
+        linkage, notes = aligned(Linkage.of(joints, found), asked_noise(align), unit)
         return Mechanism(linkage, unit, alignment=notes)
 
     @property
@@ -234,15 +233,13 @@ class Mechanism:
         """
         from jaxkin.dimensions.frames import with_frames
 
-        noise = asked_noise(align)
-        return self.with_linkage(with_frames(self.linkage, frames))._aligned(noise)
+        return self.with_linkage(with_frames(self.linkage, frames))._aligned(asked_noise(align))
 
     def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with origins of joint frames moved to given points; keys and `align` as in `with_frames`."""
         from jaxkin.dimensions.frames import with_points
 
-        noise = asked_noise(align)
-        return self.with_linkage(with_points(self.linkage, points))._aligned(noise)
+        return self.with_linkage(with_points(self.linkage, points))._aligned(asked_noise(align))
 
     def with_linkage(self, linkage: Linkage) -> Mechanism:
         """The mechanism of a linkage with the same joints in other places; solids are left behind."""
