@@ -26,6 +26,13 @@ from jaxkin.io.load import load as load
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.io.study_writer import write_study as write_study
+from jaxkin.joints.coupling import Coupling as Coupling
+from jaxkin.joints.coupling import belt as belt
+from jaxkin.joints.coupling import differential as differential
+from jaxkin.joints.coupling import gear as gear
+from jaxkin.joints.coupling import polynomial as polynomial
+from jaxkin.joints.coupling import rack as rack
+from jaxkin.joints.coupling import relation as relation
 from jaxkin.joints.evidence import Bond as Bond
 from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind

@@ -40,6 +40,8 @@ class Assembly:
     """The file that it was read from."""
     exported: Exported | None = None
     """What its CAD system says of joints and bodies, where the file holds that."""
+    saved: Mechanism | None = None
+    """The mechanism that the file holds, where `Mechanism.save` wrote it."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -81,7 +83,8 @@ class Assembly:
     ) -> Mechanism:
         """The mechanism that the contacts make, with the parts named in `fixed` at rest.
 
-        Where the file is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
+        A file that `Mechanism.save` wrote holds the whole mechanism, which nothing need be said about. Where the file
+        is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
         `fixed` may be left out; contacts do where `contacts` are given, or with `infer=False`.
 
         Beside exact contacts it takes what solids imply: pins with clearance or interference, bores without a pin,
@@ -108,6 +111,10 @@ class Assembly:
         Contacts within a body are left out. Raises ValueError for names that do not exist, entries that are no such
         groups or pairs, no fixed part, and where a part touches nothing or hangs on nothing.
         """
+        if self.saved is not None:
+            if fixed or rigid or ignore or joints or exclude or contacts or not (combine and infer):
+                raise ValueError(f"{self.source} holds a whole mechanism: write .mechanism() without other words")
+            return self.saved
         if exclude:
             left = _in_full(exclude, self.parts, "exclude")
             if contacts is None and not (infer and self.exported):

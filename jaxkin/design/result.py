@@ -13,12 +13,9 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin.design.objectives import Objective
 from jaxkin.geometry.movements import is_length
-from jaxkin.joints.joint import Joint
-from jaxkin.joints.kinds import JointKind
-from jaxkin.linkage.linkage import Linkage
+from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.status import Status
-from jaxkin.topology.structure import Structure
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -27,9 +24,9 @@ POSES, PIECE = 361, 32
 """Of the range, and at least of what is swept at once."""
 STEEP = 100.0
 """Radians, or lengths over the size of the mechanism, per radian of the drive: beyond it a pose is near-singular."""
-SAVED_FORMAT = 1
-"""Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `Structure`,
-`Joint`, `Moves` and `Optimum`. Files of another version are refused."""
+SAVED_FORMAT = 2
+"""Version of the files that `Optimum.save` writes, raised with every change of their fields: those of `Moves` and
+`Optimum`, and of `jaxkin.linkage.record`. Files of another version are refused."""
 
 
 @dataclass(frozen=True)
@@ -135,8 +132,6 @@ class Optimum:
         target = Path(path)
         if target.suffix != ".npz":
             raise ValueError(f"the result is saved as a .npz file, got {str(target)!r}")
-        joints = self.mechanism.all_joints
-        structure = self.mechanism.structure
         text = {
             "format": SAVED_FORMAT,
             "value": self.value,
@@ -146,15 +141,10 @@ class Optimum:
             "values": self.values,
             "moves": {"poses": self.moves.poses, "counts": self.moves.counts, "steepest": self.moves.steepest},
             "unit": self.mechanism.unit,
-            "joints": [[j.name, list(j.parts), j.kind, list(j.movements)] for j in joints],
-            "structure": {name: getattr(structure, name) for name in structure.__dataclass_fields__},
+            "linkage": as_record(self.mechanism.linkage),
         }
         arrays: dict[str, Any] = {"text": np.array(json.dumps(text))}
         arrays |= {"history": self.history, "losses": self.losses, "violations": self.violations}
-        for number, joint in enumerate(joints):
-            arrays |= {
-                f"{number} {leaf}": np.asarray(getattr(joint, leaf)) for leaf in ("frames_1", "frames_2", "pitch")
-            }
         arrays |= {f"drive {name}": value for name, value in self.drive.items()}
         arrays |= {f"extra {name}": value for name, value in self.extras.items()}
         with whole(target) as draft, open(draft, "wb") as file:
@@ -170,17 +160,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         text = json.loads(str(arrays.pop("text")))
         if text["format"] != SAVED_FORMAT:
             raise ValueError(f"format {text['format']}, and this version reads {SAVED_FORMAT}")
-        joints = tuple(
-            Joint(
-                name,
-                tuple(parts),
-                JointKind(kind),
-                tuple(movements),
-                *(arrays[f"{i} {leaf}"] for leaf in ("frames_1", "frames_2", "pitch")),
-            )
-            for i, (name, parts, kind, movements) in enumerate(text["joints"])
-        )
-        structure = Structure(**{name: _tuples(value) for name, value in text["structure"].items()})
+        linkage = from_record(text["linkage"])
     except (KeyError, TypeError, ValueError, OSError) as error:
         if isinstance(error, FileNotFoundError):
             raise
@@ -190,17 +170,13 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
         for kind in ("drive", "extra")
     }
     return Optimum(
-        mechanism=Mechanism(Linkage.of(joints, structure), text["unit"]),
+        mechanism=Mechanism(linkage, text["unit"]),
         **{name: text[name] for name in ("value", "violation", "reason", "seconds", "values")},
         **{name: arrays[name] for name in ("history", "losses", "violations")},
         extras=named["extra"],
         drive=named["drive"],
         moves=Moves(**text["moves"]),
     )
-
-
-def _tuples(value: Any) -> Any:
-    return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
 
 
 def judged_range(motion: Motion) -> Moves:

@@ -48,7 +48,8 @@ class Extended:
         self.mp.dps = DIGITS
         self.loop_group, self.free = loop_group, list(free)
         self.joints = {index: mechanism.all_joints[index] for index in loop_group.joints}
-        self.loops = ClosedLoops(mechanism.linkage.solved_joints, mechanism.structure, loop_group)
+        linkage = mechanism.linkage
+        self.loops = ClosedLoops(linkage.solved_joints, mechanism.structure, loop_group, linkage.couplings)
 
     def closed(self, q: Row) -> tuple[Row, bool]:
         """Find the exact pose near `q` with the same driven coordinates; returns it rounded, and whether it converged.
@@ -81,12 +82,16 @@ class Extended:
         return np.linalg.pinv(self._jacobian(q), rcond=RANK) @ misfit
 
     def _jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
-        jacobian = np.zeros((6 * len(self.loop_group.loops), len(q)))
-        jacobian[:, self.free] = self.loops.jacobian(q / self.loops.units)[:, self.free]
+        every = self.loops.jacobian(q / self.loops.units)
+        jacobian = np.zeros_like(every)
+        jacobian[:, self.free] = every[:, self.free]
         return jacobian / self.loops.units
 
     def _misfit(self, q: list) -> list:
-        """Rotation and translation, the latter over the characteristic length, by which the loops do not close."""
+        """Rotation and translation, the latter over the characteristic length, by which the loops do not close.
+
+        What the couplings are off by comes last.
+        """
         steps = {index: self._displacement(joint, q[self.loops.slices[index]]) for index, joint in self.joints.items()}
         found, places = [], {}
         centre = self.mp.matrix([float(value) for value in self.loops.centre])
@@ -100,6 +105,14 @@ class Extended:
             found += [(left[2, 1] - left[1, 2]) / 2, (left[0, 2] - left[2, 0]) / 2, (left[1, 0] - left[0, 1]) / 2]
             moved = left[:3, :3] * centre + left[:3, 3] - centre
             found += [value / self.mp.mpf(self.loops.length) for value in moved]
+        for columns, coefficients, offset in self.loops.couplings:
+            scaled = [q[column] / self.mp.mpf(float(self.loops.units[column])) for column in columns]
+            terms = (
+                self.mp.mpf(float(factor)) * value**power
+                for value, factors in zip(scaled, coefficients, strict=True)
+                for power, factor in enumerate(factors, start=1)
+            )
+            found.append(sum(terms, -self.mp.mpf(offset)))
         return found
 
     def _displacement(self, joint: Joint, q: list) -> Any:

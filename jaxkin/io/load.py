@@ -11,6 +11,7 @@ import numpy as np
 from jaxkin.assembly.assembly import Assembly
 from jaxkin.geometry.part import Part, size
 from jaxkin.io.exports import read_exported
+from jaxkin.io.mechanism_file import MECHANISM_SUFFIX, read_mechanism
 from jaxkin.io.mesh import MESHES, read_mesh
 from jaxkin.io.robot_files import ROBOT_ROOTS, ROBOT_SUFFIXES, read_robot
 from jaxkin.io.step import read_step
@@ -44,6 +45,8 @@ def load(
     example-parallel-robots. Where the file's own pose is open, the loops are closed, and a note says how far parts were
     moved.
 
+    A mechanism that `Mechanism.save` wrote (.json) comes back whole: `jk.load(path).mechanism()`.
+
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
     have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
     read, by default 20 s and 5 s a megabyte. `progress(done, total)` is called after each part of a STEP file, and
@@ -58,6 +61,9 @@ def load(
     if isinstance(source, str | Path):
         path, name = Path(source), Path(source).name
         suffix = path.suffix.lower()
+        if suffix == MECHANISM_SUFFIX:
+            saved = read_mechanism(path)
+            return Assembly((), _agreed({name: saved.unit}, unit), name, saved=saved)
         root = read_xml(path) if suffix == XML else None
         if suffix in ROBOT_SUFFIXES or (root is not None and root.tag in ROBOT_ROOTS):
             parts, said, exported = read_robot(path, root, None if loops is None else Path(loops), seconds)

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import jax
 
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.loop_class import LoopClass, loop_classes
 from jaxkin.topology.structure import Structure
@@ -25,9 +26,9 @@ class SpinningPart(NamedTuple):
 class Linkage:
     """Bodies held together by joints, in their assembled pose.
 
-    A linkage is a pytree: its leaves are the frames and pitches of the joints, all of them float arrays. All else is
-    static, and is kept when JAX flattens a linkage and rebuilds it with other numbers. So a new geometry of the same
-    structure compiles nothing anew, and a gradient is a tree of the same structure.
+    A linkage is a pytree: its leaves are the frames and pitches of the joints and the numbers of the couplings, all of
+    them float arrays. All else is static, and is kept when JAX flattens a linkage and rebuilds it with other numbers.
+    So a new geometry of the same structure compiles nothing anew, and a gradient is a tree of the same structure.
     """
 
     joints: tuple[Joint, ...]
@@ -42,16 +43,18 @@ class Linkage:
     brought to the least residual of those in `joints`. See `jaxkin.mobility.alignment`."""
     spinning: tuple[SpinningPart, ...] = ()
     """Parts that only spin, found from the shapes of their solids."""
+    couplings: tuple[Coupling, ...] = ()
+    """Relations between coordinates of the joints, in the order of `Structure.coupled`."""
 
     @staticmethod
-    def of(joints: Sequence[Joint], structure: Structure) -> Linkage:
+    def of(joints: Sequence[Joint], structure: Structure, couplings: Sequence[Coupling] = ()) -> Linkage:
         """Make a linkage of joints, with its loop classes found from the numbers of these.
 
         The classes are general (six equations a loop) where JAX traces the joints, and where their arrays hold many
         mechanisms.
         """
         classes = loop_classes(joints, structure) or (LoopClass(),) * len(structure.loop_groups)
-        return Linkage(tuple(joints), structure, classes)
+        return Linkage(tuple(joints), structure, classes, couplings=tuple(couplings))
 
     def with_joints(self, joints: Sequence[Joint], ideal: Sequence[Joint] = ()) -> Linkage:
         """Replace the joints in the same structure, and find loop classes anew; traced joints keep the classes."""
@@ -75,5 +78,5 @@ class Linkage:
 
 
 jax.tree_util.register_dataclass(
-    Linkage, data_fields=["joints", "ideal"], meta_fields=["structure", "classes", "spinning"]
+    Linkage, data_fields=["joints", "ideal", "couplings"], meta_fields=["structure", "classes", "spinning"]
 )

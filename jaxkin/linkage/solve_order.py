@@ -44,6 +44,8 @@ class Group:
     """Numbers of the groups that must be solved directly before: without those that another of these groups needs."""
     merged: int = 1
     """Number of groups that were merged into this one, because they share freedoms: see `keep_freedoms_together`."""
+    couplings: tuple[int, ...] = ()
+    """Numbers of the couplings that are solved with the loops."""
 
     @property
     def free(self) -> int:

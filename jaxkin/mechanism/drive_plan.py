@@ -5,7 +5,7 @@ A sweep of some hundred poses takes a few milliseconds: to find this anew each t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, NamedTuple
 
 import jax
@@ -14,8 +14,8 @@ from jax import dtypes, lax
 
 from jaxkin._memory import once_for_each
 from jaxkin._traced import traced
-from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.coupled_order import OrderOfLoops, order_with_couplings
 from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass
@@ -24,7 +24,7 @@ from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
-from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system, solved_coordinates
+from jaxkin.solve.system.from_linkage import Columns, coupled_places, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.structure import LoopGroup
@@ -114,7 +114,7 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
         inside = sorted(
             (loop_group.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in loop_group.joints
         )
-        if not inside and not _edited([linkage.solved_joints[joint] for joint in loop_group.joints]):
+        if not inside and not _edited(linkage, loop_group):
             continue
         inputs = tuple(i for _, _, i in inside)
         elements.append(
@@ -131,22 +131,23 @@ def _element(
     """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
     loop_group, loop_class = linkage.structure.loop_groups[number], linkage.classes[number]
     # of a single loop there is one order only, and the freedoms take a millisecond to find
-    freedoms = loop_freedoms(on_host)[number] if on_host is not None and len(loop_group.loops) > 1 else None
+    several = len(loop_group.loops) + len(loop_group.couplings) > 1
+    freedoms = loop_freedoms(on_host)[number] if on_host is not None and several else None
     by_counting = freedoms is None or not freedoms.closes
     if freedoms is None or by_counting:
         groups = _counted_groups(linkage, loop_group, driven, loop_class)
     else:
         groups = ranked_groups(linkage, loop_group, driven, loop_class, freedoms)
-    loops = [group.loops for group in groups]
-    system, columns = group_system(on_host or linkage, loop_group, driven, loop_class, loops)
+    together = [(group.loops, group.couplings) for group in groups]
+    system, columns = group_system(on_host or linkage, loop_group, driven, loop_class, together)
     given = None
     if linkage.ideal:
         every = group_system(linkage, loop_group, driven, LoopClass())
-        given = GivenLoops(*every, group_joints(linkage.joints, loop_group))
-    joints = group_joints(linkage.solved_joints, loop_group)
+        given = GivenLoops(*every, group_joints(linkage, linkage.joints, loop_group))
+    joints = group_joints(linkage, linkage.solved_joints, loop_group)
     axes = None
     if on_host is not None and why_not_all(system) is None:
-        axes = assembled_axes(system, group_joints(on_host.solved_joints, loop_group))
+        axes = assembled_axes(system, group_joints(on_host, on_host.solved_joints, loop_group))
     return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, given)
 
 
@@ -156,9 +157,15 @@ def ranked_groups(
     """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
     columns = solved_coordinates(linkage, loop_group, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
-    given = [columns.index(place) for place in driven]
-    groups = solve_order(freedoms.ends, loop_group.loops, columns, screws, given, freedoms.thresholds)
-    return keep_freedoms_together(groups, columns, screws, freedoms.thresholds)
+    looped = {joint for loop in loop_group.loops for joint, _ in loop}
+    ends = {joint: pair for joint, pair in freedoms.ends.items() if joint in looped}
+
+    def order(known: Collection[int]) -> tuple[Group, ...]:
+        given = [column for column in known if columns[column][0] in looped]
+        groups = solve_order(ends, loop_group.loops, columns, screws, given, freedoms.thresholds)
+        return keep_freedoms_together(groups, columns, screws, freedoms.thresholds)
+
+    return _with_couplings(linkage, loop_group, driven, columns, order)
 
 
 def _counted_groups(
@@ -166,15 +173,39 @@ def _counted_groups(
 ) -> tuple[Group, ...]:
     """The groups of loops of a structure element where nothing but the class of the loops is known."""
     solved = solved_coordinates(linkage, loop_group, driven, loop_class)
-    unknown = {joint: list[int]() for joint in loop_group.joints}
-    for column, (joint, k) in enumerate(solved.columns):
-        if (joint, k) not in driven:
-            unknown[joint].append(column)
     about_point = loop_class.spherical
     equations = [IN_SUBGROUP if solved.planar or k in about_point else None for k in range(len(loop_group.loops))]
-    return order_by_counting(loop_group.loops, unknown, equations)
+
+    def order(known: Collection[int]) -> tuple[Group, ...]:
+        unknown = {joint: list[int]() for joint in loop_group.joints}
+        for column, (joint, _) in enumerate(solved.columns):
+            if column not in known:
+                unknown[joint].append(column)
+        return order_by_counting(loop_group.loops, unknown, equations)
+
+    return _with_couplings(linkage, loop_group, driven, solved.columns, order)
 
 
-def _edited(joints: list[Joint]) -> bool:
+def _with_couplings(
+    linkage: Linkage, loop_group: LoopGroup, driven: Columns, columns: Columns, order: OrderOfLoops
+) -> tuple[Group, ...]:
+    """The groups of loops in the order that `order` finds, with the couplings before, among and after them."""
+    given = [columns.index(place) for place in driven]
+    if not loop_group.couplings:
+        return order(given)
+    tied = {
+        number: tuple(columns.index(place) for place in coupled_places(linkage, number))
+        for number in loop_group.couplings
+    }
+    return order_with_couplings(loop_group.loops, tied, columns, given, order)
+
+
+def _edited(linkage: Linkage, loop_group: LoopGroup) -> bool:
     """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
-    return traced(joints) or any(not np.array_equal(joint.frames_1, joint.frames_2) for joint in joints)
+    joints = [linkage.solved_joints[joint] for joint in loop_group.joints]
+    couplings = [linkage.couplings[number] for number in loop_group.couplings]
+    return (
+        traced((joints, couplings))
+        or any(not np.array_equal(joint.frames_1, joint.frames_2) for joint in joints)
+        or any(float(coupling.offset) for coupling in couplings)
+    )

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -13,6 +15,7 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
+from jaxkin.joints.coupling import Coupling, check_couplings
 from jaxkin.joints.evidence import Bond
 from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.joints.kinds import JointKind
@@ -61,20 +64,30 @@ class Mechanism:
 
     @staticmethod
     def build(
-        *, fixed: Sequence[str], joints: Sequence[Joint], unit: str = "", align: float | int | None = None
+        *,
+        fixed: Sequence[str],
+        joints: Sequence[Joint],
+        couplings: Sequence[Coupling] = (),
+        unit: str = "",
+        align: float | int | None = None,
     ) -> Mechanism:
         """Make a mechanism of joints written by hand, in world coordinates of its assembled pose.
+
+        `couplings` tie coordinates of joints: `jk.gear`, `jk.rack`, `jk.belt`, `jk.differential`, `jk.relation`.
 
         Numbers that were rounded let the loops of many mechanisms close at the assembled pose only: their frames are
         moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
         `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
 
-        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, or `align` is wrong.
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, a coupling is on a
+        coordinate that is not there or of the wrong kind, or `align` is wrong.
         """
         check_joints(joints)
+        couplings = check_couplings(couplings, joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
-        found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
-        linkage, notes = aligned(Linkage.of(joints, found), asked_noise(align), unit)
+        coupled = [[name.rpartition(".")[0] for name in coupling.coordinates] for coupling in couplings]
+        found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed, coupled=coupled)
+        linkage, notes = aligned(Linkage.of(joints, found, couplings), asked_noise(align), unit)
         return Mechanism(linkage, unit, alignment=notes)
 
     @property
@@ -248,6 +261,15 @@ class Mechanism:
     def _aligned(self, noise: float) -> Mechanism:
         linkage, notes = aligned(self.linkage, noise, self.unit)
         return replace(self, linkage=linkage, alignment=notes)
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the mechanism into one file (.json), without solids; `jk.load(path).mechanism()` reads it back.
+
+        Joint frames, couplings and limits are kept to the last digit. See `jaxkin.io.mechanism_file`.
+        """
+        from jaxkin.io.mechanism_file import save_mechanism
+
+        return save_mechanism(self, path)
 
     def plan(self, drive: Iterable[str]) -> Plan:
         """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""

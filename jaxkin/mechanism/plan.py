@@ -92,11 +92,10 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}
-    solved = [element.loop_group for element in found.elements]
+    solved = {joint for element in found.elements for joint in element.loop_group.joints}
     texts = []
-    loop_groups = iter(structure.loop_groups)
     for element in structure.elements:
-        if element.loops and next(loop_groups) not in solved:
+        if element.loops and structure.loops[element.loops[0]].joints[0].joint not in solved:
             texts.append(
                 f"{_loops(element)} of {listed(element.parts)}: none of its joints is driven, it keeps its shape"
             )
@@ -106,7 +105,12 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
             continue
         if element.joint in given:
             texts.append(f"{element.joint} is in no loop: its displacement is given, and moves {element.upper}")
-    still = [element.joint for element in structure.elements if element.joint and element.joint not in given]
+    coupled = {structure.joints[joint] for joint in solved}
+    still = [
+        element.joint
+        for element in structure.elements
+        if element.joint and element.joint not in given and element.joint not in coupled
+    ]
     if still:
         texts.append(f"{listed(still)}: in no loop and not driven, at rest")
     return texts

@@ -25,7 +25,7 @@ idle spin."""
 
 @dataclass(frozen=True)
 class Step:
-    """Loops that are solved together, once those of some steps before are: one block of the solver's equations."""
+    """Loops and couplings that are solved together, once those of some steps before are: one block of equations."""
 
     joints: tuple[str, ...]
     """The joints whose unknown coordinates are determined here."""
@@ -33,12 +33,14 @@ class Step:
     """The parts that these joints connect."""
     loops: int
     """Number of loops."""
+    couplings: tuple[str, ...]
+    """Names of the couplings."""
     loop_class: str
     """What the loops are: "planar dyad RRP", "spherical dyad RRR", "spatial loop RSSR", or of several "2 planar loops".
     The letters are those of `jaxkin.linkage.joint_pattern`."""
     subgroup: Subgroup | None
     """The smallest displacement subgroup that holds the loops: planar, spherical, Schoenflies, ... None where the joint
-    frames are traced."""
+    frames are traced, and of couplings alone."""
     unknowns: tuple[str, ...]
     """Coordinates for which the equations are solved."""
     equations: int
@@ -67,9 +69,10 @@ class Step:
         follow = f"; the turns of {', '.join(self.follow)} follow" if self.follow else ""
         merged = f"; {self.merged} groups in one step: they share what is left free" if self.merged > 1 else ""
         count = "1 " if self.loops == 1 else ""
+        coupled = f"{' with ' if self.loops else ''}{listed(self.couplings)}" if self.couplings else ""
         return (
-            f"{after}{count}{self.loop_class} over {', '.join(self.parts)}: {_count(len(self.unknowns), 'unknown')} of "
-            f"{of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; "
+            f"{after}{count}{self.loop_class}{coupled} over {', '.join(self.parts)}: "
+            f"{_count(len(self.unknowns), 'unknown')} of {of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; "
             f"{self.method} ({self.why})"
         )
 
@@ -94,7 +97,8 @@ def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
 
 def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
     """The groups of an element with their ranks, which are not found beforehand for a single loop."""
-    if freedoms is None or not freedoms.closes or len(element.loop_group.loops) > 1:
+    several = len(element.loop_group.loops) + len(element.loop_group.couplings) > 1
+    if freedoms is None or not freedoms.closes or several:
         return element.groups
     driven = tuple(element.columns[column] for column in element.system.driven)
     loop_class = linkage.classes[linkage.structure.loop_groups.index(element.loop_group)]
@@ -119,7 +123,7 @@ def _step(
     after: tuple[int, ...],
 ) -> Step:
     system, block = element.system, blocks_of_groups(element.system)[number]
-    joints, loops = linkage.joints, system.order[number]
+    joints, loops = linkage.joints, _loops(element, number)
     cuts = [system.cuts[loop] for loop in loops]
     rank = group.rank - sum(RANK_OF_CUT[len(cut)] for cut in cuts)
     cut = {ball for balls in cuts for ball in balls}
@@ -131,8 +135,9 @@ def _step(
         joints=tuple(joints[joint].name for joint in group.joints),
         parts=tuple(part for part in linkage.structure.parts if part in ends),
         loops=len(loops),
+        couplings=tuple(linkage.couplings[coupling].name for coupling in group.couplings),
         loop_class=_loop_class(element, number, group),
-        subgroup=None if freedoms is None else _subgroup(element, group, freedoms),
+        subgroup=None if freedoms is None or not loops else _subgroup(element, group, freedoms),
         unknowns=_names(linkage, element, block),
         equations=len(block.rows),
         redundant=len(block.rows) - rank,
@@ -171,9 +176,9 @@ def _subgroup(element: DrivenElement, group: Group, freedoms: LoopFreedoms) -> S
 
 def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
     """What the loops of a group are to the solver, and of a single one the pattern of its joints."""
-    loops = element.system.order[number]
+    loops = _loops(element, number)
     kinds = [_kind(element.system, loop) for loop in loops]
-    if len(loops) > 1:
+    if len(loops) != 1:
         return " and ".join(_count(times, f"{kind} loop") for kind, times in Counter(kinds).items())
     letters = {}
     for place, movements in enumerate(element.system.movements):
@@ -182,6 +187,11 @@ def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
         first = element.system.span(place).start
         letters[element.loop_group.joints[place]] = letter(movements, {column - first for column in columns})
     return loop_name(group, letters, kinds[0])
+
+
+def _loops(element: DrivenElement, number: int) -> tuple[int, ...]:
+    """Numbers of the loops of a group, without its couplings."""
+    return tuple(each for each in element.system.order[number] if each < len(element.system.loops))
 
 
 def _kind(system: LoopSystem, loop: int) -> str:

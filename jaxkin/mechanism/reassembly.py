@@ -19,6 +19,7 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, turned_by
+from jaxkin.joints.coupling import Coupling, shifted_coupling
 from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.screws import chain, freedoms
 from jaxkin.linkage.coordinates import coordinate
@@ -125,7 +126,7 @@ def close(
         worst = max(still_open, key=lambda group: group.after)
         left = tell_opening(given, mechanism.unit, worst.loops, worst.q)
         return Reassembly(mechanism, False, before, after, rest, (), 0, left)
-    if all(np.array_equal(joint.frames_1, joint.frames_2) for joint in given.joints):
+    if all(group.loops.coincide for group in groups):
         return Reassembly(mechanism, True, before, after, rest, (), 0, None)
     moved = [group for group in groups if group.q.any()]
     searched = moved if look_around else []
@@ -139,7 +140,8 @@ def close(
         shifted(_placed(joint, places[joint.parts[0]], q), q)
         for joint, q in zip(given.joints, coordinates, strict=True)
     ]
-    linkage, notes = aligned(given.with_joints(joints), noise, mechanism.unit)
+    moved_linkage = replace(given.with_joints(joints), couplings=_shifted_couplings(given, coordinates))
+    linkage, notes = aligned(moved_linkage, noise, mechanism.unit)
     solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
     history = mechanism.history
     if left_out:
@@ -179,7 +181,7 @@ def _close_group(
     linkage: Linkage, loop_group: LoopGroup, fixed: Container[tuple[int, int]], noise: float
 ) -> _ClosedGroup:
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
-    loops = ClosedLoops(linkage.joints, linkage.structure, loop_group)
+    loops = ClosedLoops(linkage.joints, linkage.structure, loop_group, linkage.couplings)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
     before = loops.travel(q).gap
     if loops.coincide or before <= loops.thresholds.residual:
@@ -190,6 +192,17 @@ def _close_group(
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
     return _ClosedGroup(loops, q, held, before, found.gap, found.gap <= enough)
+
+
+def _shifted_couplings(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> tuple[Coupling, ...]:
+    """The couplings, counted from displacements `coordinates` of all joints; an offset left by rounding is zero."""
+    found = []
+    for coupling in linkage.couplings:
+        places = [coordinate(linkage, name) for name in coupling.coordinates]
+        shifted = shifted_coupling(coupling, np.array([coordinates[joint][k] for joint, k in places]))
+        rounding = 1e-12 * np.abs(shifted.coefficients).max()
+        found.append(replace(shifted, offset=np.zeros(())) if abs(shifted.offset) < rounding else shifted)
+    return tuple(found)
 
 
 def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:

@@ -31,9 +31,8 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
         system, columns = group_system(linkage, loop_group, inside, loop_class)
         if inside and (rank := _rank(linkage, number, system, columns)):
             rows = jnp.stack([motion.displacements[joint][:, coordinate] for joint, coordinate in columns])
-            least = jnp.minimum(
-                least, smallest_singular_value(system, rank, group_joints(linkage.solved_joints, loop_group), rows)
-            )
+            joints = group_joints(linkage, linkage.solved_joints, loop_group)
+            least = jnp.minimum(least, smallest_singular_value(system, rank, joints, rows))
     return least
 
 

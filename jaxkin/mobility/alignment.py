@@ -98,7 +98,7 @@ def aligned(linkage: Linkage, noise: float, unit: str = "") -> Aligned:
     if traced(leaves) or any(np.asarray(leaf).dtype != np.float64 or not np.isfinite(leaf).all() for leaf in leaves):
         return Aligned(linkage, ())
     exact, ideal, largest = list(linkage.joints), list(linkage.joints), noise
-    for loop_group in linkage.structure.loop_groups:
+    for loop_group in linkage.structure.uncoupled_groups:
         level, joints = _aligned_group(linkage, loop_group, noise)
         for number, joint in zip(loop_group.joints, joints, strict=True):
             ideal[number] = joint

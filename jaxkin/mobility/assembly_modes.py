@@ -109,6 +109,11 @@ def _rates_of_places(
             twist = twist.copy()
             twist[:, loops.slices[joint]] += sign * screws[:, loops.slices[joint]]
             twists.setdefault(loops.ends[joint][1 if sign > 0 else 0], twist)
+    for joint, (one, other) in loops.ends.items():  # coupled joints in no loop, as `travel` places their parts
+        if one not in twists or other not in twists:
+            twist = twists.setdefault(one, np.zeros_like(screws)).copy()
+            twist[:, loops.slices[joint]] += screws[:, loops.slices[joint]]
+            twists.setdefault(other, twist)
     rows = []
     for part, place in places.items():
         turn, shift = twists[part][:3], twists[part][3:]

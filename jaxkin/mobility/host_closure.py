@@ -11,6 +11,7 @@ from jaxtyping import Float
 
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.screws import Screws, chain, moved
 from jaxkin.linkage.first_order import DOUBLE, SINGLE
@@ -41,7 +42,8 @@ class Travel(NamedTuple):
     """The quantities found by travelling around the loops, in world coordinates about the centroid, lengths scaled."""
 
     residual: Rows
-    """Misfits of the loops as twists, six rows a loop: `vee(R - R^T)/2` of the rotation left open, then translation."""
+    """Misfits of the loops as twists, six rows a loop: `vee(R - R^T)/2` of the rotation left open, then translation;
+    then `misfits`."""
     jacobian: Float[np.ndarray, "equations columns"]
     """Derivatives of the misfits with respect to the coordinates."""
     screws: Screws
@@ -52,11 +54,15 @@ class Travel(NamedTuple):
     """For each loop the displacement that is left when it has been travelled: the identity if the loop is closed."""
     places: Mapping[str, Pose]
     """Displacement of each row of parts from the assembled pose; the part at which the first loop starts is at rest."""
+    misfits: Float[np.ndarray, " couplings"]
+    """What each coupling is off by, scaled by its largest coefficient."""
+    coupled: Float[np.ndarray, "couplings columns"]
+    """Derivatives of `misfits` with respect to the coordinates."""
 
     @property
     def gap(self) -> float:
-        """The residual norm: square root of Eq. 12, over all twelve equations of all loops."""
-        return float(np.linalg.norm(self.left_open - np.eye(4)))
+        """The residual norm: square root of Eq. 12, over all twelve equations of all loops, and all couplings."""
+        return float(np.hypot(np.linalg.norm(self.left_open - np.eye(4)), np.linalg.norm(self.misfits)))
 
     @property
     def merit(self) -> float:
@@ -66,18 +72,24 @@ class Travel(NamedTuple):
         `residual` also vanishes where a rotation is left open by half a turn.
         """
         squares = (self.left_open - np.eye(4)) ** 2
-        return float(0.25 * squares[:, :3, :3].sum() + 0.5 * squares[:, :3, 3].sum())
+        return float(0.25 * squares[:, :3, :3].sum() + 0.5 * (squares[:, :3, 3].sum() + (self.misfits**2).sum()))
 
 
 class ClosedLoops:
-    """The loops of a loop group as numbers, in scaled coordinates.
+    """The loops and couplings of a loop group as numbers, in scaled coordinates.
 
     The origin is the centroid of the joint frames on part 1, and lengths are divided by the root-mean-square distance
     of these from it, the characteristic length.
     """
 
-    def __init__(self, every: Sequence[Joint], structure: Structure, loop_group: LoopGroup) -> None:
-        """Take the loops of `loop_group`; `every` are all joints of the linkage."""
+    def __init__(
+        self,
+        every: Sequence[Joint],
+        structure: Structure,
+        loop_group: LoopGroup,
+        couplings: Sequence[Coupling] = (),
+    ) -> None:
+        """Take the loops of `loop_group`; `every` are all joints and `couplings` all couplings of the linkage."""
         joints = {index: every[index] for index in loop_group.joints}
         self.loop_group = loop_group
         self.columns = tuple((index, k) for index, joint in joints.items() for k in range(joint.freedoms))
@@ -102,10 +114,24 @@ class ClosedLoops:
         names = [name for joint in joints.values() for name in joint.coordinates]
         self.units = np.array([length if is_length(name) else 1.0 for name in names])
         """For each column the factor from the scaled coordinate to that of the mechanism: 1 for angles."""
-        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values())
-        """Whether each joint has the same frame on both of its parts. Then the assembled pose is closed by
-        construction, also if frames that are orthonormal to a few digits only leave a residual."""
+        self.couplings = [
+            self._scaled(couplings[number], [f"{every[j].name}.{every[j].coordinates[k]}" for j, k in self.columns])
+            for number in loop_group.couplings
+        ]
+        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values()) and not any(
+            offset for *_, offset in self.couplings
+        )
+        """Whether each joint has the same frame on both of its parts, and no coupling an offset. Then the assembled
+        pose is closed by construction, also if frames that are orthonormal to a few digits only leave a residual."""
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
+
+    def _scaled(self, coupling: Coupling, names: Sequence[str]) -> tuple[list[int], np.ndarray, float]:
+        """Columns of a coupling, its coefficients for scaled coordinates and its offset, over the largest of these."""
+        columns = [names.index(name) for name in coupling.coordinates]
+        given = np.asarray(coupling.coefficients, float)
+        scaled = given * self.units[columns, None] ** np.arange(1, given.shape[1] + 1)
+        largest = np.abs(scaled).max()
+        return columns, scaled / largest, float(coupling.offset) / largest
 
     def jacobian(self, q: Row) -> Float[np.ndarray, "equations columns"]:
         """Differentiate the misfits of the loops: six rows a loop, in world coordinates about the centroid."""
@@ -169,8 +195,29 @@ class ClosedLoops:
             skew = left[:3, :3] - left[:3, :3].T
             left_open.append(left)
             misfit[:] = skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *left[:3, 3]
-        jacobian = jacobian.reshape(6 * len(residual), len(q))
-        return Travel(residual.ravel(), jacobian, screws, tuple(starts), np.array(left_open), places)
+        for index, (joint, other) in self.ends.items():  # a coupled joint in no loop
+            if joint not in places or other not in places:
+                step, own = steps[index]
+                pose = places.setdefault(joint, np.eye(4))
+                screws[:, self.slices[index]] = moved(pose, own)
+                places.setdefault(other, pose @ step)
+        misfits, coupled = np.zeros(len(self.couplings)), np.zeros((len(self.couplings), len(q)))
+        for row, (columns, coefficients, offset) in enumerate(self.couplings):
+            for at, column, factors in zip(q[columns], columns, coefficients, strict=True):
+                polynomial = np.polynomial.Polynomial([0.0, *factors])
+                misfits[row] += polynomial(at)
+                coupled[row, column] = polynomial.deriv()(at)
+            misfits[row] -= offset
+        return Travel(
+            np.append(residual.ravel(), misfits),
+            np.concatenate([jacobian.reshape(6 * len(residual), len(q)), coupled]),
+            screws,
+            tuple(starts),
+            np.array(left_open).reshape(-1, 4, 4),
+            places,
+            misfits,
+            coupled,
+        )
 
 
 def least_norm(jacobian: Float[np.ndarray, "equations columns"], right: Rows, damping: float) -> Row:

@@ -33,7 +33,7 @@ class LoopFreedoms:
     """
 
     def __init__(self, linkage: Linkage, loop_group: LoopGroup) -> None:
-        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
+        self._loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
         self.loop_group = loop_group
         self.columns = self._loops.columns
         """(joint, coordinate) of each column: the coordinates of the joints of the loop group in turn."""
@@ -71,30 +71,33 @@ class LoopFreedoms:
     def screws(self) -> Screws:
         """Twists of the coordinates (6, columns) at the generic pose: a closed pose beside the assembled one, or the
         assembled pose itself where no such pose was found or the rank is lower there."""
-        return self._generic[1]
+        return self._generic[1].screws
 
     @cached_property
     def places(self) -> Mapping[str, Pose]:
         """Displacements of the rows of parts at the pose of `screws`, about `centre` over `length`."""
-        return self._loops.travel(self._generic[0]).places
+        return self._generic[1].places
 
     @cached_property
-    def _generic(self) -> tuple[Row, Screws]:
-        """Find the scaled coordinates of the generic pose, and the twists of the coordinates there."""
-        home, screws = self._home[0], self.assembled
-        jacobian = loop_jacobian(self.loop_group.loops, self.columns, screws)
+    def _generic(self) -> tuple[Row, Travel]:
+        """Find the scaled coordinates of the generic pose, and the quantities of the loops there."""
+        home = self._home[0]
+        jacobian = self._jacobian(self._home[1])
         generic = np.sin(1.0 + 2.7 * np.arange(len(self.columns)))  # a fixed direction without symmetry
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
-        beside = found.screws
-        rank = null_space(loop_jacobian(self.loop_group.loops, self.columns, beside), self.thresholds.rank)[0]
+        rank = null_space(self._jacobian(found), self.thresholds.rank)[0]
         is_generic = found.gap < self.thresholds.residual and rank >= len(self.columns) - len(self.at_rest)
-        return (there, beside) if is_generic else (home, screws)
+        return (there, found) if is_generic else self._home
+
+    def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:
+        """The closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
+        return np.concatenate([loop_jacobian(self.loop_group.loops, self.columns, there.screws), there.coupled])
 
     @cached_property
     def jacobian(self) -> Float[np.ndarray, "equations columns"]:
-        """Closure Jacobian, six rows a loop in world coordinates (derivative of Eq. 10)."""
-        return loop_jacobian(self.loop_group.loops, self.columns, self.screws)
+        """Closure Jacobian, six rows a loop in world coordinates (derivative of Eq. 10), then one row a coupling."""
+        return self._jacobian(self._generic[1])
 
     @cached_property
     def rank(self) -> int:
@@ -109,7 +112,7 @@ class LoopFreedoms:
     @cached_property
     def at_rest(self) -> Float[np.ndarray, "freedoms columns"]:
         """An orthonormal basis of the rates that keep all loops closed at the assembled pose: perhaps more of them."""
-        return null_space(loop_jacobian(self.loop_group.loops, self.columns, self.assembled), self.thresholds.rank)[1]
+        return null_space(self._jacobian(self._home[1]), self.thresholds.rank)[1]
 
     def subgroup(self, joints: Container[int]) -> Subgroup:
         """Find the smallest displacement subgroup that holds the motions of these joints."""

@@ -32,15 +32,16 @@ class Mobility:
     idle_motions: tuple[IdleMotion, ...]
     """The idle freedoms, one entry each: passive parts that move about themselves while all others rest."""
     redundant: int
-    """Closure equations, six a loop, that follow from the others."""
+    """Closure equations, six a loop and one a coupling, that follow from the others."""
     spinning: tuple[str, ...]
     """Parts that only spin, such as screws and washers: all their freedoms are idle, and they are left at rest."""
     spins: int
     """Number of freedoms of the parts in `spinning`; these are not among `idle_motions`."""
     counted: int
-    """Coordinates less six a loop: negative or too small where equations are redundant."""
+    """Coordinates less six a loop and one a coupling: negative or too small where equations are redundant."""
     counted_in_subgroups: int
-    """Coordinates less the equations of each loop's displacement subgroup: three a planar loop, and so on."""
+    """Coordinates less the equations of each loop's displacement subgroup, three a planar loop and so on, and of the
+    couplings."""
     subgroups: tuple[Subgroup, ...]
     """The displacement subgroup of each loop."""
     drivable: tuple[str, ...]
@@ -111,11 +112,11 @@ def _of_closed(linkage: Linkage) -> Mobility:
     return Mobility(
         freedoms=at_ends + sum(len(found.motions) for found in every),
         idle_motions=tuple(motion for found in mobile for motion in IdleMotions(linkage, found, spins).motions),
-        redundant=sum(EQUATIONS * len(found.loop_group.loops) - found.rank for found in every),
+        redundant=sum(len(found.jacobian) - found.rank for found in every),
         spinning=tuple(spins),
         spins=sum(spins.values()),
-        counted=coordinates - EQUATIONS * len(kinds),
-        counted_in_subgroups=coordinates - sum(kind.dimension for kind in kinds),
+        counted=coordinates - len(linkage.couplings) - EQUATIONS * len(kinds),
+        counted_in_subgroups=coordinates - len(linkage.couplings) - sum(kind.dimension for kind in kinds),
         subgroups=kinds,
         drivable=(
             *outside,

@@ -11,7 +11,7 @@ from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
 from jaxkin.joints.screws import chain, complement, freedoms
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mobility.host_closure import ClosedLoops, Row
+from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel
 
 
 @dataclass(frozen=True)
@@ -32,8 +32,13 @@ class Opening:
     """The joint of the loop whose frames on its two parts are the farthest apart in the given pose."""
     unit: str
     """Name of the unit of length."""
+    coupling: str = ""
+    """The coupling that is off more than any loop is open, by `angle` (with lengths over the characteristic length);
+    empty where a loop is open the most. Then `joint` is its last one."""
 
     def __str__(self) -> str:
+        if self.coupling:
+            return f"the coupling {self.coupling!r} of {listed(self.joints)} is off by {self.angle:.2g}"
         gap = f"{self.length:.2g} {self.unit}".rstrip()
         return (
             f"the loop over {listed(self.joints)} is open by {gap} and {self.angle:.2g} rad, most of all at joint "
@@ -47,7 +52,7 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
         return None
     worst: Opening | None = None
     for loop_group in linkage.structure.loop_groups:
-        loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group)
+        loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
         at_rest = np.zeros(len(loops.columns))
         if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.thresholds.residual:
             continue
@@ -69,9 +74,15 @@ def check_closed(linkage: Linkage, unit: str, what: str, call: str) -> None:
 
 
 def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Opening:
-    """Find the loop of a loop group that is open the most at scaled coordinates `q`, and its worst joint."""
+    """Find the loop of a loop group that is open the most at scaled coordinates `q`, and its worst joint.
+
+    Or the coupling, where one is off by more than the residual of any loop.
+    """
     found = loops.travel(q)
-    number = int(np.argmax(np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))))
+    loop_gaps = np.linalg.norm(found.left_open - np.eye(4), axis=(1, 2))
+    if np.abs(found.misfits).max(initial=0.0) > loop_gaps.max(initial=0.0):
+        return _off_coupling(linkage, unit, loops, found)
+    number = int(np.argmax(loop_gaps))
     loop, left = loops.loop_group.loops[number], found.left_open[number]
     joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
     place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
@@ -84,6 +95,23 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
         angle=turned_by(left),
         joint=linkage.joints[joint].name,
         unit=unit,
+    )
+
+
+def _off_coupling(linkage: Linkage, unit: str, loops: ClosedLoops, found: Travel) -> Opening:
+    """Tell of the coupling that is off the most."""
+    worst = int(np.argmax(np.abs(found.misfits)))
+    number = loops.loop_group.couplings[worst]
+    joints = [joint for joint in linkage.joints if joint.name in linkage.structure.coupled[number]]
+    return Opening(
+        residual=found.gap,
+        parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
+        joints=tuple(joint.name for joint in joints),
+        length=0.0,
+        angle=float(abs(found.misfits[worst])),
+        joint=linkage.structure.coupled[number][-1],
+        unit=unit,
+        coupling=linkage.couplings[number].name,
     )
 
 

@@ -1,4 +1,4 @@
-"""What driven joints can move: loops with a driven joint are solved, all other loops keep their shape."""
+"""What driven joints can move: loops with a driven or coupled joint are solved, all others keep their shape."""
 
 from __future__ import annotations
 
@@ -22,22 +22,20 @@ class Moving:
 def moving(structure: Structure, driven: Collection[str]) -> Moving:
     """Find what the driven joints (by name) can move while all other joints outside of solved loops rest.
 
-    A loop without a driven joint keeps its shape, even where its parts are carried along.
+    Couplings carry the motion on to the joints and loops that they tie. A loop without a driven joint keeps its shape,
+    even where its parts are carried along.
     """
     columns = {column for column, joint in enumerate(structure.joints) if joint in driven}
-    remaining = iter(structure.loop_groups)
-    loop_groups: list[LoopGroup] = []
+    loop_groups = tuple(group for group in structure.loop_groups if not columns.isdisjoint(group.joints))
+    solved = {joint for group in loop_groups for joint in group.joints}
+    driving = set(driven) | {structure.joints[joint] for joint in solved}
     moved: set[str] = set()
     for element in structure.elements:
         if element.joint is not None:
             ends = {structure.row_of[part] for part in structure.joint_parts[structure.joints.index(element.joint)]}
-            if element.joint in driven or ends & moved:
+            if element.joint in driving or ends & moved:
                 moved.add(element.upper)
-        solved = False
-        if element.loops:
-            loop_group = next(remaining)
-            if solved := not columns.isdisjoint(loop_group.joints):
-                loop_groups.append(loop_group)
-        if solved or element.upper in moved:
+        in_motion = any(structure.loops[loop].joints[0].joint in solved for loop in element.loops)
+        if in_motion or element.upper in moved:
             moved.update(element.parts if element.upper in moved else element.parts[1:])
-    return Moving(tuple(loop_groups), tuple(part for part in structure.part_names if structure.row_of[part] in moved))
+    return Moving(loop_groups, tuple(part for part in structure.part_names if structure.row_of[part] in moved))

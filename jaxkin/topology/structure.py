@@ -12,6 +12,7 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+import networkx as nx
 import numpy as np
 from jaxtyping import Int
 
@@ -27,12 +28,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class LoopGroup:
-    """The loops of one structure element. They are coupled by common joints and solved as one system."""
+    """Loops that are solved as one system: those of one structure element, which have joints in common.
+
+    Couplings between joints make one group of all loops that they tie, together with tied joints in no loop.
+    """
 
     joints: tuple[int, ...]
-    """Columns in `incidence` of the joints of these loops, rising."""
+    """Columns in `incidence` of the joints, rising."""
     loops: tuple[Circuit, ...]
     """Each loop as (joint, sign) in order of travel: +1 where a joint is travelled from part 1 to part 2, else -1."""
+    couplings: tuple[int, ...] = ()
+    """Numbers of the couplings between its joints."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +60,8 @@ class Structure:
     chords: tuple[str, ...] | None
     """Names of the joints that the spanning tree leaves out, one for each loop; None to use the basis of short loops
     that `cycle_basis` finds, without a spanning tree."""
+    coupled: tuple[tuple[str, ...], ...] = ()
+    """For each coupling the names of the joints whose coordinates it ties, such as those of two gear wheels."""
 
     @cached_property
     def row_of(self) -> Mapping[str, str]:
@@ -104,10 +112,17 @@ class Structure:
         return named(self._nodes, self.parts, self.joints)
 
     @cached_property
-    def loop_groups(self) -> tuple[LoopGroup, ...]:
-        """The loops of each structure element that has loops, in the order of `elements`."""
+    def uncoupled_groups(self) -> tuple[LoopGroup, ...]:
+        """The loops of each structure element that has loops, in the order of `elements`, without couplings."""
         return tuple(
             LoopGroup(node.joints, loops) for node, loops in zip(self._nodes, self._circuits, strict=True) if loops
+        )
+
+    @cached_property
+    def loop_groups(self) -> tuple[LoopGroup, ...]:
+        """The `uncoupled_groups`, merged where couplings tie them, then the couplings of joints in no loop."""
+        return merged_by_couplings(
+            self.uncoupled_groups, [tuple(map(self.joints.index, names)) for names in self.coupled]
         )
 
     @cached_property
@@ -166,18 +181,45 @@ class Structure:
         return Loop(tuple(name for place in places for name in place), circuit)
 
 
+def merged_by_couplings(groups: Sequence[LoopGroup], couplings: Sequence[tuple[int, ...]]) -> tuple[LoopGroup, ...]:
+    """Merge loop groups that share a coupling; `couplings` are the joints of each, in a loop or not.
+
+    A merged group stands at the place of its first part; groups without loops come last.
+    """
+    if not couplings:
+        return tuple(groups)
+    members = [set(group.joints) for group in groups]
+    ties = nx.Graph()
+    ties.add_nodes_from(("group", number) for number in range(len(groups)))
+    for number, joints in enumerate(couplings):
+        ties.add_node(("coupling", number))
+        for joint in joints:
+            inside = next((("group", k) for k, own in enumerate(members) if joint in own), ("joint", joint))
+            ties.add_edge(("coupling", number), inside)
+    found = []
+    for nodes in nx.connected_components(ties):
+        own = {kind: sorted(k for each, k in nodes if each == kind) for kind in ("group", "coupling", "joint")}
+        joints = sorted({joint for k in own["group"] for joint in groups[k].joints} | set(own["joint"]))
+        loops = tuple(loop for k in own["group"] for loop in groups[k].loops)
+        place = min(own["group"], default=len(groups) + min(own["coupling"], default=0))
+        found.append((place, LoopGroup(tuple(joints), loops, tuple(own["coupling"]))))
+    return tuple(group for _, group in sorted(found, key=lambda each: each[0]))
+
+
 def structure(
     parts: Sequence[str],
     joints: Sequence[tuple[str, str, str]],
     fixed: Sequence[str],
     chords: Sequence[str] | None = None,
+    coupled: Sequence[Sequence[str]] = (),
 ) -> Structure:
     """Make the structure of a mechanism from its parts, joints (name, part 1, part 2) and fixed parts.
 
     `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3). The
     loop travels its chord from part 1 to part 2, or is reversed where that makes all loops travel a common joint in
     the same direction. Without `chords`, a basis of short loops of that kind is found (`cycle_basis`), in which the
-    last joint of each loop group is travelled from part 1 to part 2.
+    last joint of each loop group is travelled from part 1 to part 2. `coupled` names for each coupling the joints that
+    it ties.
 
     A joint between two fixed parts is a loop of one joint, which closes only while the joint stays at rest. Raises
     ValueError for names that repeat or are unknown, a joint between a part and itself, no fixed part, parts that no
@@ -188,7 +230,8 @@ def structure(
     names = tuple(name for name, _, _ in joints)
     check_chords(names, chords)
     ends = tuple((part1, part2) for _, part1, part2 in joints)
-    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords))
+    coupled = tuple(map(tuple, coupled))
+    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords), coupled)
     check_connected(result._graph, result.parts, result.parts.index(result.row_of[fixed[0]]))
     try:
         result.loops  # noqa: B018  so that chords are refused here, not later

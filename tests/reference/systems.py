@@ -21,4 +21,4 @@ def loop_system(mechanism: Mechanism, driven: Iterable[tuple[str, int]], **loop_
     names = [mechanism.all_joints[joint].name for joint in group.joints]
     places = tuple((group.joints[names.index(name)], number) for name, number in driven)
     system, _ = group_system(mechanism.linkage, group, places, found._replace(**loop_class))
-    return system, jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, group))
+    return system, jax.tree.map(jnp.asarray, group_joints(mechanism.linkage, mechanism.all_joints, group))

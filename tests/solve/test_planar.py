@@ -29,7 +29,9 @@ def both(mechanism):
         system, _ = group_system(mechanism.linkage, loop_group, ((loop_group.joints[0], 0),), chosen)
         yield (
             system,
-            loop_geometry(system, *jax.tree.map(jnp.asarray, group_joints(mechanism.all_joints, loop_group)))[0],
+            loop_geometry(
+                system, *jax.tree.map(jnp.asarray, group_joints(mechanism.linkage, mechanism.all_joints, loop_group))
+            )[0],
         )
 
 

@@ -51,6 +51,8 @@ def why_not_all(system: LoopSystem) -> str | None:
 
 
 def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -> GroupFormula | str:
+    if any(number >= len(system.loops) for number in loops):
+        return "a coupling"
     loop, *others = loops
     if others:
         return f"its {len(loops)} loops are solved together"

@@ -13,14 +13,21 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
-from jaxkin.solve.system.joints import Joints, scaled_frames
+from jaxkin.solve.system.joints import CouplingNumbers, Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven
 
-Geometry = Spatial | Planar
 Given = Array | np.ndarray
+
+
+class Geometry(NamedTuple):
+    """The constants of a loop system, lengths over the characteristic length."""
+
+    loops: Spatial | Planar
+    couplings: tuple[CouplingNumbers, ...]
 
 
 class Closure(NamedTuple):
@@ -29,36 +36,52 @@ class Closure(NamedTuple):
     residual: Float[Array, "equations poses"]
     """The equations that the loops need. Loops in space: rotations of the loops that are not cut at a ball, then
     translations of all but those cut at a rod, then for each rod the difference between the lengths of its two chains
-    (rows as in `LoopSystem.sections`). Planar loops: for each loop its rotation and two translations."""
+    (rows as in `LoopSystem.sections`). Planar loops: for each loop its rotation and two translations. Couplings come
+    last, one equation each."""
     jacobian: Float[Array, "equations columns poses"]
     """Derivative of `residual` with respect to the columns of the loop system, driven columns included."""
     merit: Float[Array, " poses"]
     """Half the sum of squares of Eq. 12, rotation entries weighted by 1/2: near closure half the square of
     `residual`."""
     residual_norm: Float[Array, " poses"]
-    """Square root of Eq. 12 over all twelve equations of all loops, lengths over the characteristic length."""
+    """Square root of Eq. 12 over all twelve equations of all loops, and the equations of all couplings; lengths over
+    the characteristic length."""
 
 
 def closure(system: LoopSystem, geometry: Geometry, state: State) -> Closure:
     """Evaluate residual, Jacobian and norms of all loops at a state, lengths over the characteristic length."""
-    if isinstance(geometry, Planar):
-        residual, jacobian, rotated, moved = planar_closure(system, geometry, state.x)
-        return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + geometry.off))
-    residual, jacobian, rotated, moved = spatial_closure(system, geometry, state)
-    return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved))
+    poses, off = state.x.shape[-1], 0.0
+    if not system.loops:  # couplings of joints in no loop
+        residual, rotated, moved = jnp.zeros((0, poses)), jnp.zeros(poses), jnp.zeros(poses)
+        jacobian = jnp.zeros((0, system.columns, poses))
+    elif isinstance(geometry.loops, Planar):
+        residual, jacobian, rotated, moved = planar_closure(system, geometry.loops, state.x)
+        off = geometry.loops.off
+    else:
+        residual, jacobian, rotated, moved = spatial_closure(system, geometry.loops, state)
+    if system.couplings:
+        misfit, slopes = coupling_closure(system, geometry.couplings, state.x)
+        residual, jacobian = jnp.concatenate([residual, misfit]), jnp.concatenate([jacobian, slopes])
+        moved = moved + jnp.sum(misfit**2, axis=0)
+    return Closure(residual, jacobian, 0.5 * (0.5 * rotated + moved), jnp.sqrt(rotated + moved + off))
 
 
 def loop_geometry(
-    system: LoopSystem, frames_1: tuple[Given, ...], frames_2: tuple[Given, ...], pitch: tuple[Given, ...]
+    system: LoopSystem,
+    frames_1: tuple[Given, ...],
+    frames_2: tuple[Given, ...],
+    pitch: tuple[Given, ...],
+    couplings: tuple[CouplingNumbers, ...] = (),
 ) -> tuple[Geometry, Float[Array, ""]]:
-    """Compute the constants of the loops from the frames of the joints, and the characteristic length.
+    """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
 
-    All arguments have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
+    Frames and pitches have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
     frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2))
     space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
-    return planar_geometry(system, space) if system.planar else space, length
+    loops = planar_geometry(system, space) if system.planar else space
+    return Geometry(loops, scaled_couplings(system, couplings, length)), length
 
 
 def scaled_geometry(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:

@@ -29,21 +29,23 @@ def ball_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int
     A ball at which a loop is cut gets the rotation that closes the loop.
     """
     turns = _all_turns(system, geometry, state)
-    return remove_spin_from_rotations(system, geometry.lines, turns) if isinstance(geometry, Spatial) else turns
+    if not isinstance(geometry.loops, Spatial):
+        return turns
+    return remove_spin_from_rotations(system, geometry.loops.lines, turns)
 
 
 def remove_idle_spin(system: LoopSystem, geometry: Geometry, state: State) -> State:
     """Remove the idle spins of all rods: the result is a smooth function of the input, unlike the solver's state."""
-    if not isinstance(geometry, Spatial) or not system.spinning:
+    if not isinstance(geometry.loops, Spatial) or not system.spinning:
         return state
-    return remove_spin_from_state(system, geometry.lines, _all_turns(system, geometry, state), state)
+    return remove_spin_from_state(system, geometry.loops.lines, _all_turns(system, geometry, state), state)
 
 
 def _all_turns(system: LoopSystem, geometry: Geometry, state: State) -> dict[int, Rotations]:
     """Compute the rotation matrices of all balls, by number, with the idle spins of rods."""
     rotations = matrix(jnp.moveaxis(state.turns, 1, 0))
     turns = {ball: rotations[:, :, number] for number, ball in enumerate(system.turned_balls)}
-    return turns | cut_turns(system, geometry, state) if isinstance(geometry, Spatial) else turns
+    return turns | cut_turns(system, geometry.loops, state) if isinstance(geometry.loops, Spatial) else turns
 
 
 def joint_coordinates(

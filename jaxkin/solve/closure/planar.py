@@ -73,8 +73,8 @@ def planar_closure(
     rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
     jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
     return (
-        jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.equations, poses),
-        jacobian.reshape(system.equations, system.columns, poses),
+        jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.loop_equations, poses),
+        jacobian.reshape(system.loop_equations, system.columns, poses),
         rotated,
         reduce(add, (moved**2).reshape(2 * len(moved), poses)),
     )

@@ -111,11 +111,13 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     by_loop = [_chains(system, loop, cut) for loop, cut in zip(system.loops, system.cuts, strict=True)]
     of_rods = [number for number, chains in enumerate(by_loop) if len(chains) > 1]
     chains = [*(first for first, *_ in by_loop), *(by_loop[number][1] for number in of_rods)]
-    length = max(len(chain.rows) for chain in chains)
+    length = max((len(chain.rows) for chain in chains), default=1)
     no_row = _no_row(system)
     filled = np.array([chain.rows + [no_row] * (length - len(chain.rows)) for chain in chains], np.int32)
+    filled = filled.reshape(len(chains), length, len(ChainRow._fields))  # of couplings alone there are no chains
     rows = dict(zip(ChainRow._fields, np.moveaxis(filled, -1, 0).swapaxes(1, 2), strict=True))
-    ends = dict(zip(ChainEnds._fields, np.array([chain.ends for chain in chains], np.int32).T, strict=True))
+    ended = np.array([chain.ends for chain in chains], np.int32).reshape(-1, len(ChainEnds._fields))
+    ends = dict(zip(ChainEnds._fields, ended.T, strict=True))
     source = _sources(system, rows["column"], rows["ball"])
     quaternion = np.full(len(system.balls) + 1, len(system.turned_balls), np.int32)
     quaternion[list(system.turned_balls)] = np.arange(len(system.turned_balls))

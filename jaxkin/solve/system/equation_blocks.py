@@ -32,8 +32,8 @@ def blocks_of_groups(system: LoopSystem) -> tuple[EquationBlock, ...]:
     known: set[int] = set()
     found = []
     for group in system.order:
-        held = {column for loop in group for joint, _ in system.loops[loop] for column in system.span(joint)}
+        held = set[int]().union(*(system.columns_of(number) for number in group))
         unknown = tuple(column for column in system.used if column in held and column not in known)
-        found.append(EquationBlock(tuple(sorted(row for loop in group for row in system.rows[loop])), unknown))
+        found.append(EquationBlock(tuple(sorted(row for number in group for row in system.rows[number])), unknown))
         known.update(unknown)
     return tuple(found)

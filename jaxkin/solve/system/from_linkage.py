@@ -8,15 +8,19 @@ from typing import NamedTuple
 
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass, renumbered
-from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.joints import CouplingNumbers, Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.topology.graph import Circuit
 from jaxkin.topology.structure import LoopGroup
 
 Columns = tuple[tuple[int, int], ...]
 """(joint, coordinate) of each column, numbered as in the linkage."""
+
+SolvedTogether = tuple[Sequence[Circuit], Sequence[int]]
+"""Loops, and numbers of couplings in the linkage, that are solved together."""
 
 
 class SolvedCoordinates(NamedTuple):
@@ -37,11 +41,12 @@ def solved_coordinates(
     """Select the coordinates of a loop group that are solved or driven; `driven` are (joint, coordinate).
 
     A planar loop group is solved in its plane, with all coordinates along the normal at rest, unless a coordinate along
-    the normal is driven.
+    the normal is driven or coupled.
     """
     every = [(index, k) for index in loop_group.joints for k in range(linkage.joints[index].freedoms)]
     plane = {every[column] for column in loop_class.plane or ()}
-    planar = loop_class.plane is not None and plane.issuperset(driven)
+    tied = [place for number in loop_group.couplings for place in coupled_places(linkage, number)]
+    planar = loop_class.plane is not None and bool(loop_group.loops) and plane.issuperset([*driven, *tied])
     if not planar:
         plane = set(every)
     movements = []
@@ -65,15 +70,15 @@ def group_system(
     loop_group: LoopGroup,
     driven: Columns,
     loop_class: LoopClass,
-    groups: Sequence[Sequence[Circuit]] = (),
+    groups: Sequence[SolvedTogether] = (),
 ) -> tuple[LoopSystem, Columns]:
     """Make the loop system of a loop group, and list its columns; `driven` are (joint, coordinate), in any order.
 
-    `groups` are the sets of loops that are solved together, in order of solution, with joints numbered as in the
-    linkage; by default all loops of the structure are solved together.
+    `groups` are the sets of loops and couplings that are solved together, in order of solution, with joints and
+    couplings numbered as in the linkage; by default all loops of the structure are solved together.
     """
     columns, movements, planar, _ = solved_coordinates(linkage, loop_group, driven, loop_class)
-    circuits = tuple(loop for group in groups for loop in group) or loop_group.loops
+    circuits = tuple(loop for loops, _ in groups for loop in loops) or loop_group.loops
     loop_class = renumbered(
         loop_class._replace(plane=tuple(range(len(columns))) if planar else None),
         loop_group.loops,
@@ -82,13 +87,29 @@ def group_system(
     )
     number = {joint: place for place, joint in enumerate(loop_group.joints)}
     loops = tuple(tuple((number[joint], sign) for joint, sign in loop) for loop in circuits)
-    ends = [0, *accumulate(map(len, groups))]
-    order = tuple(tuple(range(first, last)) for first, last in pairwise(ends))
+    ends = [0, *accumulate(len(loops) for loops, _ in groups)]
+    behind = {coupling: len(circuits) + place for place, coupling in enumerate(loop_group.couplings)}
+    order = tuple(
+        (*range(first, last), *(behind[coupling] for coupling in couplings))
+        for (first, last), (_, couplings) in zip(pairwise(ends), groups, strict=True)
+    )
     given = tuple(sorted(columns.index(place) for place in driven))
-    return LoopSystem(movements, loops, given, loop_class, order), columns
+    tied = tuple(
+        tuple(columns.index(place) for place in coupled_places(linkage, number)) for number in loop_group.couplings
+    )
+    return LoopSystem(movements, loops, given, loop_class, order, tied), columns
 
 
-def group_joints(joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
-    """Select the frames and pitches of the joints of a loop group from all `joints` of the linkage."""
+def coupled_places(linkage: Linkage, number: int) -> Columns:
+    """The (joint, coordinate) of each coordinate that a coupling ties."""
+    return tuple(coordinate(linkage, name) for name in linkage.couplings[number].coordinates)
+
+
+def group_joints(linkage: Linkage, joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
+    """Select the numbers of a loop group from all `joints` (given or ideal) and the couplings of the linkage."""
     inside = [joints[joint] for joint in loop_group.joints]
-    return Joints(*(tuple(getattr(joint, leaf) for joint in inside) for leaf in Joints._fields))
+    couplings = (linkage.couplings[number] for number in loop_group.couplings)
+    return Joints(
+        *(tuple(getattr(joint, leaf) for joint in inside) for leaf in ("frames_1", "frames_2", "pitch")),
+        tuple(CouplingNumbers(coupling.coefficients, coupling.offset) for coupling in couplings),
+    )

@@ -1,4 +1,4 @@
-"""Hold the numbers of a loop system: frames and pitches of its joints."""
+"""Hold the numbers of a loop system: frames and pitches of its joints, coefficients of its couplings."""
 
 from __future__ import annotations
 
@@ -13,13 +13,21 @@ from jaxtyping import Array, Float
 Frames = Float[Array | np.ndarray, "_ 4 4"]
 
 
+class CouplingNumbers(NamedTuple):
+    """The numbers of a coupling, in radians and the unit of the mechanism: see `Coupling`."""
+
+    coefficients: Float[Array, "coordinates powers"]
+    offset: Float[Array, ""]
+
+
 class Joints(NamedTuple):
     """Frames and pitches of the joints of a loop system, one entry a joint, in the unit of the mechanism: see
-    `Joint`."""
+    `Joint`; and the numbers of its couplings."""
 
     frames_1: tuple[Float[Array, "frames 4 4"], ...]
     frames_2: tuple[Float[Array, "frames 4 4"], ...]
     pitch: tuple[Float[Array, ""], ...]
+    couplings: tuple[CouplingNumbers, ...] = ()
 
 
 def scaled_frames(

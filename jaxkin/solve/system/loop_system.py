@@ -1,7 +1,8 @@
 """Describe a system of closed loops for the solver: static, hashable, without floating-point numbers.
 
-A loop system holds the joints of one loop group, the loops through these joints, the coordinates that are driven, and
-the order of solution. The coordinates of all joints, one joint after another, are the columns of the Jacobian.
+A loop system holds the joints of one loop group, the loops through these joints, the couplings between them, the
+coordinates that are driven, and the order of solution. The coordinates of all joints, one joint after another, are the
+columns of the Jacobian.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ class PlacedMovement(NamedTuple):
 
 @dataclass(frozen=True)
 class LoopSystem:
-    """The loops of a loop group, the columns that are driven, the class of the loops and their order of solution."""
+    """The loops and couplings of a loop group, the driven columns, the class of the loops and the order of solution."""
 
     movements: tuple[tuple[str, ...], ...]
     """For each joint the keys of `MOVEMENTS` of its frames."""
@@ -66,12 +67,14 @@ class LoopSystem:
     loop_class: LoopClass
     """Properties by which the loops need fewer equations."""
     order: tuple[tuple[int, ...], ...] = ()
-    """Groups in order of solution, each the numbers of the loops that are solved together; every loop is in one group.
-    By default all loops are one group."""
+    """Groups in order of solution, each the numbers of the loops and couplings that are solved together; each is in one
+    group. Couplings are numbered behind the loops. By default all are one group."""
+    couplings: tuple[tuple[int, ...], ...] = ()
+    """For each coupling the columns of the coordinates that it ties."""
 
     def __post_init__(self) -> None:
         if not self.order:
-            object.__setattr__(self, "order", (tuple(range(len(self.loops))),))
+            object.__setattr__(self, "order", (tuple(range(len(self.loops) + len(self.couplings))),))
 
     @cached_property
     def chains(self) -> tuple[tuple[PlacedMovement, ...], ...]:
@@ -212,16 +215,27 @@ class LoopSystem:
 
     @cached_property
     def rows(self) -> tuple[tuple[int, ...], ...]:
-        """For each loop the numbers of its rows of the Jacobian: see `Closure.residual`."""
-        if self.planar:
-            return tuple(tuple(range(IN_SUBGROUP * loop, IN_SUBGROUP * (loop + 1))) for loop in range(len(self.loops)))
+        """For each loop, then for each coupling, the numbers of its rows of the Jacobian: see `Closure.residual`."""
         rows: list[tuple[int, ...]] = [()] * len(self.loops)
+        every = tuple(range(len(self.loops)))
+        sections = [(every, IN_SUBGROUP)] if self.planar else zip(self.sections, EQUATIONS_OF, strict=True)
         first = 0
-        for loops, size in zip(self.sections, EQUATIONS_OF, strict=True):
+        for loops, size in sections:
             for loop in loops:
                 rows[loop] += tuple(range(first, first + size))
                 first += size
-        return tuple(rows)
+        return (*rows, *((first + number,) for number in range(len(self.couplings))))
+
+    @cached_property
+    def loop_equations(self) -> int:
+        """Number of rows of the Jacobian without those of the couplings, which come last."""
+        return sum(map(len, self.rows[: len(self.loops)]))
+
+    def columns_of(self, number: int) -> set[int]:
+        """The columns that a loop passes, or that a coupling ties, by the number that `order` gives it."""
+        if number >= len(self.loops):
+            return set(self.couplings[number - len(self.loops)])
+        return {column for joint, _ in self.loops[number] for column in self.span(joint)}
 
     @cached_property
     def equations(self) -> int:
@@ -242,7 +256,7 @@ class LoopSystem:
     @cached_property
     def periodic(self) -> bool:
         """Whether the only driven coordinate is the angle of a rotation: a full turn more is then the same input."""
-        if len(self.driven) != 1:
+        if len(self.driven) != 1 or self.couplings:  # behind a gear a full turn more is another pose
             return False
         (driven,) = self.driven
         for chain in self.chains:

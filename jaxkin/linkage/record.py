@@ -1,0 +1,122 @@
+"""Write a linkage as plain data for files (dicts, lists, texts, numbers), and read it: no digit is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, isinf
+from typing import Any
+
+import numpy as np
+
+from jaxkin._traced import traced
+from jaxkin.joints.coupling import Coupling, check_couplings
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.linkage.linkage import Linkage, SpinningPart
+from jaxkin.topology.structure import Structure, structure
+
+
+def as_record(linkage: Linkage) -> dict[str, Any]:
+    """Write a linkage as plain data, which JSON can hold; ValueError inside `jit`, `vmap` and `grad`."""
+    if traced(linkage):
+        raise ValueError("a mechanism whose numbers are traced by JAX cannot be saved: save it outside of jit and grad")
+    found = linkage.structure
+    record: dict[str, Any] = {
+        "parts": list(found.part_names),
+        "fixed": list(found.fixed),
+        "joints": [_of_joint(joint) for joint in linkage.joints],
+    }
+    if found.chords is not None:
+        record["chords"] = list(found.chords)
+    if linkage.couplings:
+        record["couplings"] = [
+            {
+                "name": coupling.name,
+                "coordinates": list(coupling.coordinates),
+                "coefficients": np.asarray(coupling.coefficients, float).tolist(),
+                "offset": float(coupling.offset),
+                "angles": coupling.angles,
+            }
+            for coupling in linkage.couplings
+        ]
+    if linkage.ideal:
+        record["ideal"] = [_of_joint(joint) for joint in linkage.ideal]
+    if linkage.spinning:
+        record["spinning"] = {part.name: part.freedoms for part in linkage.spinning}
+    return record
+
+
+def from_record(record: Mapping[str, Any]) -> Linkage:
+    """Make a linkage of what `as_record` wrote. Raises KeyError, TypeError or ValueError where it is none."""
+    joints = tuple(_joint(each) for each in record["joints"])
+    couplings = check_couplings(
+        [
+            Coupling(
+                each["name"],
+                tuple(each["coordinates"]),
+                np.asarray(each["coefficients"], float),
+                np.asarray(each["offset"], float),
+                each["angles"],
+            )
+            for each in record.get("couplings", [])
+        ],
+        joints,
+    )
+    found = _structure(record, joints, couplings)
+    ideal = tuple(_joint(each) for each in record.get("ideal", []))
+    made = Linkage.of(ideal or joints, found, couplings).with_joints(joints, ideal)
+    spinning = tuple(SpinningPart(name, freedoms) for name, freedoms in record.get("spinning", {}).items())
+    return Linkage(made.joints, found, made.classes, made.ideal, spinning, couplings)
+
+
+def _structure(record: Mapping[str, Any], joints: tuple[Joint, ...], couplings: tuple[Coupling, ...]) -> Structure:
+    coupled = [[name.rpartition(".")[0] for name in coupling.coordinates] for coupling in couplings]
+    described = [(joint.name, *joint.parts) for joint in joints]
+    return structure(record["parts"], described, record["fixed"], record.get("chords"), coupled)
+
+
+def _of_joint(joint: Joint) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "name": joint.name,
+        "parts": list(joint.parts),
+        "kind": str(joint.kind),
+        "movements": list(joint.movements),
+        "frames_1": np.asarray(joint.frames_1, float).tolist(),
+    }
+    if not np.array_equal(joint.frames_1, joint.frames_2):
+        record["frames_2"] = np.asarray(joint.frames_2, float).tolist()
+    if pitch := float(joint.pitch):
+        record["pitch"] = pitch
+    if joint.limits:  # JSON has no infinity
+        record["limits"] = [[None if isinf(end) else end for end in ends] for ends in joint.limits]
+    return record
+
+
+def _joint(record: Mapping[str, Any]) -> Joint:
+    frames_1 = _frames(record, "frames_1")
+    limits = tuple(
+        (-inf if low is None else float(low), inf if high is None else float(high))
+        for low, high in record.get("limits", ())
+    )
+    part1, part2 = record["parts"]
+    return Joint(
+        record["name"],
+        (part1, part2),
+        JointKind(record["kind"]),
+        tuple(record["movements"]),
+        frames_1,
+        _frames(record, "frames_2") if "frames_2" in record else frames_1,
+        np.asarray(record.get("pitch", 0.0), float),
+        limits=limits,
+    )
+
+
+def _frames(record: Mapping[str, Any], side: str) -> np.ndarray:
+    """The frames of a joint on one side, one a movement; ValueError where they are no finite 4x4 poses."""
+    found = np.asarray(record[side], float).reshape(-1, 4, 4)
+    if len(found) != len(record["movements"]) or not np.isfinite(found).all():
+        raise ValueError(
+            f"joint {record['name']!r}: {side} must hold one finite 4x4 pose for each of its "
+            f"{len(record['movements'])} movements, got shape {np.shape(record[side])}"
+        )
+    return found
