@@ -7,6 +7,7 @@ FACADE = {
     "jaxkin.mechanism.mechanism",
     "jaxkin.assembly.blocking_contacts",  # leaves contacts out and makes the mechanism anew
     "jaxkin.assembly.to_mechanism",
+    "jaxkin.io.mechanism_file",
 }
 """A method of the facade gets its code from a higher floor when it is called; that code may make mechanisms."""
 

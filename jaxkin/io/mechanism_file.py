@@ -53,7 +53,7 @@ def read_mechanism(path: str | os.PathLike[str]) -> Mechanism:
             raise ValueError(f'it does not say "format": "{_FORMAT}"')
         if record["version"] > _VERSION:
             raise ValueError(
-                f"it has version {record['version']}, and this jaxkin reads up to {_VERSION}: update jaxkin"
+                f"version {record['version']}, and this jaxkin reads up to {_VERSION}: update jaxkin"
             )
         return Mechanism(
             from_record(record["linkage"]),

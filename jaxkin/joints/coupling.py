@@ -59,7 +59,8 @@ class Coupling:
             f" {'-' if factor < 0 else '+'} {'' if abs(factor) == 1 else f'{abs(factor):g} '}{name}"
             for factor, name in terms
         )
-        return f"{said.removeprefix(' + ').removeprefix(' ')} = {float(self.offset):g}"
+        said = said.removeprefix(" + ") if said.startswith(" + ") else f"-{said.removeprefix(' - ')}"
+        return f"{said} = {float(self.offset):g}"
 
 
 _LEAVES = ("coefficients", "offset")
@@ -136,7 +137,7 @@ def polynomial(
             f"the powers zero, got {coefficients!r}; write [0.0, 1.0] for equal displacements"
         )
     rows = xp.stack([values[1:], xp.asarray([-1.0] + [0.0] * (len(values) - 2))])
-    return Coupling(name or f"polynomial {leader} {follower}", _two(leader, follower), rows, -values[0])
+    return Coupling(name or f"polynomial {leader} {follower}", _two(leader, follower), rows, xp.asarray(-values[0]))
 
 
 def _linear(

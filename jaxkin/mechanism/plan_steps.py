@@ -70,11 +70,9 @@ class Step:
         merged = f"; {self.merged} groups in one step: they share what is left free" if self.merged > 1 else ""
         count = "1 " if self.loops == 1 else ""
         coupled = f"{' with ' if self.loops else ''}{listed(self.couplings)}" if self.couplings else ""
-        return (
-            f"{after}{count}{self.loop_class}{coupled} over {', '.join(self.parts)}: "
-            f"{_count(len(self.unknowns), 'unknown')} of {of_joints}, {_count(self.equations, 'equation')}{redundant}{free}{follow}{merged}; "
-            f"{self.method} ({self.why})"
-        )
+        what = f"{count}{self.loop_class}{coupled} over {', '.join(self.parts)}"
+        equations = f"{_count(len(self.unknowns), 'unknown')} of {of_joints}, {_count(self.equations, 'equation')}"
+        return f"{after}{what}: {equations}{redundant}{free}{follow}{merged}; {self.method} ({self.why})"
 
 
 def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[Step]:

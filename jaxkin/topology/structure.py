@@ -230,8 +230,8 @@ def structure(
     names = tuple(name for name, _, _ in joints)
     check_chords(names, chords)
     ends = tuple((part1, part2) for _, part1, part2 in joints)
-    coupled = tuple(map(tuple, coupled))
-    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords), coupled)
+    ties = tuple(tuple(tied) for tied in coupled)
+    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords), ties)
     check_connected(result._graph, result.parts, result.parts.index(result.row_of[fixed[0]]))
     try:
         result.loops  # noqa: B018  so that chords are refused here, not later

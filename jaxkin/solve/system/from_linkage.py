@@ -108,8 +108,7 @@ def coupled_places(linkage: Linkage, number: int) -> Columns:
 def group_joints(linkage: Linkage, joints: Sequence[Joint], loop_group: LoopGroup) -> Joints:
     """Select the numbers of a loop group from all `joints` (given or ideal) and the couplings of the linkage."""
     inside = [joints[joint] for joint in loop_group.joints]
-    couplings = (linkage.couplings[number] for number in loop_group.couplings)
-    return Joints(
-        *(tuple(getattr(joint, leaf) for joint in inside) for leaf in ("frames_1", "frames_2", "pitch")),
-        tuple(CouplingNumbers(coupling.coefficients, coupling.offset) for coupling in couplings),
-    )
+    couplings = [linkage.couplings[number] for number in loop_group.couplings]
+    leaves = [tuple(getattr(joint, leaf) for joint in inside) for leaf in ("frames_1", "frames_2", "pitch")]
+    numbers = tuple(CouplingNumbers(*(getattr(each, leaf) for leaf in CouplingNumbers._fields)) for each in couplings)
+    return Joints(*leaves, couplings=numbers)
