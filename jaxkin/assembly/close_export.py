@@ -13,6 +13,7 @@ from jaxkin.geometry.part import Part, moved
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coupled import counted_from, coupled
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.reassembly import Reassembly, close
@@ -30,10 +31,13 @@ def closed_export(
     as it stands on its first part, and a note tells how far they are open.
     """
     joints = [_joint(each, frames) for each, frames in zip(exported.constraints, frames_2, strict=True)]
-    if all(np.array_equal(each.frames_1, each.frames_2) for each in joints):
+    couplings = counted_from(exported.couplings, joints, exported.joint_values)
+    obeyed = not any(float(coupling.offset) for coupling in couplings)
+    if obeyed and all(np.array_equal(each.frames_1, each.frames_2) for each in joints):
         return tuple(parts), exported
     described = [(each.name, *each.parts) for each in joints]
     linkage = Linkage.of(joints, structure([part.name for part in parts], described, exported.fixed))
+    linkage = coupled(linkage, couplings)
     held = [
         coordinate
         for each in joints

@@ -6,6 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from jaxkin.joints.combine import Chain
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import freedoms
@@ -50,6 +51,8 @@ class Exported:
     """What is in the export and was not understood, a line each."""
     motors: tuple[str, ...] = ()
     """Names of the constraints that the file says are actuated, or "name.coordinate" of one of several."""
+    couplings: tuple[Coupling, ...] = ()
+    """Between coordinates of the constraints, by name; counted from where the file calls them zero."""
     system: str = "CAD system"
     """What the file is from, for messages: "CAD system", "robot file"."""
 

@@ -8,6 +8,8 @@ from dataclasses import replace
 from itertools import count
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import tied_to_nothing
@@ -21,6 +23,9 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.regularise import Noise
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.coupled import counted_from, coupled
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.topology.bodies import bodies
 
 if TYPE_CHECKING:
@@ -67,8 +72,43 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
     motors = tuple(name for name, joint in owner.items() if joint in mechanism.joints)
     driven = {part for name in motors for part in mechanism.joints[owner[name]].parts}
     spinning = tuple(each for each in mechanism.linkage.spinning if each.name not in driven)
-    linkage = replace(mechanism.linkage, spinning=spinning)
+    linkage = _coupled(replace(mechanism.linkage, spinning=spinning), exported, notes)
+    motors = _independent(linkage, motors, notes)
     return replace(mechanism, linkage=linkage, history=(*notes, *mechanism.history), motors=motors)
+
+
+def _coupled(linkage: Linkage, exported: Exported, notes: list[str]) -> Linkage:
+    """The linkage with the couplings of the export, but for those of joints that are not there; notes name these."""
+    names = {joint.name for joint in linkage.joints if joint.freedoms}
+    kept = []
+    for coupling in exported.couplings:
+        tied = [each if each in names else each.rpartition(".")[0] for each in coupling.coordinates]
+        if missing := [joint for joint in tied if joint not in names]:
+            notes.append(f"{coupling.name!r} is left out: {', '.join(map(repr, missing))} moves nothing here")
+        else:
+            kept.append(coupling)
+    return coupled(linkage, counted_from(kept, linkage.joints, exported.joint_values))
+
+
+def _independent(linkage: Linkage, motors: tuple[str, ...], notes: list[str]) -> tuple[str, ...]:
+    """The motors without those that couplings let follow the others; a note names these."""
+    names = list(dict.fromkeys(name for coupling in linkage.couplings for name in coupling.coordinates))
+    if not names:
+        return motors
+    rows = np.zeros((len(linkage.couplings), len(names)))
+    for row, coupling in zip(rows, linkage.couplings, strict=True):
+        row[[names.index(name) for name in coupling.coordinates]] = np.asarray(coupling.coefficients)[:, 0]
+    places = {name: coordinate(linkage, name) for name in (*motors, *names)}
+    kept = []
+    for motor in motors:
+        column = [float(places[name] == places[motor]) for name in names]
+        more = np.vstack([rows, column])
+        if any(column) and np.linalg.matrix_rank(more) == np.linalg.matrix_rank(rows):
+            notes.append(f"the motor {motor!r} follows the other motors by couplings: drive those alone")
+            continue
+        rows = more if any(column) else rows
+        kept.append(motor)
+    return tuple(kept)
 
 
 def _groups(exported: Exported, said: Said) -> list[Inference]:

@@ -52,9 +52,7 @@ def read_mechanism(path: str | os.PathLike[str]) -> Mechanism:
         if not isinstance(record, dict) or record.get("format") != _FORMAT:
             raise ValueError(f'it does not say "format": "{_FORMAT}"')
         if record["version"] > _VERSION:
-            raise ValueError(
-                f"version {record['version']}, and this jaxkin reads up to {_VERSION}: update jaxkin"
-            )
+            raise ValueError(f"version {record['version']}, and this jaxkin reads up to {_VERSION}: update jaxkin")
         return Mechanism(
             from_record(record["linkage"]),
             record["unit"],

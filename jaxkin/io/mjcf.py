@@ -89,6 +89,7 @@ class _Reader:
         ties = Ties(self.file, self.root, self.compiler, self.defaults, found.poses, found.sites)
         loops = ties.loops({each.name for each in found.joints})
         motors = ties.motors(found.joints)
+        couplings = ties.couplings({each.name: each for each in found.joints})
         joints = (*found.joints, *loops)
         left = [name for name in found.springs if name not in motors]
         if left:
@@ -100,7 +101,8 @@ class _Reader:
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
         fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
         links = tuple(RobotLink(name, found.poses[name], tuple(found.shapes[name])) for name in names)
-        model = RobotModel(links, joints, tuple(fixed), motors, (*found.notes, *ties.notes))
+        notes = (*found.notes, *ties.notes)
+        model = RobotModel(links, joints, tuple(fixed), motors, notes, couplings)
         model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints))
         return replace(model, notes=(*model.notes, *notes))
 

@@ -11,7 +11,9 @@ from jaxkin._names import listed, nearest
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.mjcf_text import Compiler, Defaults
 from jaxkin.io.names import unique
+from jaxkin.io.robot_couplings import SINGLE
 from jaxkin.io.robot_model import WORLD, RobotJoint, numbers, placed, quaternion, tag
+from jaxkin.joints.coupling import Coupling, polynomial, shifted_coupling
 from jaxkin.joints.kinds import JointKind
 
 KINDS = {"connect": JointKind.SPHERICAL, "weld": JointKind.FIXED}
@@ -46,6 +48,8 @@ class Ties:
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
             if said.get("active", "true") == "false":
                 self.notes.append(f"{where} is not active; left out")
+            elif each.tag == "joint":
+                continue  # see `couplings`
             elif each.tag not in KINDS:
                 about = [repr(value) for key, value in each.attrib.items() if key.rstrip("12") in ("joint", "tendon")]
                 self.notes.append(f"{where} between {listed(about)} is not kept: they move on their own")
@@ -54,6 +58,30 @@ class Ties:
                 names.add(made.name)
                 result.append(made)
         return result
+
+    def couplings(self, joints: Mapping[str, RobotJoint]) -> tuple[Coupling, ...]:
+        """Make the couplings of <joint>: `q_1 - r_1 = sum_k a_k (q_2 - r_2)^k`, with `r` as the bodies are written."""
+        result = []
+        for each in self.root.iterfind("equality/joint"):
+            said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
+            if said.get("active", "true") == "false":
+                continue  # noted with the loops
+            names = [said[key] for key in ("joint1", "joint2") if key in said]
+            for name in names:
+                if name not in joints:
+                    raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
+            stiff = [name for name in names if joints[name].kind not in SINGLE]
+            factors = np.array([*map(float, (said.get("polycoef") or "0 1").split()), *[0.0] * 5][:5])
+            if len(names) < 2 or stiff or not factors[1:].any():
+                self.notes.append(
+                    f"{where} of {listed(list(map(repr, names)))} is not kept: it ties no two coordinates"
+                )
+                continue
+            powers = int(np.flatnonzero(factors)[-1]) + 1
+            made = polynomial(names[0], names[1], factors[: max(powers, 2)], name=f"{names[0]} follows {names[1]}")
+            at = np.array([-joints[name].values[0] if joints[name].values else 0.0 for name in names[::-1]])
+            result.append(shifted_coupling(made, at))
+        return tuple(result)
 
     def _loop(self, each: Element, said: dict[str, str], names: Collection[str], where: str) -> RobotJoint:
         """Make the joint of a constraint, closed where the bodies are written unless two sites or a pose say else."""

@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.geometry.pose import Pose, rotation
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 
@@ -78,6 +79,8 @@ class RobotModel:
     """Names of the actuated joints."""
     notes: tuple[str, ...] = ()
     """What was not understood or taken otherwise, a line each, with the element of the file."""
+    couplings: tuple[Coupling, ...] = ()
+    """Between coordinates of the joints, counted from where the file calls them zero."""
     unit: str = "m"
     """Unit of all lengths; "" where the format says none."""
 

@@ -65,6 +65,10 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
         constraints=tuple(constraints),
         notes=(*model.notes, *meshes.notes()),
         motors=tuple(_renamed(name, joint_names) for name in model.motors),
+        couplings=tuple(
+            replace(each, coordinates=tuple(_renamed(name, joint_names) for name in each.coordinates))
+            for each in model.couplings
+        ),
         system="robot file",
     )
     parts, exported = closed_export(parts, exported, [each.frame_2[None] for each in model.joints], model.unit)

@@ -7,7 +7,9 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from jaxkin._names import nearest
 from jaxkin.geometry.pose import Pose
+from jaxkin.io.robot_couplings import follower
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
@@ -24,6 +26,7 @@ from jaxkin.io.robot_model import (
 )
 from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
 from jaxkin.io.xml_tree import read_xml
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 
@@ -106,6 +109,8 @@ class _Reader:
         self.joints: list[RobotJoint] = []
         self.fixed: list[str] = []
         self.motors: list[str] = []
+        self.mimics: list[tuple[str, str, Element, str]] = []
+        """Of each joint that follows another: its name, the prefix of its model, the element, and its place."""
 
     def model(self) -> RobotModel:
         models = self.top.findall("model")
@@ -126,7 +131,11 @@ class _Reader:
             if name not in known:
                 self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
         motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
-        return RobotModel(tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes))
+        joints = {each.name: each for each in self.joints}
+        couplings = tuple(made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None)
+        return RobotModel(
+            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=couplings
+        )
 
     def _frames(self, model: Element) -> Frames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
@@ -173,7 +182,7 @@ class _Reader:
         kind, text = KINDS[said], f"{said} {name!r}"
         for axis, _ in axes:
             if axis is not None and (mimic := axis.find("mimic")) is not None:
-                self.notes.append(f"{where}: that it mimics {mimic.get('joint')!r} is not kept: it moves by itself")
+                self.mimics.append((name, prefix, mimic, where))
         (first, one), (second, other) = axes
         turn = np.eye(3)
         limits: Limits = ()
@@ -193,6 +202,22 @@ class _Reader:
             name, parts, limits = f"{name} 2", (between, ends[1]), self._limits(second, where)
         pitch = self._pitch(each, where) if kind is JointKind.SCREW else 0.0
         self.joints.append(RobotJoint(name, parts, kind, frame, frame, text, limits, pitch=pitch))
+
+    def _mimic(
+        self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
+    ) -> Coupling | None:
+        """The coupling `name = multiplier (leader - reference) + offset`; ValueError for a leader that is not there."""
+        leader = prefix + mimic.get("joint", "")
+        if leader not in joints:
+            raise ValueError(f"{where}: mimic names the unknown joint {leader!r}{nearest(leader, joints)}")
+        if name not in joints:
+            self.notes.append(f"{where}: mimic is left out: the joint has two axes, each a joint of its own here")
+            return None
+        factor, offset, reference = (
+            float(numbers(mimic.findtext(key), 1, where, (none,))[0])
+            for key, none in (("multiplier", 1), ("offset", 0), ("reference", 0))
+        )
+        return follower(name, leader, factor, offset - factor * reference, joints, f"{where}: mimic", self.notes)
 
     def _axis(self, axis: Element | None, own: Pose, frames: Frames, where: str) -> np.ndarray:
         """The direction of an axis in the frame of the model; z where none is written."""

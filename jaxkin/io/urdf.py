@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin._names import nearest
 from jaxkin.geometry.pose import Pose
+from jaxkin.io.robot_couplings import follower
 from jaxkin.io.robot_loops import Loops, read_loops
 from jaxkin.io.robot_model import (
     RobotJoint,
@@ -24,6 +25,7 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
 
@@ -86,7 +88,8 @@ class _Reader:
                 f"{self.file}: {tag(joint)} inside <gazebo> is not read: write the loop into a file of loops"
                 for joint in each.iter("joint")
             ]
-        return RobotModel(links, (*joints, *loops), (base,), motors, tuple(self.notes))
+        couplings = [each for element in order if (each := self._mimic(element, known)) is not None]
+        return RobotModel(links, (*joints, *loops), (base,), motors, tuple(self.notes), tuple(couplings))
 
     def _attributes(self) -> list[str]:
         return [value for each in self.root.iter() for value in each.attrib.values()]
@@ -151,11 +154,6 @@ class _Reader:
         self.notes += unknown_parts(each, JOINT, where)
         if said == "floating" and kind is KINDS[said]:
             self.notes.append(f"{where}: it floats: {parts[1]!r} is held at rest on {parts[0]!r}")
-        if (mimic := each.find("mimic")) is not None:
-            self.notes.append(
-                f"{where}: that it mimics {mimic.get('joint')!r} (times {mimic.get('multiplier', '1')}, plus "
-                f"{mimic.get('offset', '0')}) is not kept: it moves by itself"
-            )
         turn = np.eye(3)
         if kind in (JointKind.REVOLUTE, JointKind.PRISMATIC, JointKind.PLANAR):
             axis = each.find("axis")
@@ -165,6 +163,20 @@ class _Reader:
         frame = pose @ placed(turn, (0, 0, 0))
         limits = self._limits(each, where) if said in ("revolute", "prismatic") and kind is KINDS[said] else ()
         return RobotJoint(name, parts, kind, frame, frame, f"{said} {name!r}", limits)
+
+    def _mimic(self, each: Element, joints: dict[str, RobotJoint]) -> Coupling | None:
+        """The coupling of a joint that follows another one; None where it follows none, or does not move."""
+        found = each.find("mimic")
+        name, where = each.get("name", ""), f"{self.file}: {tag(each)}: mimic"
+        if found is None:
+            return None
+        leader = found.get("joint", "")
+        if leader not in joints:
+            raise ValueError(f"{where} names the unknown joint {leader!r}{nearest(leader, joints)}")
+        factor, offset = (
+            float(numbers(found.get(key), 1, where, (none,))[0]) for key, none in (("multiplier", 1), ("offset", 0))
+        )
+        return follower(name, leader, factor, offset, joints, where, self.notes)
 
     def _limits(self, each: Element, where: str) -> Limits:
         """The limits of a joint: none where neither is written, and zero for the one that is not."""

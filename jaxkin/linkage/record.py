@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import inf, isinf
 from typing import Any
 
 import numpy as np
 
 from jaxkin._traced import traced
-from jaxkin.joints.coupling import Coupling, check_couplings
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.linkage.coupled import coupled
 from jaxkin.linkage.linkage import Linkage, SpinningPart
-from jaxkin.topology.structure import Structure, structure
+from jaxkin.topology.structure import structure
 
 
 def as_record(linkage: Linkage) -> dict[str, Any]:
@@ -49,30 +51,22 @@ def as_record(linkage: Linkage) -> dict[str, Any]:
 def from_record(record: Mapping[str, Any]) -> Linkage:
     """Make a linkage of what `as_record` wrote. Raises KeyError, TypeError or ValueError where it is none."""
     joints = tuple(_joint(each) for each in record["joints"])
-    couplings = check_couplings(
-        [
-            Coupling(
-                each["name"],
-                tuple(each["coordinates"]),
-                np.asarray(each["coefficients"], float),
-                np.asarray(each["offset"], float),
-                each["angles"],
-            )
-            for each in record.get("couplings", [])
-        ],
-        joints,
-    )
-    found = _structure(record, joints, couplings)
-    ideal = tuple(_joint(each) for each in record.get("ideal", []))
-    made = Linkage.of(ideal or joints, found, couplings).with_joints(joints, ideal)
-    spinning = tuple(SpinningPart(name, freedoms) for name, freedoms in record.get("spinning", {}).items())
-    return Linkage(made.joints, found, made.classes, made.ideal, spinning, couplings)
-
-
-def _structure(record: Mapping[str, Any], joints: tuple[Joint, ...], couplings: tuple[Coupling, ...]) -> Structure:
-    coupled = [[name.rpartition(".")[0] for name in coupling.coordinates] for coupling in couplings]
+    couplings = [
+        Coupling(
+            each["name"],
+            tuple(each["coordinates"]),
+            np.asarray(each["coefficients"], float),
+            np.asarray(each["offset"], float),
+            each["angles"],
+        )
+        for each in record.get("couplings", [])
+    ]
     described = [(joint.name, *joint.parts) for joint in joints]
-    return structure(record["parts"], described, record["fixed"], record.get("chords"), coupled)
+    found = structure(record["parts"], described, record["fixed"], record.get("chords"))
+    ideal = tuple(_joint(each) for each in record.get("ideal", []))
+    spinning = tuple(SpinningPart(name, freedoms) for name, freedoms in record.get("spinning", {}).items())
+    made = coupled(Linkage.of(joints, found), couplings)
+    return replace(made.with_joints(joints, ideal), spinning=spinning)
 
 
 def _of_joint(joint: Joint) -> dict[str, Any]:

@@ -15,11 +15,12 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
-from jaxkin.joints.coupling import Coupling, check_couplings
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.evidence import Bond
 from jaxkin.joints.joint import Joint, check_joints
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.closure_equations import ClosureEquations, closure_equations
+from jaxkin.linkage.coupled import coupled
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
@@ -83,11 +84,9 @@ class Mechanism:
         coordinate that is not there or of the wrong kind, or `align` is wrong.
         """
         check_joints(joints)
-        couplings = check_couplings(couplings, joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
-        coupled = [[name.rpartition(".")[0] for name in coupling.coordinates] for coupling in couplings]
-        found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed, coupled=coupled)
-        linkage, notes = aligned(Linkage.of(joints, found, couplings), asked_noise(align), unit)
+        found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
+        linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), unit)
         return Mechanism(linkage, unit, alignment=notes)
 
     @property
@@ -253,6 +252,10 @@ class Mechanism:
         from jaxkin.dimensions.frames import with_points
 
         return self.with_linkage(with_points(self.linkage, points))._aligned(asked_noise(align))
+
+    def with_couplings(self, couplings: Sequence[Coupling]) -> Mechanism:
+        """The mechanism with coordinates tied by further couplings, such as `jk.gear`; ValueError as by `build`."""
+        return replace(self, linkage=coupled(self.linkage, couplings))
 
     def with_linkage(self, linkage: Linkage) -> Mechanism:
         """The mechanism of a linkage with the same joints in other places; solids are left behind."""

@@ -19,10 +19,10 @@ from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, inverse, turned_by
-from jaxkin.joints.coupling import Coupling, shifted_coupling
 from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.screws import chain, freedoms
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.coupled import counted_from
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.moved_solids import moved_solids
 from jaxkin.mobility.alignment import aligned, asked_noise, extent
@@ -140,8 +140,9 @@ def close(
         shifted(_placed(joint, places[joint.parts[0]], q), q)
         for joint, q in zip(given.joints, coordinates, strict=True)
     ]
-    moved_linkage = replace(given.with_joints(joints), couplings=_shifted_couplings(given, coordinates))
-    linkage, notes = aligned(moved_linkage, noise, mechanism.unit)
+    by_name = {joint.name: q for joint, q in zip(given.joints, coordinates, strict=True)}
+    couplings = counted_from(given.couplings, given.joints, by_name)
+    linkage, notes = aligned(replace(given.with_joints(joints), couplings=couplings), noise, mechanism.unit)
     solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
     history = mechanism.history
     if left_out:
@@ -157,7 +158,6 @@ def close(
     )
     moves = {part: _move(given, part, place) for part, place in places.items()}
     starts = STARTS * len(searched)
-    by_name = {joint.name: q for joint, q in zip(given.joints, coordinates, strict=True)}
     return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None, places, by_name)
 
 
@@ -192,17 +192,6 @@ def _close_group(
     if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
     return _ClosedGroup(loops, q, held, before, found.gap, found.gap <= enough)
-
-
-def _shifted_couplings(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> tuple[Coupling, ...]:
-    """The couplings, counted from displacements `coordinates` of all joints; an offset left by rounding is zero."""
-    found = []
-    for coupling in linkage.couplings:
-        places = [coordinate(linkage, name) for name in coupling.coordinates]
-        shifted = shifted_coupling(coupling, np.array([coordinates[joint][k] for joint, k in places]))
-        rounding = 1e-12 * np.abs(shifted.coefficients).max()
-        found.append(replace(shifted, offset=np.zeros(())) if abs(shifted.offset) < rounding else shifted)
-    return tuple(found)
 
 
 def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:

@@ -211,15 +211,13 @@ def structure(
     joints: Sequence[tuple[str, str, str]],
     fixed: Sequence[str],
     chords: Sequence[str] | None = None,
-    coupled: Sequence[Sequence[str]] = (),
 ) -> Structure:
     """Make the structure of a mechanism from its parts, joints (name, part 1, part 2) and fixed parts.
 
     `chords` names the joints that a spanning tree leaves out. Each chord closes one loop with the tree (Eq. 3). The
     loop travels its chord from part 1 to part 2, or is reversed where that makes all loops travel a common joint in
     the same direction. Without `chords`, a basis of short loops of that kind is found (`cycle_basis`), in which the
-    last joint of each loop group is travelled from part 1 to part 2. `coupled` names for each coupling the joints that
-    it ties.
+    last joint of each loop group is travelled from part 1 to part 2.
 
     A joint between two fixed parts is a loop of one joint, which closes only while the joint stays at rest. Raises
     ValueError for names that repeat or are unknown, a joint between a part and itself, no fixed part, parts that no
@@ -230,8 +228,7 @@ def structure(
     names = tuple(name for name, _, _ in joints)
     check_chords(names, chords)
     ends = tuple((part1, part2) for _, part1, part2 in joints)
-    ties = tuple(tuple(tied) for tied in coupled)
-    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords), ties)
+    result = Structure(tuple(parts), names, ends, tuple(fixed), None if chords is None else tuple(chords))
     check_connected(result._graph, result.parts, result.parts.index(result.row_of[fixed[0]]))
     try:
         result.loops  # noqa: B018  so that chords are refused here, not later

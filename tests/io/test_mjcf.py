@@ -77,7 +77,7 @@ def test_a_body_of_several_joints_has_parts_between_them(tmp_path):
 def test_what_is_not_kept_is_named(tmp_path):
     mechanism = load(
         tmp_path,
-        equality='<joint name="e" joint1="free1" joint2="free2"/><weld body1="base" active="false"/>',
+        equality='<joint name="e" joint1="free1"/><weld body1="base" active="false"/>',
         actuator='<motor name="s" site="x"/><motor name="p" tendon="t"/>',
         more='<tendon><fixed name="t"><joint joint="free2" coef="1"/></fixed><spatial name="u"/></tendon><odd/>',
     ).mechanism()
@@ -85,6 +85,19 @@ def test_what_is_not_kept_is_named(tmp_path):
     for said in ("<joint name='e'>", "<weld> is not active", "<motor name='s'>", "tendon 't'", "'u'", "<odd>"):
         assert said in notes
     assert mechanism.motors == ("motor", "free2")  # of the tendon
+
+
+def test_joints_that_are_equal_by_a_polynomial_follow_each_other(tmp_path):
+    """MuJoCo counts both from their references: here the follower stands at 5 degrees where the leader is at 10."""
+    more = '<joint name="e" joint1="lid" joint2="motor" polycoef="0 0.5 0.25 0 0"/>'
+    lid = '<joint name="lid" class="free" ref="5"/>'
+    text = GRIPPER.replace("</body></worldbody>", f'<body name="lid">{lid}</body></body></worldbody>')
+    assembly = load(tmp_path, text, equality=more, ref="10", actuator='<position joint="lid"/>')
+    mechanism = assembly.mechanism()
+    assert mechanism.motors == ("motor",) and any("'lid' follows the other motors" in note for note in mechanism.notes)
+    angles = np.linspace(0, 0.5, 6)
+    motion = mechanism.sweep({"motor": angles}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["lid"][:, 0], 0.5 * angles + 0.25 * angles**2, atol=1e-14)
 
 
 def test_sites_that_are_apart_are_closed(tmp_path):

@@ -125,8 +125,28 @@ def test_a_serial_arm_keeps_its_limits_its_motors_and_its_solids(tmp_path):
     assert limits == {"shoulder": ((-1.0, 2.0),), "elbow": (), "slide": ((0.0, 0.3),)}
     assert "-1 to 2" in str(mechanism) and "Motors: shoulder" in str(mechanism)
     np.testing.assert_allclose(assembly.parts[1].box, [[-0.05, -0.05, 1.0], [0.05, 0.05, 1.4]], atol=1e-12)
-    assert any("<joint name='elbow'>" in note and "mimics 'shoulder'" in note for note in mechanism.notes)
+    motion = mechanism.sweep({"shoulder": np.linspace(0, 1, 5)}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["elbow"], 2 * motion.coordinates["shoulder"], atol=1e-14)
     assert mechanism.with_points({"slide": (0, 0, 2)}).joints["shoulder"].limits == ((-1.0, 2.0),)
+
+
+def test_a_joint_that_mimics_with_an_offset_stands_where_the_offset_says(tmp_path):
+    """The zero of the file does not obey it: the robot is assembled where it does, and the motor stays if it can."""
+    assembly = write(tmp_path, text=ARM.replace('multiplier="2"', 'multiplier="2" offset="0.25"'))
+    mechanism = assembly.mechanism()
+    assert any("the pose of the file is open" in note for note in mechanism.notes)
+    values = assembly.exported.joint_values
+    np.testing.assert_allclose([values["shoulder"][0], values["elbow"][0]], [0.0, 0.25], atol=1e-9)
+    motion = mechanism.sweep({"shoulder": np.linspace(0, 1, 5)}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["elbow"], 2 * motion.coordinates["shoulder"], atol=1e-12)
+
+
+def test_a_mimic_of_nothing_is_refused_and_one_of_a_weld_is_named(tmp_path):
+    with pytest.raises(ValueError, match=r"mimic names the unknown joint 'sholder'; did you mean 'shoulder'"):
+        write(tmp_path, text=ARM.replace('mimic joint="shoulder"', 'mimic joint="sholder"'))
+    more = """<link name="x"/><joint name="tool" type="fixed"><parent link="hand"/><child link="x"/>
+    <mimic joint="shoulder"/></joint>"""
+    assert any("'tool' has not one coordinate" in note for note in write(tmp_path, more).mechanism().notes)
 
 
 def test_a_missing_mesh_and_unknown_elements_are_named(tmp_path):
