@@ -12,6 +12,7 @@ from jaxkin._names import listed, nearest
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
 from jaxkin.io.ranges import Range, Values, in_radians
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
 
@@ -32,6 +33,7 @@ class Study:
     rigid: Sequence[Sequence[str]] = ()
     ignore: Sequence[Sequence[str]] = ()
     joints: Sequence[Joint] = ()
+    couplings: Sequence[Coupling] = ()
     combine: bool = True
     exclude: Sequence[str] = ()
     """Parts to leave out."""
@@ -71,6 +73,11 @@ class Study:
     @cached_property
     def mechanism(self) -> Mechanism:
         """The mechanism; ValueError where what is said about it makes none."""
+        found = self._uncoupled()
+        return found.with_couplings(self.couplings) if self.couplings else found
+
+    def _uncoupled(self) -> Mechanism:
+        """The mechanism without the couplings of the study."""
         if self.assembly is None:
             return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
         if not self.held:
@@ -132,6 +139,7 @@ def load_study(
         "ignore": said.ignore,
         "exclude": said.exclude,
     }
+    common |= {"couplings": said.made_couplings(path.name)}
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
     common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
     common |= {"clearance": said.clearance}

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable
 from functools import partial
 from inspect import signature
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from jaxkin._files import check_file
-from jaxkin._names import closest
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
+from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
+from jaxkin.io.study_tables import STRICT, Number, one_of
 from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
+from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS
 
@@ -29,18 +30,10 @@ JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAN
 MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
-Number = Annotated[float, Field(allow_inf_nan=False)]
 Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
 Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
-
-
-def _one_of(known: Iterable[str], value: object) -> object:
-    if value not in list(known):
-        listed = ", ".join(map(repr, filter(None, known)))
-        raise ValueError(f"expected one of {listed}, got {value!r}{closest(value, known)}")
-    return value
 
 
 def _geometry(value: object) -> object:
@@ -61,13 +54,10 @@ def _as_range(value: object) -> object:
     raise ValueError(f"expected a text {FORM}, a list of numbers, or a table, got {value!r}")
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-
-class ToleranceTable(_Table):
+class ToleranceTable(BaseModel):
     """What still counts as touching: the arguments of `Assembly.contacts`."""
 
+    model_config = STRICT
     length: Annotated[Number, Field(gt=0)] | None = None
     angle: Annotated[Number, Field(gt=0)] | None = None
     fit: Annotated[Number, Field(ge=0)] | None = None
@@ -77,10 +67,11 @@ class ToleranceTable(_Table):
         return self.model_dump(exclude_none=True)
 
 
-class JointTable(_Table):
+class JointTable(BaseModel):
     """A joint by hand: its kind, its two parts, and what the function of that kind takes."""
 
-    kind: Annotated[str, BeforeValidator(partial(_one_of, JOINT_FUNCTIONS))]
+    model_config = STRICT
+    kind: Annotated[str, BeforeValidator(partial(one_of, JOINT_FUNCTIONS))]
     parts: Pair
     point: Triple | None = None
     axis: Triple | None = None
@@ -90,7 +81,7 @@ class JointTable(_Table):
     pitch: Number | None = None
     state: str | None = None
     frames: list[Frame] | None = None
-    region: Annotated[str, BeforeValidator(partial(_one_of, ("circle",)))] | None = None
+    region: Annotated[str, BeforeValidator(partial(one_of, ("circle",)))] | None = None
     off: bool = False
 
     @model_validator(mode="after")
@@ -112,14 +103,15 @@ class JointTable(_Table):
         return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
 
 
-class RangeTable(_Table):
+class RangeTable(BaseModel):
     """The displacements of a joint coordinate: `values`, or `poses` of them evenly `from` one `to` another."""
 
+    model_config = STRICT
     first: Number | None = Field(None, alias="from")
     last: Number | None = Field(None, alias="to")
     poses: Annotated[int, Field(ge=1, le=MAX_POSES)] | None = None
     values: list[Number] | None = None
-    unit: Annotated[str, BeforeValidator(partial(_one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
+    unit: Annotated[str, BeforeValidator(partial(one_of, ("", *RADIANS, *filter(None, METRES))))] = ""
 
     @model_validator(mode="after")
     def _one_way(self) -> RangeTable:
@@ -138,18 +130,20 @@ class RangeTable(_Table):
 Drive = dict[str, Annotated[RangeTable, BeforeValidator(_as_range)]]
 
 
-class InsteadTable(_Table):
+class InsteadTable(BaseModel):
     """What is taken in place of the fixed parts, or of the drive, or of both, that stand elsewhere in the study."""
 
+    model_config = STRICT
     fixed: Annotated[list[str], Field(min_length=1)] | None = None
     drive: Drive | None = None
 
 
-class StudyFile(_Table):
+class StudyFile(BaseModel):
     """The keys of a study."""
 
+    model_config = STRICT
     geometry: Annotated[Any, BeforeValidator(_geometry)] = None
-    unit: Annotated[str, BeforeValidator(partial(_one_of, METRES))] = ""
+    unit: Annotated[str, BeforeValidator(partial(one_of, METRES))] = ""
     rename: dict[str, str] = {}
     fixed: Annotated[list[str], Field(min_length=1)]
     rigid: list[Annotated[list[str], Field(min_length=1)]] = []
@@ -162,6 +156,7 @@ class StudyFile(_Table):
     align: Annotated[Number, Field(ge=0, le=MISALIGNMENT_LEVELS[-1])] | None = None
     tolerance: ToleranceTable = ToleranceTable()
     joints: dict[str, JointTable] = {}
+    couplings: dict[str, CouplingTable] = {}
     drive: Drive = {}
     instead: InsteadTable = InsteadTable()
 
@@ -187,6 +182,13 @@ class StudyFile(_Table):
                 raise ValueError(f"{file}: {error}") from None
         return tuple(made)
 
+    def made_couplings(self, file: str) -> tuple[Coupling, ...]:
+        """The couplings; ValueError for a ratio of zero, and the like."""
+        try:
+            return tuple(table.made(name) for name, table in self.couplings.items())
+        except ValueError as error:
+            raise ValueError(f"{file}: {error}") from None
+
     def ranges(self) -> dict[str, Range]:
         """The drive as it was written."""
         drive = self.drive if self.instead.drive is None else self.instead.drive
@@ -197,6 +199,7 @@ _KEYS = {
     (): tuple(StudyFile.model_fields),
     ("tolerance",): tuple(ToleranceTable.model_fields),
     ("joints", "*"): tuple(JointTable.model_fields),
+    ("couplings", "*"): tuple(CouplingTable.model_fields),
     ("drive", "*"): ("from", "to", "poses", "values", "unit"),
     ("instead",): tuple(InsteadTable.model_fields),
     ("instead", "drive", "*"): ("from", "to", "poses", "values", "unit"),

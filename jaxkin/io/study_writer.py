@@ -17,6 +17,7 @@ from jaxkin.assembly.inferred import TOLD
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
+from jaxkin.io.study_couplings import coupling_keys
 from jaxkin.io.toml_text import comment, toml, toml_key
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.joint import Joint
@@ -71,6 +72,7 @@ def write_study(
         *_head(mechanism, geometry, assumptions),
         *_bodies(mechanism, bodies, exclude, choices),
         *_joints(mechanism, choices),
+        *_couplings(mechanism),
         *_drive(mechanism, drive),
     ]
     with whole(Path(path)) as draft:
@@ -128,6 +130,14 @@ def _joints(mechanism: Mechanism, choices: Choices) -> list[str]:
         kind, keys = _keys(joint)
         lines += [f"kind = {toml(kind)}", f"parts = {toml(joint.parts)}"]
         lines += [f"{key} = {toml(value)}" for key, value in keys.items()]
+    return lines
+
+
+def _couplings(mechanism: Mechanism) -> list[str]:
+    lines = []
+    for coupling in mechanism.linkage.couplings:
+        lines += ["", f"[couplings.{toml(coupling.name)}]"]
+        lines += [f"{key} = {toml(value)}" for key, value in coupling_keys(coupling).items()]
     return lines
 
 
