@@ -25,7 +25,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.alignment import aligned, asked_noise
 from jaxkin.mobility.mobility import Mobility, mobility
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.topology.bodies import bodies
+from jaxkin.topology.bodies import bodies, members
 from jaxkin.topology.structure import Structure, structure
 
 if TYPE_CHECKING:
@@ -41,9 +41,8 @@ if TYPE_CHECKING:
 class Mechanism:
     """Parts held together by joints, in their assembled pose: what users hold.
 
-    A pytree of its linkage: its leaves are the frames and pitches of the joints; names and structure are static, so
-    that a new geometry compiles nothing anew. Solids, notes and contacts are for pictures and tables only: they are
-    left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
+    A pytree of its linkage, whose names and structure are static, so that a new geometry compiles nothing anew. Solids,
+    notes and contacts are left behind where JAX takes a mechanism apart (`jit`, `grad`, `vmap`).
     """
 
     linkage: Linkage
@@ -72,16 +71,14 @@ class Mechanism:
         unit: str = "",
         align: float | int | None = None,
     ) -> Mechanism:
-        """Make a mechanism of joints written by hand, in world coordinates of its assembled pose.
+        """Make a mechanism of joints written by hand, in world coordinates of its assembled pose, and of couplings.
 
-        `couplings` tie coordinates of joints: `jk.gear`, `jk.rack`, `jk.belt`, `jk.differential`, `jk.relation`.
+        Rounded numbers let the loops of many mechanisms close at the assembled pose only: their frames are moved by at
+        most `align`, in radians and over the size of the mechanism, so that they close throughout, and `notes` say by
+        how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
 
-        Numbers that were rounded let the loops of many mechanisms close at the assembled pose only: their frames are
-        moved by at most `align`, in radians and over the size of the mechanism, so that they close throughout, and
-        `notes` say by how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
-
-        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, a coupling is on a
-        coordinate that is not there or of the wrong kind, or `align` is wrong.
+        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, a coupling ties what
+        is not there, or `align` is wrong.
         """
         check_joints(joints)
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
@@ -118,10 +115,7 @@ class Mechanism:
     def bodies(self) -> dict[str, tuple[str, ...]]:
         """Parts that move as one, by the first of each body: the fixed ones, and those of joints without freedoms."""
         welds = [joint.parts for joint in self.all_joints if joint.kind is JointKind.FIXED]
-        found: dict[str, tuple[str, ...]] = {}
-        for part, body in bodies(self.parts, self.fixed, welds).items():
-            found[body] = (*found.get(body, ()), part)
-        return found
+        return members(bodies(self.parts, self.fixed, welds))
 
     @cached_property
     def joints(self) -> Mapping[str, Joint]:
@@ -130,9 +124,8 @@ class Mechanism:
 
     def joints_between(self, part1: str, part2: str) -> tuple[str, ...]:
         """Names of the joints between two parts, in whichever order. ValueError for an unknown part."""
-        for part in (part1, part2):
-            if part not in self.parts:
-                raise ValueError(f"there is no part {part!r}{nearest(part, self.parts)}")
+        if unknown := [part for part in (part1, part2) if part not in self.parts]:
+            raise ValueError(f"there is no part {unknown[0]!r}{nearest(unknown[0], self.parts)}")
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
 
     def sweep(
@@ -159,8 +152,7 @@ class Mechanism:
     ) -> Pose:
         """Solve one pose: `drive` gives one displacement for each driven coordinate, all else is as in `sweep`.
 
-        The pose is found along the branch of the assembled pose. Raises PoseError where it is not on that branch; with
-        `throw=False`, which is needed inside `jit`, `vmap` and `grad`, its `status` tells.
+        Raises PoseError off the branch of the assembled pose, unless `throw=False`, which `jit` and `grad` need.
         """
         from jaxkin.mechanism.pose import Pose, one_pose
 
@@ -177,11 +169,8 @@ class Mechanism:
     ) -> Stream:
         """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
 
-        Together they are what `sweep` gives: each goes on where the one before it ends, on its branch, and full turns
-        are counted through. All are solved by one compiled program, anew whenever the result is gone through. Its `len`
-        is the number of chunks: `rich.progress.track(mechanism.stream(...))` draws a bar.
-
-        Raises ValueError as `sweep` does, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
+        Together they are what `sweep` gives, by one program, anew whenever the result is gone through; its `len` is the
+        number of chunks. Raises ValueError as `sweep`, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
         """
         from jaxkin.mechanism.stream import Stream
 
@@ -190,11 +179,9 @@ class Mechanism:
     def closure(self, coordinates: Mapping[str, object]) -> ClosureEquations:
         """Evaluate the closure equations of all loops and their Jacobian, for optimisers of your own.
 
-        `coordinates` gives for a joint, by name, one number for each of its coordinates, in radians and lengths of the
-        mechanism from the assembled pose, as a row of `motion.coordinates` has them; joints that are not named rest.
-        The residual has twelve equations a loop (Eq. 11), lengths over the characteristic length; the columns of the
-        Jacobian are named by `coordinates` of the result. A ball has its three angles, whose Jacobian is singular where
-        phi is a quarter turn. Works inside `jit`, `vmap` and `grad`.
+        `coordinates` gives for a joint, by name, one number for each of its coordinates, as a row of
+        `motion.coordinates` has them; others rest. Twelve equations a loop (Eq. 11), none of couplings. A ball has its
+        three angles, which are singular where phi is a quarter turn.
 
         Raises ValueError for a joint that is not there, and where its numbers are not as many as its coordinates.
         """
@@ -207,13 +194,11 @@ class Mechanism:
         `(part, joint, joint)` is the distance: of two balls, of a ball and an axis, of two axes along their common
         normal; from a plane it is counted along its normal. `(part, joint, joint, "angle")` is the angle between two
         axes (a plane has its normal), in radians. `(part, joint, other, "offset")` is how far along the axis of the
-        first joint, from its origin, the other one stands: the foot of a ball, or of the common normal of the two axes.
-        `(joint, "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the
-        sum of their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
-        parts are one part; a joint without movement has no lengths.
-
-        Each is measured on its own part, and is the same in a closed and in an open pose; only where a slide or a screw
-        stands along its own axis follows from the pose in which its two frames coincide.
+        first joint the other one stands: the foot of a ball, or of the common normal of the two axes. `(joint,
+        "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the sum of
+        their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
+        parts are one part; a joint without movement has no lengths. Each is measured on its own part, and is the same
+        in a closed and in an open pose; only where a slide or a screw stands follows from the pose.
         """
         from jaxkin.dimensions.lengths import lengths
 
@@ -223,13 +208,10 @@ class Mechanism:
         """The mechanism with some of its `lengths` changed and all others as they are.
 
         Of the two joints that a key names the first stays where it is on its part and the second moves, with all that
-        coincide with it; the part's third joint and further ones stay too, and their distances and angles to the moved
-        one are kept (where a part has three axes or more that are not parallel, their offsets follow). Axes that
-        coincide move apart along the x axis of the first one's frame. The loops are closed again, on the branch of the
-        assembled pose, when the mechanism is swept; solids, which do not follow, are left behind.
-
-        Works inside `jax.jit`, `vmap` and `grad`. Raises ValueError for a length that does not exist, is negative, or
-        cannot hold together with those to be kept; where the numbers are traced the latter gives NONFINITE poses.
+        coincide with it; the part's further joints stay too, and their distances and angles to the moved one are kept
+        (of three axes or more that are not parallel, offsets follow). Axes that coincide move apart along the x axis
+        of the first one's frame. A sweep closes the loops again; solids are left behind. Raises ValueError for a length
+        that does not exist, is negative, or cannot hold together with those kept; of traced ones poses are NONFINITE.
         """
         from jaxkin.dimensions.lengths import with_lengths
 
@@ -238,20 +220,24 @@ class Mechanism:
     def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
 
-        A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only: then
-        lengths of this part change and those of the other one do not. Numbers are aligned as by `build`. Works inside
-        `jit`, `vmap` and `grad`, where they are left as they are. Raises ValueError for names that do not exist, for
-        what is no rigid pose and for a wrong `align`.
+        A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only.
+        Numbers are aligned as by `build` unless traced. ValueError for unknown names and for what is no rigid pose.
         """
         from jaxkin.dimensions.frames import with_frames
 
-        return self.with_linkage(with_frames(self.linkage, frames))._aligned(asked_noise(align))
+        return self._aligned_with(with_frames(self.linkage, frames), align)
 
     def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
         """The mechanism with origins of joint frames moved to given points; keys and `align` as in `with_frames`."""
         from jaxkin.dimensions.frames import with_points
 
-        return self.with_linkage(with_points(self.linkage, points))._aligned(asked_noise(align))
+        return self._aligned_with(with_points(self.linkage, points), align)
+
+    def at(self, motion: Motion | Pose, index: int = 0) -> Mechanism:
+        """The mechanism assembled as in pose `index` of its motion: see `jaxkin.mechanism.placed_at.mechanism_at`."""
+        from jaxkin.mechanism.placed_at import mechanism_at
+
+        return mechanism_at(self, motion, index)
 
     def with_couplings(self, couplings: Sequence[Coupling]) -> Mechanism:
         """The mechanism with coordinates tied by further couplings, such as `jk.gear`; ValueError as by `build`."""
@@ -261,15 +247,12 @@ class Mechanism:
         """The mechanism of a linkage with the same joints in other places; solids are left behind."""
         return replace(self, linkage=linkage, solids=())
 
-    def _aligned(self, noise: float) -> Mechanism:
-        linkage, notes = aligned(self.linkage, noise, self.unit)
-        return replace(self, linkage=linkage, alignment=notes)
+    def _aligned_with(self, linkage: Linkage, align: float | int | None) -> Mechanism:
+        found, notes = aligned(linkage, asked_noise(align), self.unit)
+        return replace(self, linkage=found, alignment=notes, solids=())
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the mechanism into one file (.json), without solids; `jk.load(path).mechanism()` reads it back.
-
-        Joint frames, couplings and limits are kept to the last digit. See `jaxkin.io.mechanism_file`.
-        """
+        """Write the mechanism into one file (.json), without solids; `jk.load(path).mechanism()` reads it back."""
         from jaxkin.io.mechanism_file import save_mechanism
 
         return save_mechanism(self, path)
@@ -285,10 +268,7 @@ class Mechanism:
         return mobility(self.linkage, self.unit)
 
     def blocking_contacts(self) -> tuple[BlockingContacts, ...]:
-        """Find the contacts, or joints by hand, without which a mechanism that cannot move could; the likeliest first.
-
-        See `jaxkin.assembly.blocking_contacts`. None where it moves, or where no few of them help.
-        """
+        """Find the contacts, or joints by hand, without which what cannot move could; the likeliest first."""
         from jaxkin.assembly.blocking_contacts import blocking_contacts
 
         return blocking_contacts(self)
@@ -296,13 +276,8 @@ class Mechanism:
     def close(self, *, hold: Iterable[str] = (), align: float | int | None = None) -> Reassembly:
         """Close the loops without a drive, where the given pose is open, and place the joints anew there.
 
-        Damped Newton steps lead from the given pose to a closed one near it, if they can. The result tells how far each
-        part has been moved, and whether other starts lead to other assembly modes; its `mechanism` is the re-assembled
-        one, with all lengths as they were (those along slides are counted from where these stand now) and its solids
-        moved. Where the loops cannot be closed, `closed` is False and `print` says which disagree. Coordinates named in
-        `hold` stay as they are given: motors, for one. Numbers are aligned as by `build`.
-
-        Raises ValueError inside `jit`, `vmap` and `grad`, for names that are not there, and for a wrong `align`.
+        The result tells how far each part has been moved, of other assembly modes, and which loops cannot be closed;
+        its `mechanism` is the re-assembled one, all lengths as they were. Coordinates in `hold` stay as they are given.
         """
         from jaxkin.mechanism.reassembly import close
 

@@ -13,19 +13,14 @@ from dataclasses import astuple, dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from jaxtyping import Float
 
 from jaxkin._names import listed
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose, inverse, turned_by
-from jaxkin.joints.joint import Joint, shifted
-from jaxkin.joints.screws import chain, freedoms
+from jaxkin.geometry.pose import Pose, turned_by
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.coupled import counted_from
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.moved_solids import moved_solids
-from jaxkin.mobility.alignment import aligned, asked_noise, extent
+from jaxkin.mechanism.placed_at import placed_at
+from jaxkin.mobility.alignment import asked_noise, extent
 from jaxkin.mobility.assembly_modes import STARTS, closed_from_elsewhere, other_modes
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.mobility.open_loops import Opening, tell_opening
@@ -135,27 +130,9 @@ def close(
     for group in moved:
         for index, columns in group.loops.slices.items():
             coordinates[index] = (group.q * group.loops.units)[columns]
-    places = _places(given, coordinates)
-    joints = [
-        shifted(_placed(joint, places[joint.parts[0]], q), q)
-        for joint, q in zip(given.joints, coordinates, strict=True)
-    ]
     by_name = {joint.name: q for joint, q in zip(given.joints, coordinates, strict=True)}
-    couplings = counted_from(given.couplings, given.joints, by_name)
-    linkage, notes = aligned(replace(given.with_joints(joints), couplings=couplings), noise, mechanism.unit)
-    solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
-    history = mechanism.history
-    if left_out:
-        names = ", ".join(map(repr, left_out))
-        history = (*history, f"the contacts of {names} are not followed from here on: its parts have moved")
-    found = replace(
-        mechanism,
-        linkage=linkage,
-        solids=solids,
-        history=history,
-        alignment=(*_rounding(mechanism.unit, moved), *notes),
-        contacts=contacts,
-    )
+    found, places = placed_at(replace(mechanism, linkage=given), by_name, noise)
+    found = replace(found, alignment=(*_rounding(mechanism.unit, moved), *found.alignment))
     moves = {part: _move(given, part, place) for part, place in places.items()}
     starts = STARTS * len(searched)
     return Reassembly(found, True, before, after, moves, tuple(sorted(others)), starts, None, places, by_name)
@@ -199,40 +176,6 @@ def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:
     left = [group.after * group.loops.length for group in moved if group.after > group.loops.thresholds.residual]
     said = f"{max(left, default=0.0):.1g} {unit}".rstrip()
     return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []
-
-
-def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Pose]:
-    """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
-    places = {part: np.eye(4) for part in linkage.fixed}
-    for part, parent, index, sign in linkage.structure.tree:
-        step = _displacement(linkage.joints[index], coordinates[index])
-        places[part] = places[parent] @ (step if sign > 0 else inverse(step))
-    return {part: places[part] for part in linkage.parts}
-
-
-def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Pose:
-    before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
-    return chain(joint.movements, before, q, float(joint.pitch), after)[0]
-
-
-def _placed(joint: Joint, place: Pose, q: Float[np.ndarray, " _"]) -> Joint:
-    """The joint in its new place, the frames on its two parts the same.
-
-    Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
-    what it was, whatever the last one has turned or shifted.
-    """
-    frames, start = [], 0
-    for number, name in enumerate(joint.movements):
-        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.frames_1, joint.frames_2))
-        own = q[start : start + freedoms([name])]
-        start += len(own)
-        most = own.copy()
-        if MOVEMENTS[name].elements:
-            most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
-        frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
-        place = place @ chain([name], before, own, float(joint.pitch), after)[0]
-    stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
-    return replace(joint, frames_1=stacked, frames_2=stacked)
 
 
 def _move(linkage: Linkage, part: str, place: Pose) -> Move:

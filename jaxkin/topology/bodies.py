@@ -33,3 +33,11 @@ def checked_groups(parts: Sequence[str], rigid: Sequence[Sequence[str]]) -> Sequ
             if part not in known:
                 raise ValueError(f"rigid names the unknown part {part!r}{nearest(part, parts)}")
     return rigid
+
+
+def members(body_of: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
+    """List the parts of each body, from the body of each part."""
+    found: dict[str, tuple[str, ...]] = {}
+    for part, body in body_of.items():
+        found[body] = (*found.get(body, ()), part)
+    return found

@@ -1,0 +1,109 @@
+"""Assemble a mechanism in another of its poses: joints, limits, couplings, solids and contacts stand there then."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Pose as Place
+from jaxkin.geometry.pose import inverse
+from jaxkin.joints.joint import Joint, shifted
+from jaxkin.joints.screws import chain, freedoms
+from jaxkin.linkage.coupled import counted_from
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.moved_solids import moved_solids
+from jaxkin.mechanism.pose import Pose
+from jaxkin.mobility.alignment import SIX_DIGITS, aligned
+from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mechanism:
+    """The mechanism of the same parts and joints, assembled as in a closed pose of one of its motions.
+
+    Solids, limits and couplings stand there too, and all displacements count from there; lengths stay as they are.
+    Raises ValueError for a pose that is not closed, for the motion of a mechanism with other joints, and inside `jit`,
+    `vmap` and `grad`.
+    """
+    motion = motion.motion if isinstance(motion, Pose) else motion
+    if traced((mechanism, motion)):
+        raise ValueError("at() is for numbers: inside jit, vmap and grad sweep the mechanism instead")
+    if motion.mechanism.structure != mechanism.structure:
+        raise ValueError("the motion is that of a mechanism with other parts or joints: write motion.mechanism.at(...)")
+    if not -len(motion) <= index < len(motion):
+        raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index}")
+    status = Status(int(motion.status[index]))
+    if status not in (Status.CLOSED, Status.JUMPED):
+        raise ValueError(
+            f"pose {index} is {status.name}: {status.message}; a mechanism is assembled in closed poses only"
+        )
+    rows = {name: np.asarray(q, float)[index] for name, q in motion.coordinates.items()}
+    return placed_at(mechanism, rows, SIX_DIGITS)[0]
+
+
+def placed_at(
+    mechanism: Mechanism, coordinates: Mapping[str, Float[np.ndarray, " _"]], noise: float
+) -> tuple[Mechanism, dict[str, Place]]:
+    """Assemble a mechanism where its joints, by name, are displaced by `coordinates`, in a pose whose loops close.
+
+    All lengths stay as they are; displacements, limits and couplings count from there. `noise` is that of `aligned`.
+    Also returns the displacement of each part, in world coordinates.
+    """
+    given = mechanism.linkage
+    places = _places(given, [coordinates[joint.name] for joint in given.joints])
+    joints = [
+        shifted(_placed(joint, places[joint.parts[0]], coordinates[joint.name]), coordinates[joint.name])
+        for joint in given.joints
+    ]
+    couplings = counted_from(given.couplings, given.joints, coordinates)
+    linkage, notes = aligned(replace(given.with_joints(joints), couplings=couplings), noise, mechanism.unit)
+    solids, contacts, left_out = moved_solids(mechanism.solids, mechanism.contacts, places)
+    history = mechanism.history
+    if left_out:
+        names = ", ".join(map(repr, left_out))
+        history = (*history, f"the contacts of {names} are not followed from here on: its parts have moved")
+    found = replace(mechanism, linkage=linkage, solids=solids, history=history, alignment=notes, contacts=contacts)
+    return found, places
+
+
+def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Place]:
+    """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
+    places = {part: np.eye(4) for part in linkage.fixed}
+    for part, parent, index, sign in linkage.structure.tree:
+        step = _displacement(linkage.joints[index], coordinates[index])
+        places[part] = places[parent] @ (step if sign > 0 else inverse(step))
+    return {part: places[part] for part in linkage.parts}
+
+
+def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Place:
+    before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
+    return chain(joint.movements, before, q, float(joint.pitch), after)[0]
+
+
+def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
+    """The joint in its new place, the frames on its two parts the same.
+
+    Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
+    what it was, whatever the last one has turned or shifted.
+    """
+    frames, start = [], 0
+    for number, name in enumerate(joint.movements):
+        before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.frames_1, joint.frames_2))
+        own = q[start : start + freedoms([name])]
+        start += len(own)
+        most = own.copy()
+        if MOVEMENTS[name].elements:
+            most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
+        frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
+        place = place @ chain([name], before, own, float(joint.pitch), after)[0]
+    stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
+    return replace(joint, frames_1=stacked, frames_2=stacked)
