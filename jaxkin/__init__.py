@@ -40,6 +40,7 @@ from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.pairs import contact_joint as contact_joint
 from jaxkin.joints.pairs import cylindrical as cylindrical
 from jaxkin.joints.pairs import fixed as fixed
+from jaxkin.joints.pairs import free as free
 from jaxkin.joints.pairs import planar as planar
 from jaxkin.joints.pairs import prismatic as prismatic
 from jaxkin.joints.pairs import revolute as revolute
@@ -57,6 +58,10 @@ from jaxkin.mechanism.pose_error import PoseError as PoseError
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
 from jaxkin.mechanism.stream import Stream as Stream
+from jaxkin.mechanism.targets import Target as Target
+from jaxkin.mechanism.targets import orientation as orientation
+from jaxkin.mechanism.targets import point as point
+from jaxkin.mechanism.targets import pose as pose
 from jaxkin.mobility.idle import IdleMotion as IdleMotion
 from jaxkin.mobility.mobility import Mobility as Mobility
 from jaxkin.mobility.open_loops import Opening as Opening

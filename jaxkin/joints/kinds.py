@@ -16,6 +16,7 @@ class JointKind(StrEnum):
     UNIVERSAL = "universal"
     SCREW = "screw"
     FIXED = "fixed"
+    FREE = "free"
     CONTACT_A = "contact a"
     CONTACT_B = "contact b"
     CONTACT_C = "contact c"

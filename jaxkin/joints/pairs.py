@@ -86,6 +86,17 @@ def fixed(name: str, part1: str, part2: str) -> Joint:
     return joint(name, (part1, part2), JointKind.FIXED, ("I",), [np.eye(4)])
 
 
+def free(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
+    """Make a joint that leaves all six freedoms, about the point, along axes parallel to those of the world.
+
+    Coordinates: z1, z2, z3, slides along x, y, z; then theta, phi, psi as of `spherical`. It holds nothing; its
+    coordinates say where part 2 is, and drive it.
+    """
+    frames = [_frame(name, point, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    movements = ("T_z", "T_z", "T_z", "T_theta_phi_psi")
+    return joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]])
+
+
 def contact_joint(
     name: str,
     part1: str,
@@ -129,6 +140,7 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.UNIVERSAL: universal,
     JointKind.SCREW: screw,
     JointKind.FIXED: fixed,
+    JointKind.FREE: free,
 }
 """Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
 keyword arguments of the function are keys of the joint in the file."""

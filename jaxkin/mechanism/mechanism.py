@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.pose import Pose
     from jaxkin.mechanism.reassembly import Reassembly
     from jaxkin.mechanism.stream import Stream
+    from jaxkin.mechanism.targets import Key
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +131,7 @@ class Mechanism:
 
     def sweep(
         self,
-        drive: Mapping[str, object],
+        drive: Mapping[Any, object],
         *,
         options: SolverOptions | None = None,
         tolerance: float | jax.Array | None = None,
@@ -144,7 +145,7 @@ class Mechanism:
 
     def solve(
         self,
-        drive: Mapping[str, object],
+        drive: Mapping[Any, object],
         *,
         options: SolverOptions | None = None,
         tolerance: float | jax.Array | None = None,
@@ -160,7 +161,7 @@ class Mechanism:
 
     def stream(
         self,
-        drive: Mapping[str, object],
+        drive: Mapping[Any, object],
         chunk: int = 100_000,
         *,
         options: SolverOptions | None = None,
@@ -257,7 +258,7 @@ class Mechanism:
 
         return save_mechanism(self, path)
 
-    def plan(self, drive: Iterable[str]) -> Plan:
+    def plan(self, drive: Iterable[Key]) -> Plan:
         """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
         from jaxkin.mechanism.plan import plan
 

@@ -37,7 +37,8 @@ def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mec
     motion = motion.motion if isinstance(motion, Pose) else motion
     if traced((mechanism, motion)):
         raise ValueError("at() is for numbers: inside jit, vmap and grad sweep the mechanism instead")
-    if motion.mechanism.structure != mechanism.structure:
+    own = {joint.name: joint.parts for joint in mechanism.all_joints}
+    if not own.items() <= {joint.name: joint.parts for joint in motion.mechanism.all_joints}.items():
         raise ValueError("the motion is that of a mechanism with other parts or joints: write motion.mechanism.at(...)")
     if not -len(motion) <= index < len(motion):
         raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index}")

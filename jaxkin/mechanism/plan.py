@@ -13,6 +13,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
 from jaxkin.mechanism.plan_steps import Step, element_steps
+from jaxkin.mechanism.targets import Key, names_with_targets
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
 from jaxkin.topology.elements import StructureElement
@@ -50,13 +51,14 @@ class Plan:
         return "\n".join([*lines, *(f"  {text}" for text in self.notes)])
 
 
-def plan(mechanism: Mechanism, drive: Iterable[str]) -> Plan:
+def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     """The plan of a drive by the names of coordinates, as in `sweep`; a drive with its values will do as well.
 
     Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
     """
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
+    mechanism, drive = names_with_targets(mechanism, drive)
     linkage = mechanism.linkage
     keys = {coordinate(linkage, key): key for key in drive}
     if not keys:

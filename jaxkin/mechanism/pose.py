@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -15,6 +16,7 @@ from jaxkin._named import Named
 from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.targets import Key, Target
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,10 +57,13 @@ class Pose:
 jax.tree_util.register_dataclass(Pose, data_fields=["motion"], meta_fields=[])
 
 
-def one_pose(drive: Mapping[str, object]) -> dict[str, Array | np.ndarray]:
+def one_pose(drive: Mapping[Any, object]) -> dict[Key, Array | np.ndarray]:
     """Make the drive of one pose a drive of a range of one; ValueError where it does not give one number each."""
     ranges = {}
     for name, value in by_name(drive, "driven displacements", "{'A': 0.3}").items():
+        if isinstance(name, Target):
+            ranges[name] = (jnp if traced(value) else np).asarray(value)[None]
+            continue
         if np.shape(value) != ():
             raise ValueError(
                 f"drive {name!r}: solve() takes one displacement, got an array of shape {np.shape(value)}; for a range "

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
@@ -24,6 +25,7 @@ from jaxkin.linkage.coordinates import named, resolve, without_gaps
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
+from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 
@@ -50,7 +52,8 @@ class _SharedPose(NamedTuple):
 class Stream:
     """The motions of consecutive chunks of a drive, in turn: see `Mechanism.stream`."""
 
-    def __init__(self, mechanism: Mechanism, drive: Mapping[str, object], chunk: int, options: SolverOptions) -> None:
+    def __init__(self, mechanism: Mechanism, drive: Mapping[Any, object], chunk: int, options: SolverOptions) -> None:
+        mechanism, drive = with_targets(mechanism, by_name(drive, "driven displacements", "{'A': angles}"))
         if traced(mechanism, {name: drive[name] for name in named(drive)}):
             raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
         if not isinstance(chunk, int | np.integer) or chunk < 1:

@@ -13,11 +13,13 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
 from jaxkin.solve.execution.programs import Outcome, solve
 from jaxkin.solve.options import SolverOptions, options_with
@@ -36,7 +38,7 @@ in float64, where rounding alone leaves about 1e-15 for each elementary motion."
 
 def sweep(
     mechanism: Mechanism,
-    drive: Mapping[str, object],
+    drive: Mapping[Any, object],
     *,
     options: SolverOptions | None = None,
     tolerance: float | jax.Array | None = None,
@@ -46,9 +48,11 @@ def sweep(
     """Compute the motion of all parts while some joint coordinates run through given displacements.
 
     `drive` maps "joint" (if it has one coordinate) or "joint.coordinate" to an array of one value a pose: radians, or
-    lengths in the unit of the mechanism, measured from the assembled pose. Several arrays must have equal length. The
-    motion is followed from the assembled pose; a single input may come in any order, several are followed in the order
-    given. Only loops that a driven joint moves are solved; coordinates that nothing drives stay at rest.
+    lengths in the unit of the mechanism, measured from the assembled pose; or a target (`jk.pose("part")`,
+    `jk.point("part", at)`, `jk.orientation("part")`) to poses, points or rotations, of which joints follow. Several
+    arrays must have equal length. The motion is followed from the assembled pose; a single input may come in any order,
+    several are followed in the order given. Only loops that a driven joint moves are solved; coordinates that nothing
+    drives stay at rest.
 
     A pose is closed where its residual is at most the `tolerance`, and improved no further; by default 1e-12 (2e-6 in
     float32), and improved down to rounding. `method` names another way to find poses (`jaxkin.solve.options.METHODS`):
@@ -64,6 +68,7 @@ def sweep(
     `throw=True` where numbers are traced.
     """
     options = options_with(options, tolerance, method)
+    mechanism, drive = with_targets(mechanism, by_name(drive, "driven displacements", "{'A': angles}"))
     plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
     if plan.infeasible:

@@ -1,0 +1,152 @@
+"""Inverse kinematics by drives that are no joints, against closed forms, and back by the actuators."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from reference import parallel
+from reference.catalogue import delta, hexapod
+
+Z = (0.0, 0.0, 1.0)
+ANGLES = np.linspace(0.0, 2 * np.pi, 41)
+
+
+def legs():
+    """A five-bar: two arms of two links, from (0, 0) and from (4, 0), that meet at (1.5, 2)."""
+    return jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("A", "ground", "a", point=(0, 0, 0), axis=Z),
+            jk.revolute("B", "a", "b", point=(-0.5, 1.5, 0), axis=Z),
+            jk.revolute("C", "b", "c", point=(1.5, 2, 0), axis=Z),
+            jk.revolute("D", "c", "d", point=(4.2, 1.5, 0), axis=Z),
+            jk.revolute("E", "ground", "d", point=(4, 0, 0), axis=Z),
+        ],
+    )
+
+
+def arm_angle(base, elbow, tip, path, side):
+    """Angle of the arm at `base` from its place at rest: the elbow lies on two circles, on the `side` of the line."""
+    first, second = np.linalg.norm(np.subtract(elbow, base)), np.linalg.norm(np.subtract(tip, elbow))
+    x, y = (path - base).T
+    reach = np.hypot(x, y)
+    bend = np.arccos((first**2 + reach**2 - second**2) / (2 * first * reach))
+    rest = np.arctan2(elbow[1] - base[1], elbow[0] - base[0])
+    return np.arctan2(y, x) + side * bend - rest
+
+
+def test_a_five_bar_draws_a_path_and_its_motors_draw_it_again():
+    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+    path = np.stack([1.5 + 0.4 * np.sin(ANGLES), 2.3 - 0.3 * np.cos(ANGLES), 0 * ANGLES], axis=1)
+    motion = mechanism.sweep({jk.point("b", tip): path}, throw=True)
+    np.testing.assert_allclose(motion.points("b", tip), path, atol=1e-13)
+    left = arm_angle((0, 0), (-0.5, 1.5), tip[:2], path[:, :2], 1)
+    right = arm_angle((4, 0), (4.2, 1.5), tip[:2], path[:, :2], -1)
+    np.testing.assert_allclose(motion.coordinates["A"][:, 0], left, atol=1e-13)
+    np.testing.assert_allclose(motion.coordinates["E"][:, 0], right, atol=1e-13)
+    motors = {name: motion.coordinates[name][:, 0] for name in ("A", "E")}
+    np.testing.assert_allclose(mechanism.sweep(motors, throw=True).points("c", tip), path, atol=1e-12)
+
+
+def test_each_leg_is_solved_by_itself_once_the_platform_is_given():
+    """Contracted, ground and platform are one body: two dyads, as a designer would solve them."""
+    steps = legs().plan([jk.point("b", (1.5, 2, 0))]).steps
+    assert [step.loop_class for step in steps] == ["planar dyad RRR", "planar dyad RRR"]
+    assert len(hexapod().plan([jk.pose("platform")]).steps) == 6
+
+
+@pytest.mark.long
+def test_the_legs_of_a_hexapod_for_poses_of_its_platform():
+    """Their lengths are the distances of their balls."""
+    mechanism = hexapod()
+    home = np.array([mechanism.joints[f"top {i}"].frames_1[0][:3, 3] for i in range(6)])
+    moved, lengths = parallel.curve(parallel.hexapod().base, home, 60)
+    motion = mechanism.sweep({jk.pose("platform"): moved}, throw=True)
+    found = np.stack([motion.coordinates[f"leg {i}"][:, 0] for i in range(6)], axis=1)
+    np.testing.assert_allclose(found, lengths, atol=1e-10)  # mm
+    np.testing.assert_allclose(motion.transforms["platform"], moved, atol=1e-10)
+
+
+@pytest.mark.long
+def test_the_arms_of_a_delta_for_places_of_its_platform():
+    start = np.array([20.0, -30.0, -420.0])
+    mechanism = delta(tuple(start))
+    path = start + np.stack([60 * np.sin(ANGLES), 50 - 50 * np.cos(ANGLES), 30 * np.sin(2 * ANGLES)], axis=1)
+    motion = mechanism.sweep({jk.point("platform", start): path}, throw=True)
+    found = np.stack([motion.coordinates[f"motor {i}"][:, 0] for i in range(3)], axis=1)
+    np.testing.assert_allclose(found, parallel.delta(path) - parallel.delta(start[None]), atol=1e-12)
+
+
+def test_targets_and_joints_are_driven_together():
+    mechanism = legs()
+    turned = np.linspace(0.0, 0.3, 7)
+    spun = np.stack([[[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]] for a in turned])
+    motion = mechanism.sweep({jk.orientation("b"): spun, "A": -turned}, throw=True)
+    np.testing.assert_allclose(motion.transforms["b"][:, :3, :3], spun, atol=1e-14)
+    np.testing.assert_allclose(motion.coordinates["B"][:, 0], 2 * turned, atol=1e-14)  # relative to its arm
+
+
+def test_an_arm_in_space_reaches_a_point_with_the_least_movement():
+    """Two joints and one more than the point needs: a chain without loops, closed by the target."""
+    joints = [
+        jk.revolute("base", "ground", "a", point=(0, 0, 0), axis=Z),
+        jk.revolute("shoulder", "a", "b", point=(0, 0, 1), axis=(0, 1, 0)),
+        jk.revolute("elbow", "b", "c", point=(0.5, 0, 2), axis=(0, 1, 0)),
+    ]
+    arm = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    tip = (1.5, 0.0, 1.8)
+    path = np.asarray(tip) + np.stack([-0.2 * np.sin(ANGLES), 0.3 * np.sin(ANGLES), 0.1 * np.sin(ANGLES)], axis=1)
+    motion = arm.sweep({jk.point("c", tip): path}, throw=True)
+    np.testing.assert_allclose(motion.points("c", tip), path, atol=1e-13)
+    np.testing.assert_allclose(np.tan(motion.coordinates["base"][:, 0]), path[:, 1] / path[:, 0], atol=1e-13)
+
+
+def test_derivatives_of_inverse_kinematics():
+    """d(motor)/d(path) is the inverse of d(path)/d(motor)."""
+    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+
+    def motors(place):
+        motion = mechanism.sweep({jk.point("b", tip): jnp.append(place, 0.0)[None]})
+        return jnp.stack([motion.coordinates[name][0, 0] for name in ("A", "E")])
+
+    def place(angles):
+        return mechanism.sweep({"A": angles[:1], "E": angles[1:]}).points("b", tip)[0, :2]
+
+    at = jnp.array([1.6, 1.9])
+    product = jax.jacobian(motors)(at) @ jax.jacobian(place)(motors(at))
+    np.testing.assert_allclose(product, np.eye(2), atol=1e-12)
+
+
+def test_one_pose_and_the_velocities_of_a_path():
+    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+    target = jk.point("b", tip)
+    pose = mechanism.solve({target: np.array([1.4, 2.1, 0.0])})
+    np.testing.assert_allclose(pose.point("b", tip), [1.4, 2.1, 0.0], atol=1e-13)
+    motion = mechanism.sweep({target: np.array([[1.4, 2.1, 0.0]])})
+    rates = jk.velocities(motion, {f"{target.joint}.x": 1.0})
+    np.testing.assert_allclose(rates.points("b", tip)[0] - rates.points("c", tip)[0], 0, atol=1e-13)
+    assert float(jnp.linalg.norm(rates.points("b", tip)[0])) == pytest.approx(1.0, rel=1e-12)
+    there = mechanism.at(pose)
+    np.testing.assert_allclose(there.joints["C"].frames_1[0][:3, 3], [1.4, 2.1, 0.0], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("drive", "said"),
+    [
+        (lambda: {jk.pose("b"): np.tile(np.eye(4), (3, 1, 1))}, "driven pose of b.x, .* has 2 freedoms: drive only"),
+        (
+            lambda: {jk.point("b", (1.5, 2, 0)): np.zeros((3, 2))},
+            r"expected an array of shape \(poses, 3\), got .*3, 2",
+        ),
+        (lambda: {jk.point("b", (1.5, 2, 0)): np.full((3, 3), 1.5)}, "the target leaves it by 0.3"),
+        (lambda: {jk.orientation("b"): np.tile(2 * np.eye(3), (3, 1, 1))}, "the poses must be rigid, .* off by 3"),
+        (lambda: {jk.pose("B"): np.tile(np.eye(4), (3, 1, 1))}, "pose of B: there is no part 'B'"),
+        (lambda: {jk.pose("ground"): np.tile(np.eye(4), (3, 1, 1))}, "the part 'ground' is fixed"),
+        (lambda: {jk.point("b", (1.5, np.nan, 0)): np.zeros((3, 3))}, "must be three finite numbers"),
+    ],
+)
+def test_targets_that_make_no_sense(drive, said):
+    with pytest.raises(ValueError, match=said):
+        legs().sweep(drive())
