@@ -29,6 +29,8 @@ class EvidenceKind(StrEnum):
     """A part that touches nothing, held to the part nearest to it."""
     EXPORT = "export"
     """A joint, a mate or a rigid group that the CAD system exported."""
+    TARGET = "target"
+    """What a drive prescribes of a part: the joint holds nothing by itself."""
     USER = "user"
     """Written by hand."""
 

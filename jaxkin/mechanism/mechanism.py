@@ -197,9 +197,8 @@ class Mechanism:
         axes (a plane has its normal), in radians. `(part, joint, other, "offset")` is how far along the axis of the
         first joint the other one stands: the foot of a ball, or of the common normal of the two axes. `(joint,
         "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the sum of
-        their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed
-        parts are one part; a joint without movement has no lengths. Each is measured on its own part, and is the same
-        in a closed and in an open pose; only where a slide or a screw stands follows from the pose.
+        their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed parts
+        are one part. Each is measured on its own part, the same in a closed and an open pose, but for slides and screws.
         """
         from jaxkin.dimensions.lengths import lengths
 

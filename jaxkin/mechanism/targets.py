@@ -19,6 +19,7 @@ from jaxkin._memory import once_for_each
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.pairs import free, planar
 from jaxkin.linkage.coupled import coupled
@@ -46,7 +47,9 @@ class Target:
     @property
     def joint(self) -> str:
         """Name of the joint that stands for the target."""
-        return f"{self.kind} of {self.part}" + (f" at {', '.join(f'{x:g}' for x in self.at)}" if self.at else "")
+        if self.at is None:
+            return f"{self.part} {self.kind}"
+        return f"{self.part} ({', '.join(f'{x:g}' for x in self.at)})"
 
 
 def pose(part: str) -> Target:
@@ -155,9 +158,9 @@ def _joint(mechanism: Mechanism, target: Target) -> Joint:
         at = xp.mean(xp.stack([xp.asarray(joint.frames_1, float)[0, :3, 3] for joint in held]), axis=0)
     normal = _normal(linkage, held)
     parts = (linkage.fixed[0], target.part)
-    if normal is not None:
-        return planar(target.joint, *parts, normal=normal, point=at)
-    return free(target.joint, *parts, point=at)
+    plain = {"point": at} if normal is None else {"point": at, "normal": normal}
+    made = (free if normal is None else planar)(target.joint, *parts, **plain)
+    return replace(made, evidence=Evidence(EvidenceKind.TARGET))
 
 
 def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:

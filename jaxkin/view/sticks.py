@@ -12,6 +12,7 @@ from jaxkin.geometry.figures import BallFigure, BoxFigure, CylinderFigure, Figur
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose
+from jaxkin.joints.evidence import EvidenceKind
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -46,6 +47,8 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     ends: dict[str, list[Float[np.ndarray, "3"]]] = {part: [] for part in mechanism.parts}
     pieces: dict[str, list[Triangles]] = {part: [] for part in mechanism.parts}
     for name, joint in mechanism.joints.items():
+        if joint.evidence is not None and joint.evidence.kind is EvidenceKind.TARGET:
+            continue  # nothing is there that could be drawn
         lower = min(layers[part] for part in joint.parts)
         for part, pose, index in zip(joint.parts, frames[name], (0, -1), strict=True):
             place = pose[:3, 3] / radius

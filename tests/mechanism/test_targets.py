@@ -135,14 +135,14 @@ def test_one_pose_and_the_velocities_of_a_path():
 @pytest.mark.parametrize(
     ("drive", "said"),
     [
-        (lambda: {jk.pose("b"): np.tile(np.eye(4), (3, 1, 1))}, "driven pose of b.x, .* has 2 freedoms: drive only"),
+        (lambda: {jk.pose("b"): np.tile(np.eye(4), (3, 1, 1))}, "driven b pose.x, .* has 2 freedoms: drive only"),
         (
             lambda: {jk.point("b", (1.5, 2, 0)): np.zeros((3, 2))},
             r"expected an array of shape \(poses, 3\), got .*3, 2",
         ),
         (lambda: {jk.point("b", (1.5, 2, 0)): np.full((3, 3), 1.5)}, "the target leaves it by 0.3"),
         (lambda: {jk.orientation("b"): np.tile(2 * np.eye(3), (3, 1, 1))}, "the poses must be rigid, .* off by 3"),
-        (lambda: {jk.pose("B"): np.tile(np.eye(4), (3, 1, 1))}, "pose of B: there is no part 'B'"),
+        (lambda: {jk.pose("B"): np.tile(np.eye(4), (3, 1, 1))}, "B pose: there is no part 'B'"),
         (lambda: {jk.pose("ground"): np.tile(np.eye(4), (3, 1, 1))}, "the part 'ground' is fixed"),
         (lambda: {jk.point("b", (1.5, np.nan, 0)): np.zeros((3, 3))}, "must be three finite numbers"),
     ],
