@@ -198,7 +198,7 @@ class Mechanism:
         first joint the other one stands: the foot of a ball, or of the common normal of the two axes. `(joint,
         "radius")` is that of a round surface on a plane, `(joint, "distance")` that of two round surfaces (the sum of
         their radii, or the difference where one is in the other), `(joint, "pitch")` that of a screw. All fixed parts
-        are one part. Each is measured on its own part, the same in a closed and an open pose, but for slides and screws.
+        are one part. Each is measured on its own part: the same in closed and open poses, but for slides and screws.
         """
         from jaxkin.dimensions.lengths import lengths
 
