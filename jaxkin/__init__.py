@@ -18,9 +18,14 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.motion_law import MotionLaw as MotionLaw
+from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates
 from jaxkin.effects.rates import accelerations as accelerations
+from jaxkin.effects.rates import jerks as jerks
 from jaxkin.effects.rates import velocities as velocities
+from jaxkin.effects.screw_axes import ScrewAxes as ScrewAxes
+from jaxkin.effects.screw_axes import screw_axes as screw_axes
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
 from jaxkin.io.study import Study as Study

@@ -1,4 +1,4 @@
-"""Velocities and accelerations: derivatives of the sweep along its drive, nested forward."""
+"""Velocities, accelerations and jerks: derivatives of the sweep along its drive, nested forward."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Inputs = dict[str, Float[Array, " poses"]]
 
 @dataclass(frozen=True, eq=False)
 class Rates:
-    """First or second derivatives of a motion with respect to time. A pytree; every array has the poses first.
+    """Derivatives of a motion with respect to time, of one order. A pytree; every array has the poses first.
 
     Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which.
     """
@@ -39,6 +39,8 @@ class Rates:
     """Rates of the displacements of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
     matrices: tuple[Float[Array, "poses 4 4"], ...]
     """Rates of the transforms of all parts, in the order of `mechanism.parts`."""
+    lower: tuple[tuple[Float[Array, "poses 4 4"], ...], ...] = ()
+    """The same of lower orders, velocities first: those of jerks, whose angular part needs them."""
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
@@ -56,21 +58,34 @@ class Rates:
         return dict(zip(self.motion.mechanism.parts, self.matrices, strict=True))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
-        """Velocity (or acceleration) of a point of a part, given where it is in the assembled pose; world axes."""
+        """Velocity (acceleration, jerk) of a point of a part, given where it is in the assembled pose; world axes."""
         matrices = self.transforms[_known(self.motion, part)]
         return jnp.einsum("pij,j->pi", matrices[:, :3, :3], as_point(point)) + matrices[:, :3, 3]
 
     def angular(self, part: str) -> Float[Array, "poses 3"]:
-        """Angular velocity (or acceleration) of a part, world axes, radians per time (or its square)."""
+        """Angular velocity (acceleration, jerk) of a part, world axes, radians per time to the power of the order."""
         rotation = self.motion.transforms[_known(self.motion, part)][:, :3, :3]
-        # for an acceleration R'' R^T = [alpha] + [omega]^2, of which the skew part is [alpha]
-        spin = jnp.einsum("pij,pkj->pik", self.transforms[part][:, :3, :3], rotation)
-        return 0.5 * jnp.stack(
-            [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=-1
-        )
+        number = self.motion.mechanism.parts.index(part)
+
+        def skew_part(matrices: Float[Array, "poses 4 4"]) -> Float[Array, "poses 3"]:
+            spin = jnp.einsum("pij,pkj->pik", matrices[:, :3, :3], rotation)
+            return 0.5 * jnp.stack(
+                [spin[:, 2, 1] - spin[:, 1, 2], spin[:, 0, 2] - spin[:, 2, 0], spin[:, 1, 0] - spin[:, 0, 1]], axis=-1
+            )
+
+        # the second derivative of R times R^T is [alpha] + [omega]^2, of which the skew part is [alpha]
+        found = skew_part(self.matrices[number])
+        if not self.lower:
+            return found
+        # the third one is [rate of alpha] + 2 [alpha][omega] + [omega][alpha] + [omega]^3
+        omega, alpha = (skew_part(matrices[number]) for matrices in self.lower)
+        square = jnp.sum(omega**2, axis=1, keepdims=True)
+        return found - 0.5 * jnp.cross(alpha, omega) + square * omega
 
 
-jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "displacements", "matrices"], meta_fields=[])
+jax.tree_util.register_dataclass(
+    Rates, data_fields=["motion", "inputs", "displacements", "matrices", "lower"], meta_fields=[]
+)
 
 
 def velocities(motion: Motion, rates: Mapping[str, Any], *, options: SolverOptions | None = None) -> Rates:
@@ -107,6 +122,33 @@ def accelerations(
 
     found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
     return Rates(motion, second, *_nan_where_nonfinite(motion, found, first, second))
+
+
+def jerks(
+    motion: Motion,
+    rates: Mapping[str, Any],
+    accelerations: Mapping[str, Any] | None = None,
+    jerks: Mapping[str, Any] | None = None,
+    *,
+    options: SolverOptions | None = None,
+) -> Rates:
+    """Jerks, for given rates, accelerations and jerks (none: zero) of the driven displacements.
+
+    As `velocities`; third derivatives with respect to time.
+    """
+    first, second, third = (_tangents(motion, given or {}) for given in (rates, accelerations, jerks))
+    place = _placing(motion, options)
+
+    def velocity(inputs: Inputs, tangents: Inputs):
+        return jax.jvp(place, (inputs,), (tangents,))[1]
+
+    def acceleration(inputs: Inputs, tangents: Inputs, changes: Inputs):
+        return jax.jvp(velocity, (inputs, tangents), (tangents, changes))[1]
+
+    found = jax.jvp(acceleration, (motion.inputs, first, second), (first, second, third))[1]
+    displacements, matrices = _nan_where_nonfinite(motion, found, first, second, third)
+    lower = (velocity(motion.inputs, first)[1], acceleration(motion.inputs, first, second)[1])
+    return Rates(motion, third, displacements, matrices, _nan_where_nonfinite(motion, lower, first, second))
 
 
 def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
