@@ -20,7 +20,15 @@ from documents import PAGES, blocks, name
 
 LONG = {
     f"docs/{page}.md"
-    for page in ("index", "how-to/by-hand", "how-to/robots", "how-to/design", "how-to/derivatives", "how-to/sweep")
+    for page in (
+        "index",
+        "how-to/by-hand",
+        "how-to/robots",
+        "how-to/design",
+        "how-to/derivatives",
+        "how-to/sweep",
+        "how-to/time",
+    )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
 CONSOLE = ("sh", "console", "bash")
