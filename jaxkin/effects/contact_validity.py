@@ -14,12 +14,11 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._files import whole
 from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
 from jaxkin.contacts.whole_face import is_whole, share_region
-from jaxkin.effects.contact_plot import draw_gaps
+from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import Pose, apply
 from jaxkin.geometry.triangle_distance import set_distance
@@ -68,7 +67,7 @@ class ContactValidity:
 
     def __str__(self) -> str:
         closed = int(np.sum(~np.isnan(self.gaps).any(axis=0))) if len(self.gaps) else 0
-        lost = np.flatnonzero(self.lost.any(axis=1))
+        lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
         lines = [f"{len(self.contacts)} contacts at {closed} closed poses of {self.gaps.shape[1]}: {len(lost)} lost"]
         if self.first is not None:
             pose, number = self.first
@@ -89,18 +88,15 @@ class ContactValidity:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the gaps of the contacts that are lost over the poses into a picture file; returns its path."""
-        lost = np.flatnonzero(self.lost.any(axis=1))
-        return draw_gaps([self._named(number) for number in lost], self.gaps[lost], self.unit, Path(path))
+        lost = np.flatnonzero(self.lost.any(axis=1)).tolist()
+        title = "contacts that are lost" if lost else "no contact is lost"
+        label = f"gap between the faces ({self.unit})" if self.unit else "gap between the faces"
+        return draw_lines([self._named(number) for number in lost], self.gaps[lost], label, title, Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write the gaps as comma-separated values, a row a pose and a column a contact; returns the path."""
-        path = Path(path)
-        unit = self.unit or "length"
-        heading = ",".join(["pose", *(f'"{self._named(number)} [{unit}]"' for number in range(len(self.contacts)))])
-        rows = np.column_stack([np.arange(self.gaps.shape[1]), self.gaps.T])
-        with whole(path) as draft:
-            np.savetxt(draft, rows, ["%d"] + ["%.9g"] * len(self.contacts), ",", header=heading, comments="")
-        return path
+        names = [f"{self._named(number)} [{self.unit or 'length'}]" for number in range(len(self.contacts))]
+        return save_rows(names, self.gaps, Path(path))
 
     def _named(self, number: int) -> str:
         contact = self.contacts[number]

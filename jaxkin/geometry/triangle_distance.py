@@ -23,6 +23,8 @@ _LEAST_BATCH = 1 << 9
 """Pairs of the smallest batch: fewer take no less time, and each size of batch is compiled once."""
 _PARALLEL = 1e-24
 """Square of the sine of an angle below which two segments count as parallel, far below any angle of a solid."""
+_DIRECTION = 1e-9
+"""Sine of an angle below which two edges have no common normal: the rounding of its components is still 1e-7 of it."""
 
 
 def triangle_distances(first: Triangles, second: Triangles) -> Float[np.ndarray, " _"]:
@@ -47,51 +49,44 @@ def set_distance(first: Triangles, second: Triangles) -> float:
     return least
 
 
-def signed_distances(points: Points, triangles: Triangles) -> tuple[np.ndarray, np.ndarray]:
-    """Measure how far points are from the surface of a solid, and find the nearest triangle of its surface.
+def point_distances(points: Points, triangles: Triangles) -> tuple[np.ndarray, np.ndarray]:
+    """Measure for each point the distance to the triangle at its place, and the height over the plane of that triangle.
 
-    Returns lengths (points,), negative inside of the solid, and indices into `triangles`, which bound the solid and are
-    wound outwards. A point is inside where the surface winds around it more than half: sum of solid angles > 2 pi,
-    which small openings of the surface do not change.
+    Both are lengths (points,); the height is positive on the side from which the triangle is wound anticlockwise.
     """
-    if not len(points):
-        return np.zeros(0), np.zeros(0, int)
-    # copies of the last triangle make few sizes of array; they are never nearest before it, and wind around nothing
-    count = max(16, 1 << (len(triangles) - 1).bit_length())
-    flat = np.repeat(triangles[-1:, :1], 3, axis=1)
-    padded = np.concatenate([triangles, np.broadcast_to(flat, (count - len(triangles), 3, 3))])
-    squares, nearest, turns = _in_batches(
-        _surface_at, points, fixed=(padded,), least=16, most=max(16, (1 << 19) // count)
-    )
-    return np.where(turns > 0.5, -1.0, 1.0) * np.sqrt(squares), np.minimum(nearest, len(triangles) - 1)
+    return _in_batches(_point_distance, points, triangles)
 
 
-def triangles_cross(first: Triangles, second: Triangles, depths: Float[np.ndarray, " _"]) -> np.ndarray:
-    """Check which triangles cross those at their place in the other list, by more than a depth (a length) each.
+def triangle_depths(first: Triangles, second: Triangles) -> Float[np.ndarray, " _"]:
+    """Measure how far each triangle of one list must move to be off the one at its place in the other; negative if off.
 
-    Two triangles cross where an edge of one goes through the other. They do so by more than a depth where neither lies
-    on one side of the plane of the other, up to that depth.
+    The least overlap along the directions that can separate two triangles: their normals, the normals of their edges in
+    their planes, and those that are perpendicular to an edge of each.
     """
-    return _in_batches(_cross_deeper, first, second, depths)
+    return _in_batches(_triangle_depth, first, second)
 
 
-def _in_batches(
-    function: Callable, *arrays: np.ndarray, fixed: tuple = (), least: int = _LEAST_BATCH, most: int = _BATCH
-):
+def edge_places(first: Triangles, second: Triangles) -> Float[np.ndarray, "_ 3"]:
+    """Find where the edges of each triangle of one list go through the one at its place in the other.
+
+    For the edge from corner k to the next, the place is its share of the edge, 0 to 1; NaN where it does not.
+    """
+    return _in_batches(_edge_places, first, second)
+
+
+def _in_batches(function: Callable, *arrays: np.ndarray):
     """Evaluate a compiled function of arrays, piece by piece, in float64; the last piece is filled with copies."""
     count, found = len(arrays[0]), []
     with jax.enable_x64(True):
-        for start in range(0, max(count, 1), most):
-            pieces = [np.asarray(array[start : start + most], float) for array in arrays]
-            length = len(pieces[0])
+        for start in range(0, max(count, 1), _BATCH):
+            pieces = [np.asarray(array[start : start + _BATCH], float) for array in arrays]
+            length, size = len(pieces[0]), _LEAST_BATCH
             if not length:
-                pieces, length = [np.zeros((1, *array.shape[1:])) for array in arrays], 0
-            size = least
+                pieces = [np.zeros((1, *array.shape[1:])) for array in arrays]
             while size < length:
-                size *= 4
-            size = min(size, most)
+                size *= 8
             filled = [piece[np.minimum(np.arange(size), len(piece) - 1)] for piece in pieces]
-            result = function(*filled, *fixed)
+            result = function(*filled)
             found.append(jax.tree.map(lambda each, length=length: np.asarray(each)[:length], result))
     return jax.tree.map(lambda *pieces: np.concatenate(pieces), *found)
 
@@ -135,19 +130,23 @@ def _segments(p: Array, d: Array, q: Array, e: Array) -> Array:
     return jnp.where(inside, _dot(gap, gap), jnp.inf)
 
 
-def _pierces(one: Array, other: Array) -> Array:
-    """Whether an edge of one triangle goes through another triangle."""
+@jax.jit
+def _edge_places(one: Array, other: Array) -> Array:
     edges = jnp.roll(other, -1, axis=-2) - other
     normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
     height = _dot(one - other[..., :1, :], normal[..., None, :])
     height2 = jnp.roll(height, -1, axis=-1)
     opposite = height * height2 < 0
-    part = height / jnp.where(opposite, height - height2, 1.0)
-    points = one + part[..., None] * (jnp.roll(one, -1, axis=-2) - one)
-    sides = jnp.cross(normal[..., None, :], edges)
+    place = height / jnp.where(opposite, height - height2, 1.0)
+    points = one + place[..., None] * (jnp.roll(one, -1, axis=-2) - one)
     off = points[..., :, None, :] - other[..., None, :, :]
-    inside = jnp.all(_dot(sides[..., None, :, :], off) >= 0, axis=-1)
-    return jnp.any(opposite & inside, axis=-1)
+    inside = jnp.all(_dot(jnp.cross(normal[..., None, :], edges)[..., None, :, :], off) >= 0, axis=-1)
+    return jnp.where(opposite & inside, place, jnp.nan)
+
+
+def _pierces(one: Array, other: Array) -> Array:
+    """Whether an edge of one triangle goes through another triangle."""
+    return jnp.any(~jnp.isnan(_edge_places(one, other)), axis=-1)
 
 
 @jax.jit
@@ -162,27 +161,29 @@ def _triangle_distance(one: Array, other: Array) -> Array:
     return jnp.where(_pierces(one, other) | _pierces(other, one), 0.0, jnp.sqrt(square))
 
 
-def _straddles(one: Array, other: Array, depth: Array) -> Array:
-    """Whether corners of one triangle are farther than a depth from the plane of the other, on both of its sides."""
-    normal = jnp.cross(other[..., 1, :] - other[..., 0, :], other[..., 2, :] - other[..., 0, :])
+@jax.jit
+def _triangle_depth(one: Array, other: Array) -> Array:
+    edges1, edges2 = jnp.roll(one, -1, axis=-2) - one, jnp.roll(other, -1, axis=-2) - other
+    normal1, normal2 = (jnp.cross(edges[..., :1, :], edges[..., 1:2, :]) for edges in (edges1, edges2))
+    across = jnp.cross(edges1[..., :, None, :], edges2[..., None, :, :])
+    across = across.reshape(*across.shape[:-3], 9, 3)
+    sides = [jnp.cross(normal1, edges1), jnp.cross(normal2, edges2)]
+    directions = jnp.concatenate([normal1, normal2, *sides, across], axis=-2)
+    length = jnp.sqrt(_dot(directions, directions))
+    size1, size2 = (jnp.sqrt(jnp.max(_dot(edges, edges), axis=-1)) for edges in (edges1, edges2))
+    scales = [size1**2, size2**2, *[size1**3] * 3, *[size2**3] * 3, *[size1 * size2] * 9]
+    exists = length > _DIRECTION * jnp.stack(scales, axis=-1)
+    directions = directions / jnp.where(exists, length, 1.0)[..., None]
+    origin = one[..., :1, :]
+    along1 = jnp.einsum("...ij,...kj->...ik", directions, one - origin)
+    along2 = jnp.einsum("...ij,...kj->...ik", directions, other - origin)
+    overlap = jnp.minimum(along1.max(axis=-1) - along2.min(axis=-1), along2.max(axis=-1) - along1.min(axis=-1))
+    return jnp.min(jnp.where(exists, overlap, jnp.inf), axis=-1)
+
+
+@jax.jit
+def _point_distance(point: Array, triangle: Array) -> tuple[Array, Array]:
+    normal = jnp.cross(triangle[..., 1, :] - triangle[..., 0, :], triangle[..., 2, :] - triangle[..., 0, :])
     length = jnp.sqrt(_dot(normal, normal))
-    height = _dot(one - other[..., :1, :], normal[..., None, :]) / jnp.where(length > 0, length, 1.0)[..., None]
-    return (jnp.max(height, axis=-1) > depth) & (jnp.min(height, axis=-1) < -depth)
-
-
-@jax.jit
-def _cross_deeper(one: Array, other: Array, depth: Array) -> Array:
-    deep = _straddles(one, other, depth) & _straddles(other, one, depth)
-    return deep & (_pierces(one, other) | _pierces(other, one))
-
-
-@jax.jit
-def _surface_at(points: Array, triangles: Array) -> tuple[Array, Array, Array]:
-    """Square of the distance to the nearest triangle, its index, and how often the triangles wind around each point."""
-    squares = _point_triangle(points[:, None], triangles[None])
-    a, b, c = jnp.moveaxis(triangles[None] - points[:, None, None], 2, 0)
-    la, lb, lc = (jnp.sqrt(_dot(each, each)) for each in (a, b, c))
-    # solid angle of a triangle: tan(omega / 2) = a . (b x c) / (|a||b||c| + (a . b)|c| + (b . c)|a| + (c . a)|b|)
-    below = la * lb * lc + _dot(a, b) * lc + _dot(b, c) * la + _dot(c, a) * lb
-    turns = jnp.sum(jnp.arctan2(_dot(a, jnp.cross(b, c)), below), axis=-1) / (2 * jnp.pi)
-    return jnp.min(squares, axis=-1), jnp.argmin(squares, axis=-1), turns
+    height = _dot(point - triangle[..., 0, :], normal) / jnp.where(length > 0, length, 1.0)
+    return jnp.sqrt(_point_triangle(point, triangle)), height
