@@ -42,14 +42,16 @@ class Shape:
         """A point inside of the solid, in the axes: half-way through it, below its largest triangle."""
         triangles = self.tree.triangles
         normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-        largest = int(np.argmax(np.linalg.norm(normals, axis=-1)))
-        inwards = -normals[largest] / np.linalg.norm(normals[largest])
+        areas = np.linalg.norm(normals, axis=-1)
+        largest = int(np.argmax(areas))
+        inwards = -normals[largest] / areas[largest]
         start = triangles[largest].mean(axis=0)
-        through = [place for place in _ray(triangles, start, inwards).tolist() if place > 1e-6 * np.ptp(triangles[:, :, 0])]
-        return start + inwards * (min(through, default=0.0) / 2)
+        through = _ray(triangles, start, inwards)
+        through = through[through > _SAME_PLACE * float((self.tree.high[0] - self.tree.low[0]).max())]
+        return start + inwards * (float(through.min(initial=np.inf)) / 2 if len(through) else 0.0)
 
 
-def _ray(triangles: np.ndarray, start: np.ndarray, direction: np.ndarray) -> np.ndarray:
+def _ray(triangles: np.ndarray, start: np.ndarray, direction: np.ndarray) -> Float[np.ndarray, " _"]:
     """Find where a ray goes through triangles: lengths along its unit direction."""
     edge1, edge2 = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     across = np.cross(direction, edge2)
@@ -60,7 +62,7 @@ def _ray(triangles: np.ndarray, start: np.ndarray, direction: np.ndarray) -> np.
         turned = np.cross(off, edge1)
         v = (turned @ direction) / determinant
         place = np.sum(edge2 * turned, axis=-1) / determinant
-        return place[(u >= 0) & (v >= 0) & (u + v <= 1) & np.isfinite(place)]
+    return np.compress((u >= 0) & (v >= 0) & (u <= 1 - v) & np.isfinite(place), place)
 
 
 def shape_of(part: Part) -> Shape:

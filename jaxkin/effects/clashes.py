@@ -137,7 +137,8 @@ def clashes(
     than those lengths are not told.
 
     The depth is the largest distance from the surface of one part of a point of the other that is inside of it: corners
-    of triangles, and middles of the pieces of their edges that are inside. Poses between those of the motion are not
+    of triangles, and middles of the pieces of their edges that are inside. Where there is none, because two parts
+    coincide, it is that of a point half-way through a part. Poses between those of the motion are not
     looked at.
 
     Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
@@ -235,7 +236,9 @@ def _clearances(
     result = np.zeros(count)
     if len(suspects):
         here = crossed._replace(pose=np.searchsorted(suspects, crossed.pose))
-        result[suspects] = -np.maximum(depths(one, other, moved.at(suspects), here, slack), inside[suspects])
+        deep = depths(one, other, moved.at(suspects), here, slack)
+        # two solids that coincide have no corner in each other
+        result[suspects] = -np.where(deep > 0, deep, np.where(inside > slack.least, inside, 0.0)[suspects])
     free = np.flatnonzero(result == 0)
     if not joined and len(free):
         result[free] = distances(one.tree, other.tree, moved.at(free), within) if within else np.inf

@@ -17,10 +17,9 @@ Triangles = Float[np.ndarray, "_ 3 3"]
 """Corners of triangles: [triangle, corner, coordinate]."""
 Points = Float[np.ndarray, "_ 3"]
 
-_BATCH = 1 << 15
-"""Pairs that are evaluated at once: their intermediate results, some 300 numbers a pair, stay below 100 MB."""
-_LEAST_BATCH = 1 << 9
-"""Pairs of the smallest batch: fewer take no less time, and each size of batch is compiled once."""
+_BATCHES = (1 << 15, 1 << 12, 1 << 9)
+"""Pairs that are evaluated at once, each size compiled once: intermediate results of the largest, some 300 numbers a
+pair, stay below 100 MB, and fewer than the smallest take no less time."""
 _PARALLEL = 1e-24
 """Square of the sine of an angle below which two segments count as parallel, far below any angle of a solid."""
 _DIRECTION = 1e-9
@@ -41,11 +40,11 @@ def set_distance(first: Triangles, second: Triangles) -> float:
     apart = np.maximum(low1[:, None] - high2[None], low2[None] - high1[:, None])
     bounds = np.linalg.norm(np.maximum(apart, 0.0), axis=-1).ravel()
     order = np.argsort(bounds, kind="stable")
-    least, start, count = np.inf, 0, _LEAST_BATCH
+    least, start, count = np.inf, 0, _BATCHES[-1]
     while start < len(order) and bounds[order[start]] < least:
         one, other = np.divmod(order[start : start + count], len(second))
         least = min(least, float(triangle_distances(first[one], second[other]).min()))
-        start, count = start + count, min(4 * count, _BATCH)
+        start, count = start + count, min(4 * count, _BATCHES[0])
     return least
 
 
@@ -75,19 +74,18 @@ def edge_places(first: Triangles, second: Triangles) -> Float[np.ndarray, "_ 3"]
 
 
 def _in_batches(function: Callable, *arrays: np.ndarray):
-    """Evaluate a compiled function of arrays, piece by piece, in float64; the last piece is filled with copies."""
-    count, found = len(arrays[0]), []
+    """Evaluate a compiled function of arrays, piece by piece, in float64; the last piece is filled with zeros."""
+    count, start, found = len(arrays[0]), 0, []
     with jax.enable_x64(True):
-        for start in range(0, max(count, 1), _BATCH):
-            pieces = [np.asarray(array[start : start + _BATCH], float) for array in arrays]
-            length, size = len(pieces[0]), _LEAST_BATCH
-            if not length:
-                pieces = [np.zeros((1, *array.shape[1:])) for array in arrays]
-            while size < length:
-                size *= 8
-            filled = [piece[np.minimum(np.arange(size), len(piece) - 1)] for piece in pieces]
-            result = function(*filled)
+        while start < count or not found:
+            size = next((size for size in _BATCHES if size <= count - start), _BATCHES[-1])
+            pieces = [np.asarray(array[start : start + size], float) for array in arrays]
+            length = len(pieces[0])
+            if length < size:
+                pieces = [np.concatenate([each, np.zeros((size - length, *each.shape[1:]))]) for each in pieces]
+            result = function(*pieces)
             found.append(jax.tree.map(lambda each, length=length: np.asarray(each)[:length], result))
+            start += size
     return jax.tree.map(lambda *pieces: np.concatenate(pieces), *found)
 
 
