@@ -18,6 +18,10 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.clashes import Clashes as Clashes
+from jaxkin.effects.clashes import clashes as clashes
+from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
+from jaxkin.effects.contact_validity import contact_validity as contact_validity
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw
 from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates

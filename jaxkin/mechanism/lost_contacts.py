@@ -68,7 +68,7 @@ def lost_contacts(motion: Motion) -> tuple[LostContact, ...]:
     if not mechanism.solids or not mechanism.contacts:
         return ()
     (closed,) = np.nonzero(np.asarray(motion.on_branch))
-    setting = _Setting(mechanism)
+    setting = FaceSetting(mechanism)
     found: list[LostContact] = []
     for joint, values in zip(mechanism.all_joints, motion.displacements, strict=True):
         contacts = mechanism.contacts.get(joint.name, ())
@@ -77,8 +77,8 @@ def lost_contacts(motion: Motion) -> tuple[LostContact, ...]:
     return tuple(_over_all_poses(each, closed, len(motion)) for each in found)
 
 
-class _Setting:
-    """What all joints of a mechanism share."""
+class FaceSetting:
+    """The faces of a mechanism, its rigid bodies, and the length below which faces count as touching."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         ties = [joint.parts for joint in mechanism.all_joints if not joint.freedoms]
@@ -104,6 +104,11 @@ class _Setting:
             ]
         return self._flush[part, name]
 
+    def continued(self, contact: Contact) -> list[tuple[Face, Face]]:
+        """The two faces of a contact and those that continue them, each of side 1 with each of side 2."""
+        one, two = ([self.faces[key], *self.flush(*key)] for key in zip(contact.parts, contact.faces, strict=True))
+        return list(product(one, two))
+
 
 def _on_one(face: Face, other: Face, length: float) -> bool:
     """Whether another face lies on the surface of a face, facing the same way."""
@@ -114,9 +119,11 @@ def _on_one(face: Face, other: Face, length: float) -> bool:
     return bool(np.abs(face.surface.distance(corners)).max() <= length and facing.min() > 0)
 
 
-def _of_joint(joint: Joint, contacts: Sequence[Contact], moved: Displacements, setting: _Setting) -> list[LostContact]:
+def _of_joint(
+    joint: Joint, contacts: Sequence[Contact], moved: Displacements, setting: FaceSetting
+) -> list[LostContact]:
     """The contacts of a joint that are lost, over the poses of the displacements of its part 2."""
-    gaps = [_gaps(joint, contact, moved, setting) for contact in contacts]
+    gaps = [gaps_of(joint, contact, moved, setting) for contact in contacts]
     gaps = [np.where(each > setting.length, each, 0.0) for each in gaps]
     lost = [k for k, each in enumerate(gaps) if each.any()]
     if not lost:
@@ -144,26 +151,33 @@ def _left(contacts: Sequence[Contact], noise: Noise) -> str:
     return pair.kind if pair else ""
 
 
-def _gaps(joint: Joint, contact: Contact, moved: Displacements, setting: _Setting) -> Gaps:
-    """How far the faces of a contact are apart, and all that continue them; negative infinity where nobody looks."""
-    gaps = np.full(moved.shape[2], -np.inf)
-    of_faces = contact.contact_state.gaps
+def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Displacements | None:
+    """The displacements of face 2 of a contact relative to face 1, from those of part 2 of its joint.
+
+    None where the contact is not between the two bodies of the joint.
+    """
     sides = [setting.body[part] for part in contact.parts]
     ends = [setting.body[part] for part in joint.parts]
-    if of_faces is None or sides not in (ends, ends[::-1]) or ends[0] == ends[1]:
-        return gaps
+    if sides not in (ends, ends[::-1]) or ends[0] == ends[1]:
+        return None
+    return moved if sides == ends else inverses(moved)
+
+
+def gaps_of(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Gaps:
+    """How far the faces of a contact are apart, and all that continue them; negative infinity where nobody looks."""
+    of_faces = contact.contact_state.gaps
+    relative = moved_second(joint, contact, moved, setting)
+    if of_faces is None or relative is None:
+        return np.full(moved.shape[2], -np.inf)
     side1, side2 = zip(contact.parts, contact.faces, strict=True)
-    face1, face2 = setting.faces[side1], setting.faces[side2]
-    moved = moved if sides == ends else inverses(moved)
-    gaps = of_faces(face1, face2, moved)
+    gaps = of_faces(setting.faces[side1], setting.faces[side2], relative)
     if not np.any(gaps > setting.length):
         return gaps
-    faces1, faces2 = [face1, *setting.flush(*side1)], [face2, *setting.flush(*side2)]
-    for one, other in product(faces1, faces2):
+    for one, other in setting.continued(contact):
         (poses,) = np.nonzero(gaps > setting.length)
         if not len(poses):
             break
-        gaps[poses] = np.minimum(gaps[poses], of_faces(one, other, moved[:, :, poses]))
+        gaps[poses] = np.minimum(gaps[poses], of_faces(one, other, relative[:, :, poses]))
     return gaps
 
 

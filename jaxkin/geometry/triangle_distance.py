@@ -1,0 +1,187 @@
+"""Measure distances between triangles and points in space, many pairs at once, compiled, in float64.
+
+All functions take arrays of numpy with the pairs as first axis. They are evaluated in batches of few sizes, so that
+each is compiled a few times only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+Triangles = Float[np.ndarray, "_ 3 3"]
+"""Corners of triangles: [triangle, corner, coordinate]."""
+Points = Float[np.ndarray, "_ 3"]
+
+_BATCHES = (1 << 15, 1 << 12, 1 << 9)
+"""Pairs that are evaluated at once, each size compiled once: intermediate results of the largest, some 300 numbers a
+pair, stay below 100 MB, and fewer than the smallest take no less time."""
+_PARALLEL = 1e-24
+"""Square of the sine of an angle below which two segments count as parallel, far below any angle of a solid."""
+_DIRECTION = 1e-9
+"""Sine of an angle below which two edges have no common normal: the rounding of its components is still 1e-7 of it."""
+
+
+def triangle_distances(first: Triangles, second: Triangles) -> Float[np.ndarray, " _"]:
+    """Measure the distance of each triangle of one list to the one at its place in the other; 0 where they cross."""
+    return _in_batches(_triangle_distance, first, second)
+
+
+def set_distance(first: Triangles, second: Triangles) -> float:
+    """Measure the least distance of two sets of triangles; 0 where they cross.
+
+    Pairs are tried by the distance of their bounding boxes, nearest first, until no box is nearer than a triangle.
+    """
+    low1, high1, low2, high2 = (ends(axis=1) for each in (first, second) for ends in (each.min, each.max))
+    apart = np.maximum(low1[:, None] - high2[None], low2[None] - high1[:, None])
+    bounds = np.linalg.norm(np.maximum(apart, 0.0), axis=-1).ravel()
+    order = np.argsort(bounds, kind="stable")
+    least, start, count = np.inf, 0, _BATCHES[-1]
+    while start < len(order) and bounds[order[start]] < least:
+        one, other = np.divmod(order[start : start + count], len(second))
+        least = min(least, float(triangle_distances(first[one], second[other]).min()))
+        start, count = start + count, min(4 * count, _BATCHES[0])
+    return least
+
+
+def point_distances(points: Points, triangles: Triangles) -> tuple[np.ndarray, np.ndarray]:
+    """Measure for each point the distance to the triangle at its place, and the height over the plane of that triangle.
+
+    Both are lengths (points,); the height is positive on the side from which the triangle is wound anticlockwise.
+    """
+    return _in_batches(_point_distance, points, triangles)
+
+
+def triangle_depths(first: Triangles, second: Triangles) -> Float[np.ndarray, " _"]:
+    """Measure how far each triangle of one list must move to be off the one at its place in the other; negative if off.
+
+    The least overlap along the directions that can separate two triangles: their normals, the normals of their edges in
+    their planes, and those that are perpendicular to an edge of each.
+    """
+    return _in_batches(_triangle_depth, first, second)
+
+
+def edge_places(first: Triangles, second: Triangles) -> Float[np.ndarray, "_ 3"]:
+    """Find where the edges of each triangle of one list go through the one at its place in the other.
+
+    For the edge from corner k to the next, the place is its share of the edge, 0 to 1; NaN where it does not.
+    """
+    return _in_batches(_edge_places, first, second)
+
+
+def _in_batches(function: Callable, *arrays: np.ndarray):
+    """Evaluate a compiled function of arrays, piece by piece, in float64; the last piece is filled with zeros."""
+    count, start, found = len(arrays[0]), 0, []
+    with jax.enable_x64(True):
+        while start < count or not found:
+            size = next((size for size in _BATCHES if size <= count - start), _BATCHES[-1])
+            pieces = [np.asarray(array[start : start + size], float) for array in arrays]
+            length = len(pieces[0])
+            if length < size:
+                pieces = [np.concatenate([each, np.zeros((size - length, *each.shape[1:]))]) for each in pieces]
+            result = function(*pieces)
+            found.append(jax.tree.map(lambda each, length=length: np.asarray(each)[:length], result))
+            start += size
+    return jax.tree.map(lambda *pieces: np.concatenate(pieces), *found)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return jnp.sum(a * b, axis=-1)
+
+
+def _point_segment(point: Array, start: Array, edge: Array) -> Array:
+    """Square of the distance of a point to a segment from `start` to `start + edge`."""
+    square = _dot(edge, edge)
+    along = jnp.clip(_dot(point - start, edge) / jnp.where(square > 0, square, 1.0), 0.0, 1.0)
+    off = point - start - along[..., None] * edge
+    return _dot(off, off)
+
+
+def _point_triangle(point: Array, triangle: Array) -> Array:
+    """Square of the distance of a point to a triangle: to its plane where the foot is inside, else to an edge."""
+    edges = jnp.roll(triangle, -1, axis=-2) - triangle
+    normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
+    square = _dot(normal, normal)
+    off = point[..., None, :] - triangle
+    inside = jnp.all(_dot(jnp.cross(normal[..., None, :], edges), off) >= 0, axis=-1) & (square > 0)
+    height = _dot(off[..., 0, :], normal) ** 2 / jnp.where(square > 0, square, 1.0)
+    return jnp.where(inside, height, jnp.min(_point_segment(point[..., None, :], triangle, edges), axis=-1))
+
+
+def _segments(p: Array, d: Array, q: Array, e: Array) -> Array:
+    """Square of the distance of the segments p + s d and q + t e, where the common perpendicular meets both.
+
+    Infinite where it does not: then the nearest point of one of them is one of its ends.
+    """
+    a, b, c, off = _dot(d, d), _dot(d, e), _dot(e, e), q - p
+    square = a * c - b * b
+    skew = square > _PARALLEL * a * c
+    over = jnp.where(skew, square, 1.0)
+    s = (_dot(off, d) * c - _dot(off, e) * b) / over
+    t = (_dot(off, d) * b - _dot(off, e) * a) / over
+    inside = skew & (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    gap = off + t[..., None] * e - s[..., None] * d
+    return jnp.where(inside, _dot(gap, gap), jnp.inf)
+
+
+@jax.jit
+def _edge_places(one: Array, other: Array) -> Array:
+    edges = jnp.roll(other, -1, axis=-2) - other
+    normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
+    height = _dot(one - other[..., :1, :], normal[..., None, :])
+    height2 = jnp.roll(height, -1, axis=-1)
+    opposite = height * height2 < 0
+    place = height / jnp.where(opposite, height - height2, 1.0)
+    points = one + place[..., None] * (jnp.roll(one, -1, axis=-2) - one)
+    off = points[..., :, None, :] - other[..., None, :, :]
+    inside = jnp.all(_dot(jnp.cross(normal[..., None, :], edges)[..., None, :, :], off) >= 0, axis=-1)
+    return jnp.where(opposite & inside, place, jnp.nan)
+
+
+def _pierces(one: Array, other: Array) -> Array:
+    """Whether an edge of one triangle goes through another triangle."""
+    return jnp.any(~jnp.isnan(_edge_places(one, other)), axis=-1)
+
+
+@jax.jit
+def _triangle_distance(one: Array, other: Array) -> Array:
+    edges1, edges2 = jnp.roll(one, -1, axis=-2) - one, jnp.roll(other, -1, axis=-2) - other
+    corners = jnp.minimum(
+        jnp.min(_point_triangle(one, other[..., None, :, :]), axis=-1),
+        jnp.min(_point_triangle(other, one[..., None, :, :]), axis=-1),
+    )
+    between = _segments(one[..., :, None, :], edges1[..., :, None, :], other[..., None, :, :], edges2[..., None, :, :])
+    square = jnp.minimum(corners, jnp.min(between, axis=(-2, -1)))
+    return jnp.where(_pierces(one, other) | _pierces(other, one), 0.0, jnp.sqrt(square))
+
+
+@jax.jit
+def _triangle_depth(one: Array, other: Array) -> Array:
+    edges1, edges2 = jnp.roll(one, -1, axis=-2) - one, jnp.roll(other, -1, axis=-2) - other
+    normal1, normal2 = (jnp.cross(edges[..., :1, :], edges[..., 1:2, :]) for edges in (edges1, edges2))
+    across = jnp.cross(edges1[..., :, None, :], edges2[..., None, :, :])
+    across = across.reshape(*across.shape[:-3], 9, 3)
+    sides = [jnp.cross(normal1, edges1), jnp.cross(normal2, edges2)]
+    directions = jnp.concatenate([normal1, normal2, *sides, across], axis=-2)
+    length = jnp.sqrt(_dot(directions, directions))
+    size1, size2 = (jnp.sqrt(jnp.max(_dot(edges, edges), axis=-1)) for edges in (edges1, edges2))
+    scales = [size1**2, size2**2, *[size1**3] * 3, *[size2**3] * 3, *[size1 * size2] * 9]
+    exists = length > _DIRECTION * jnp.stack(scales, axis=-1)
+    directions = directions / jnp.where(exists, length, 1.0)[..., None]
+    origin = one[..., :1, :]
+    along1 = jnp.einsum("...ij,...kj->...ik", directions, one - origin)
+    along2 = jnp.einsum("...ij,...kj->...ik", directions, other - origin)
+    overlap = jnp.minimum(along1.max(axis=-1) - along2.min(axis=-1), along2.max(axis=-1) - along1.min(axis=-1))
+    return jnp.min(jnp.where(exists, overlap, jnp.inf), axis=-1)
+
+
+@jax.jit
+def _point_distance(point: Array, triangle: Array) -> tuple[Array, Array]:
+    normal = jnp.cross(triangle[..., 1, :] - triangle[..., 0, :], triangle[..., 2, :] - triangle[..., 0, :])
+    length = jnp.sqrt(_dot(normal, normal))
+    height = _dot(point - triangle[..., 0, :], normal) / jnp.where(length > 0, length, 1.0)
+    return jnp.sqrt(_point_triangle(point, triangle)), height

@@ -1,0 +1,203 @@
+"""Clashes held to drawn parts whose overlap is known, and clearances to distances of sampled points."""
+
+from dataclasses import replace
+
+import jax
+import numpy as np
+import pytest
+import trimesh
+from scipy.spatial import KDTree
+
+import jaxkin as jk
+from jaxkin.examples import EXAMPLES, path
+
+
+def box(low, high):
+    return trimesh.creation.box(bounds=[low, high])
+
+
+def loaded(folder, parts):
+    """The parts as an assembly of STL files."""
+    for name, mesh in parts.items():
+        mesh.export(folder / f"{name}.stl")
+    return jk.load({name: folder / f"{name}.stl" for name in parts}, unit="mm")
+
+
+def by_hand(folder, parts, joints):
+    """A mechanism of drawn parts whose joints are said, the first part at rest."""
+    first = next(iter(parts))
+    return loaded(folder, parts).mechanism(fixed=[first], joints=joints)
+
+
+def pair_of(found, *names):
+    (pair,) = [k for k, each in enumerate(found.pairs) if {*each} == {*names}]
+    return pair
+
+
+def test_a_slider_runs_into_a_wall(tmp_path):
+    """The wall begins 10 ahead of the slider: free before, and as deep in it as it has gone on from there."""
+    parts = {"wall": box([30, -20, -20], [60, 20, 20]), "slider": box([0, -5, -4], [20, 5, 4])}
+    slide = jk.prismatic("slide", "wall", "slider", axis=(1, 0, 0))
+    shift = np.arange(0.5, 20, 1.0)
+    found = jk.clashes(by_hand(tmp_path, parts, [slide]).sweep({"slide": shift}), within=5)
+    clear = 10 - shift
+    # deeper than half its height the slider is nearest to the wall's front all the same: 30 deep, 20 wide
+    np.testing.assert_allclose(found.clearances[0], np.where(clear > 5, np.inf, clear), atol=1e-4)
+    assert found.first == (10, 0) and found.pairs == (("wall", "slider"),)
+    assert "first at pose 10: wall - slider, 0.5 mm deep" in str(found)
+    np.testing.assert_allclose(found.depths[0], np.maximum(-clear, 0), atol=1e-4)
+
+
+def test_two_bars_that_cross_have_no_corner_in_each_other(tmp_path):
+    """A bar, 10 high, is lowered into another one, 10 high too, across it: middles of edges tell how deep."""
+    parts = {"base": box([-50, -4, 0], [50, 4, 10]), "bar": box([-4, -50, 11], [4, 50, 21])}
+    lift = jk.prismatic("lift", "base", "bar", axis=(0, 0, -1))
+    down = np.array([0.0, 0.5, 1.5, 3.0, 4.5])
+    found = jk.clashes(by_hand(tmp_path, parts, [lift]).sweep({"lift": down}))
+    # the lower edges of the bar are in the base by `down - 1`, and 4 from its sides in their middle
+    np.testing.assert_allclose(found.clearances[0], [1.0, 0.5, -0.5, -2.0, -3.5], atol=1e-5)
+
+
+def turning(folder):
+    """An arm that turns past a ball and a post on a table, at changing distance."""
+    ball = trimesh.creation.icosphere(3, radius=6.0)
+    ball.apply_translation([32, 10, 9])
+    post = box([-30, 14, 0], [-22, 30, 12])
+    parts = {"table": box([-60, -60, -5], [60, 60, 0]), "arm": box([-4, -3, 2], [29, 3, 7]), "ball": ball, "post": post}
+    joints = [
+        jk.revolute("turn", "table", "arm", point=(0, 0, 0), axis=(0, 0, 1)),
+        jk.fixed("ball on it", "table", "ball"),
+        jk.fixed("post on it", "table", "post"),
+    ]
+    return parts, by_hand(folder, parts, joints)
+
+
+def test_clearances_are_the_distances_of_sampled_points(tmp_path):
+    parts, mechanism = turning(tmp_path)
+    angle = np.linspace(0, 2 * np.pi, 25)
+    found = jk.clashes(mechanism.sweep({"turn": angle}), within=40)
+    spacing = 0.6
+    points = {name: trimesh.sample.sample_surface_even(mesh, 20000, seed=1)[0] for name, mesh in parts.items()}
+    for other in ("ball", "post"):
+        tree, pair = KDTree(points[other]), pair_of(found, "arm", other)
+        compared = 0
+        for a, clearance in zip(angle, found.clearances[pair], strict=True):
+            turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
+            sampled = tree.query(points["arm"] @ turn.T)[0].min()
+            if clearance < 0:
+                assert sampled < spacing
+            elif np.isfinite(clearance):
+                compared += 1
+                # points are farther apart than surfaces, by no more than their spacing; coordinates in float32
+                assert clearance - 1e-4 <= sampled <= clearance + spacing
+        assert compared > 10
+    # the arm is parallel to the table and 2 over it
+    np.testing.assert_allclose(found.clearances[pair_of(found, "arm", "table")], 2.0, atol=1e-5)
+
+
+def test_the_depth_is_that_of_sampled_points(tmp_path):
+    """The deepest sampled point of either part in the other is as deep as told, but for the spacing of the points."""
+    parts, mechanism = turning(tmp_path)
+    angle = np.linspace(0.1, 0.5, 9)
+    found = jk.clashes(mechanism.sweep({"turn": angle}))
+    pair = pair_of(found, "arm", "ball")
+    assert found.clashing[pair].sum() >= 5
+    samples = trimesh.sample.sample_surface_even(parts["arm"], 20000, seed=1)[0]
+    on_ball = trimesh.sample.sample_surface_even(parts["ball"], 20000, seed=1)[0]
+    for a, clearance in zip(angle, found.clearances[pair], strict=True):
+        turn = np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]])
+        in_ball = 6 - np.linalg.norm(samples @ turn.T - [32, 10, 9], axis=1)
+        at = on_ball @ turn - [12.5, 0, 4.5]
+        in_arm = (np.array([16.5, 3, 2.5]) - np.abs(at)).min(axis=1)
+        deepest = max(in_ball.max(), in_arm.max(), 0.0)
+        # corners of the ball's triangles are 0.9 apart
+        assert deepest - 0.5 <= max(-clearance, 0.0) <= deepest + 0.1
+
+
+@pytest.mark.parametrize("one_part", [False, True])
+def test_a_pin_in_its_hole_is_no_clash_but_through_a_wall_it_is(tmp_path, one_part):
+    """The pin, from 0 to 60, turns and slides in its bush and meets a wall at 75, of the same part or of another one.
+
+    Pin and bush have chords of their own, which overlap.
+    """
+    pin = trimesh.creation.cylinder(5, segment=[[0, 0, 0], [0, 0, 60]], sections=40)
+    bush = trimesh.creation.annulus(5, 10, segment=[[0, 0, 20], [0, 0, 30]], sections=64)
+    wall = box([-20, -20, 75], [20, 20, 95])
+    parts = {"bush": bush + wall, "pin": pin} if one_part else {"bush": bush, "pin": pin, "wall": wall}
+    mechanism = loaded(tmp_path, parts).mechanism(fixed=[name for name in parts if name != "pin"])
+    (name,) = [joint.name for joint in mechanism.all_joints if joint.freedoms]
+    shift = np.arange(-30.0, 22.0, 2.0)
+    motion = mechanism.sweep({f"{name}.z": shift, f"{name}.phi": 0.05 * shift})
+    found = jk.clashes(motion, within=4)
+    own, far = pair_of(found, "bush", "pin"), pair_of(found, "pin", "bush" if one_part else "wall")
+    assert found.joined[own] and found.joined[far] == one_part
+    along = np.asarray(motion.points("pin", (0, 0, 60)))[:, 2] - 75
+    # the end of the pin is nearest to the front of the wall, which is deeper than the pin gets
+    expected = -np.maximum(along, 0) if one_part else np.where(along < -4 - 1e-3, np.inf, -along)
+    np.testing.assert_allclose(found.clearances[far], expected, atol=1e-4)
+    assert np.any(along > 0) and found.first is not None and found.first[1] == far
+    if not one_part:
+        np.testing.assert_array_equal(found.clearances[own], 0.0)
+
+
+def test_a_part_inside_of_another_is_a_clash(tmp_path):
+    """Between two poses the cube, 4 wide, has come into the block without that their surfaces cross at either."""
+    parts = {"block": box([-20, -20, -20], [20, 20, 20]), "cube": box([28, -2, -2], [32, 2, 2])}
+    slide = jk.prismatic("slide", "block", "cube", axis=(-1, 0, 0))
+    found = jk.clashes(by_hand(tmp_path, parts, [slide]).sweep({"slide": np.array([0.0, 15.0, 30.0])}), within=100)
+    np.testing.assert_allclose(found.clearances[0], [8.0, -7.0, -18.0], atol=1e-4)
+
+
+def test_two_parts_in_the_same_place_are_a_clash(tmp_path):
+    """All faces coincide, none crosses another, and no corner is inside: a point in the middle tells."""
+    parts = {"block": box([-2, -2, -2], [2, 2, 2]), "twin": box([18, -2, -2], [22, 2, 2])}
+    slide = jk.prismatic("slide", "block", "twin", axis=(-1, 0, 0))
+    found = jk.clashes(by_hand(tmp_path, parts, [slide]).sweep({"slide": np.array([0.0, 20.0])}), within=30)
+    np.testing.assert_array_equal(found.clashing[0], [False, True])
+    assert 1 < found.depths[0, 1] <= 2
+
+
+@pytest.mark.parametrize("name", ["cam", pytest.param("fourbar", marks=pytest.mark.long)])
+def test_shipped_assemblies_do_not_clash(name, tmp_path):
+    example = EXAMPLES[name]
+    mechanism = jk.load(path(name)).mechanism(fixed=example.fixed)
+    (driven,) = mechanism.joints_between(*example.drive)
+    found = jk.clashes(mechanism.sweep({driven: np.linspace(0, 2 * np.pi, 37)}))
+    assert not found.clashing.any() and found.first is None and found.joined.any()
+    assert found.plot(tmp_path / "clashes.png").stat().st_size > 1000
+    assert len(found.save(tmp_path / "clashes.csv").read_text().splitlines()) == 38
+    if name == "fourbar":  # drawn: layers are half a millimetre apart
+        assert found.clearances[pair_of(found, "ground", "coupler")].min() == pytest.approx(0.5, abs=1e-4)
+
+
+def test_poses_that_are_not_closed_are_nan_and_pairs_can_be_left_out(tmp_path):
+    _, mechanism = turning(tmp_path)
+    motion = mechanism.sweep({"turn": np.array([0.0, 0.3, 0.3])})
+    cut = replace(motion, status=jax.numpy.array([0, 0, 1]) + motion.status[0])
+    found = jk.clashes(cut)
+    assert np.isnan(found.clearances[:, 2]).all() and not np.isnan(found.clearances[:, :2]).any()
+    assert found.first == (1, pair_of(found, "arm", "ball"))
+    assert jk.clashes(cut, ignore=[["ball", "arm"]]).first is None
+    assert jk.clashes(cut, tolerance=20).first is None
+    assert np.isinf(jk.clashes(cut, within=0).least[0])
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"within": -1}, "within is a length, zero or more"),
+        ({"ignore": ["arm"]}, r"pairs of parts, \[\['bolt', 'plate'\]\], got the entry 'arm'"),
+        ({"ignore": [["arm", "bal"]]}, "unknown part 'bal'.*'ball'"),
+    ],
+)
+def test_wrong_words_are_refused(tmp_path, given, said):
+    _, mechanism = turning(tmp_path)
+    with pytest.raises(ValueError, match=said):
+        jk.clashes(mechanism.sweep({"turn": np.array([0.0])}), **given)
+
+
+def test_a_mechanism_without_solids_says_what_to_do():
+    slide = jk.prismatic("slide", "base", "slider", axis=(1, 0, 0))
+    motion = jk.Mechanism.build(fixed=["base"], joints=[slide]).sweep({"slide": np.array([0.0, 1.0])})
+    with pytest.raises(ValueError, match=r"clashes needs solids, .* make it from files, jk\.load"):
+        jk.clashes(motion)
