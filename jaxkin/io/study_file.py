@@ -13,6 +13,7 @@ from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_v
 
 from jaxkin._files import check_file
 from jaxkin.geometry.movements import is_length
+from jaxkin.io.named_effects import Settings, known
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
@@ -175,6 +176,7 @@ class StudyFile(BaseModel):
     couplings: dict[str, CouplingTable] = {}
     drive: Drive = {}
     instead: InsteadTable = InsteadTable()
+    effects: dict[str, bool | dict[str, Any]] = {}
 
     @model_validator(mode="after")
     def _solids_or_joints(self) -> StudyFile:
@@ -205,6 +207,14 @@ class StudyFile(BaseModel):
             return tuple(table.made(name) for name, table in self.couplings.items())
         except ValueError as error:
             raise ValueError(f"{file}: {error}") from None
+
+    def asked_effects(self, file: str) -> Settings:
+        """The effects that are not off, with their settings; ValueError for names of no effect."""
+        try:
+            known(self.effects)
+        except ValueError as error:
+            raise ValueError(f"{file}: effects: {error}") from None
+        return {name: {} if said is True else said for name, said in self.effects.items() if said is not False}
 
     def ranges(self) -> dict[str, Range]:
         """The drive as it was written."""
