@@ -59,6 +59,8 @@ from jaxkin.joints.pairs import spherical as spherical
 from jaxkin.joints.pairs import universal as universal
 from jaxkin.linkage.closure_equations import ClosureEquations as ClosureEquations
 from jaxkin.linkage.linkage import Linkage as Linkage
+from jaxkin.mechanism.inverse.inverse import Inverse as Inverse
+from jaxkin.mechanism.inverse.inverse import inverse as inverse
 from jaxkin.mechanism.lost_contacts import LostContact as LostContact
 from jaxkin.mechanism.mechanism import Mechanism as Mechanism
 from jaxkin.mechanism.motion import Motion as Motion
