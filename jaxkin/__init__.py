@@ -30,6 +30,11 @@ from jaxkin.effects.rates import jerks as jerks
 from jaxkin.effects.rates import velocities as velocities
 from jaxkin.effects.screw_axes import ScrewAxes as ScrewAxes
 from jaxkin.effects.screw_axes import screw_axes as screw_axes
+from jaxkin.effects.tolerance import Tolerance as Tolerance
+from jaxkin.effects.tolerance import sigma as sigma
+from jaxkin.effects.tolerance_result import AllowedTolerances as AllowedTolerances
+from jaxkin.effects.tolerance_result import Tolerances as Tolerances
+from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
 from jaxkin.io.study import Study as Study
