@@ -18,6 +18,8 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.calibrate import calibrate as calibrate
+from jaxkin.effects.calibration_result import Calibration as Calibration
 from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
