@@ -42,7 +42,7 @@ def draw_tolerances(found: Tolerances, path: Path) -> Path:
                 axes.axvline(
                     float(found.nominal + sign * offset), color="black", linestyle=style, lw=1, label=name * (sign > 0)
                 )
-        for number, end in enumerate(found.wanted or ()):
+        for number, end in enumerate(end for end in found.wanted or () if np.isfinite(end)):
             axes.axvline(end, color="tab:red", lw=1.5, label="" if number else "wanted")
         if found.within is not None:
             axes.set_title(f"yield {100 * found.within:.2f} %", fontsize="medium")

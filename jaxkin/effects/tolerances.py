@@ -15,7 +15,7 @@ from jaxkin.dimensions.lengths import find_length, length_now
 from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
 from jaxkin.effects.tolerance import Tolerance, as_tolerance
-from jaxkin.effects.tolerance_result import Tolerances
+from jaxkin.effects.tolerance_result import Tolerances, named
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import Target
 from jaxkin.solve.options import SolverOptions, options_with
@@ -139,7 +139,7 @@ def _sampled(
         keys = dict.fromkeys(found.keys[row] for row in rows[~closes])
         raise ValueError(
             f"the loops do not close, or the measure is no number, for a small change of "
-            f"{', '.join(map(repr, keys))} alone: an overconstrained mechanism has no room for it; leave it out"
+            f"{', '.join(map(named, keys))} alone: an overconstrained mechanism has no room for it; leave it out"
         )
     return found.with_values((float(values[0]), float(values[1])), values[2 + len(alone) :])
 

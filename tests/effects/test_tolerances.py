@@ -8,8 +8,8 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples.paths import fourbar
 from reference import planar
-from reference.mechanisms import spherical_linkage
-from reference.spatial import spherical_fourbar
+from reference.mechanisms import bennett_linkage, rssr_linkage, spherical_linkage
+from reference.spatial import rssr, spherical_fourbar
 
 GROUND, CRANK, COUPLER, ROCKER = (
     ("ground", "A", "D"),
@@ -231,6 +231,40 @@ def test_a_spherical_fourbar_by_its_arcs():
 
     by_hand = [(output(arcs + step * row) - output(arcs - step * row)) / (2 * step) for row in np.eye(4)]
     np.testing.assert_allclose(np.abs(found.sensitivities), np.abs(by_hand)[order], rtol=1e-6)
+
+
+@pytest.mark.long
+def test_balls_that_lie_beside_their_sockets():
+    """RSSR: a ball that is off along the rod makes the rod longer; across it, it turns the rod only."""
+
+    def output(rod):
+        return rssr(np.array([0.3 + 0.5]), rod=rod).output[0]
+
+    found = jk.tolerances(
+        rssr_linkage(0.3),
+        {("rod", "B", "C"): 0.1},
+        rocker,
+        drive={"A": 0.5},
+        clearances={"B": 0.03, "C": jk.sigma(0.02)},
+        samples=4000,
+    )
+    by_hand = (output(140.0 + 1e-3) - output(140.0 - 1e-3)) / 2e-3
+    np.testing.assert_allclose(found.sensitivities, [by_hand, abs(by_hand), abs(by_hand)], rtol=1e-6)
+    # a place evenly in a ball has a fifth of the squared radius along each axis
+    variance = by_hand**2 * (0.1**2 / 3 + 0.03**2 / 5 + 0.02**2)
+    np.testing.assert_allclose(found.standard_deviation, np.sqrt(variance), rtol=1e-6)
+    np.testing.assert_allclose(found.samples.std(), np.sqrt(variance), rtol=4 / np.sqrt(2 * 4000))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("mechanism", "stated"), [(bennett_linkage(), ("first", "A", "B")), (spherical_linkage(), None)]
+)
+def test_overconstrained_mechanisms_have_no_room(mechanism, stated):
+    """Lengths of a Bennett linkage hang together, and the axes of a spherical one meet."""
+    with pytest.raises(ValueError, match=r"do not close, .* an overconstrained mechanism has no room"):
+        more = {} if stated else {"clearances": {"B": 0.01}}
+        jk.tolerances(mechanism, {stated: 0.01} if stated else {}, rocker, drive={"A": 0.2}, samples=0, **more)
 
 
 def test_designs_that_do_not_close_are_counted():
