@@ -141,6 +141,11 @@ def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
                 "1e-4), 'D': 1e-4}, a standard deviation for each key, of poses one of lengths and one of angles"
             )
         return [np.full(len(kind.lengths), 1.0 if sigma is None else _positive("sigma", sigma)) for kind in kinds]
+    for key in sigma:
+        if key not in [kind.key for kind in kinds]:
+            raise ValueError(
+                f"sigma names {key!r}, which was not measured{nearest(str(key), [kind.name for kind in kinds])}"
+            )
     found = []
     for kind in kinds:
         if kind.key not in sigma:

@@ -127,6 +127,8 @@ def unknowns_of(
             )
         )
         axes.append(rows)
+    if isinstance(markers, Target):
+        raise ValueError(f"markers must be a list of measured points, as [{markers!r}], got {markers!r}")
     for marker in markers:
         if not isinstance(marker, Target) or marker.kind != "point" or marker not in measured:
             points = ", ".join(key.joint for key in measured if isinstance(key, Target) and key.kind == "point")

@@ -7,7 +7,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples.paths import fourbar
 from jaxkin.geometry.pose import rotation
-from reference import planar
+from reference import catalogue, parallel, planar
 
 GROUND, CRANK, COUPLER, ROCKER = (
     ("ground", "A", "D"),
@@ -159,6 +159,51 @@ def test_the_zeros_of_two_encoders():
     np.testing.assert_allclose(np.abs(found.values[3:]), np.abs(offsets), rtol=1e-8)
 
 
+@pytest.mark.long
+@pytest.mark.study
+def test_a_platform_is_found_from_its_poses():
+    """The balls of a hexapod on its platform, misplaced by half a millimetre; legs by the distance of their balls."""
+    mechanism, random = catalogue.hexapod(), np.random.default_rng(1)
+    base, home = (
+        np.array([np.asarray(mechanism.joints[f"{end} {leg}"].frames_1)[0, :3, 3] for leg in range(6)])
+        for end in ("base", "top")
+    )
+    moved = parallel.curve(base, home, 12).moved
+    off = random.uniform(-0.5, 0.5, (6, 3))
+    tops = np.einsum("pij,kj->pki", moved[:, :3, :3], home + off) + moved[:, None, :3, 3]
+    legs = np.linalg.norm(tops - base, axis=2) - np.linalg.norm(home - base, axis=1)
+    target = jk.pose("platform")
+    found = jk.calibrate(
+        mechanism,
+        {f"leg {leg}": legs[:, leg] for leg in range(6)},
+        {target: moved},
+        frames={("platform", f"top {leg}"): ("x", "y", "z") for leg in range(6)},
+        sigma={target: (0.01, 1e-4)},
+    )
+    assert found.undetermined == ()
+    np.testing.assert_allclose(found.values, off.ravel(), atol=1e-7)
+
+
+@pytest.mark.long
+def test_units_change_nothing_and_three_poses_leave_no_freedom():
+    def results(scale):
+        mechanism = fourbar(*(scale * length for length in GIVEN))
+        return jk.calibrate(
+            mechanism, {"A": ANGLES[:3]}, {"D": rocker(TRUE)[:3]}, lengths=[CRANK, COUPLER, ROCKER], sigma=NOISE
+        )
+
+    large, small = results(1.0), results(1e-3)
+    np.testing.assert_allclose(1e3 * small.values, large.values, rtol=1e-9)
+    np.testing.assert_allclose(1e3 * small.standard_errors, large.standard_errors, rtol=1e-6)
+    np.testing.assert_allclose(small.condition, large.condition, rtol=1e-6)
+    assert large.degrees_of_freedom == 0 and np.isnan(large.deviation)
+    without = jk.calibrate(
+        fourbar(*GIVEN), {"A": ANGLES[:3]}, {"D": rocker(TRUE)[:3]}, lengths=[CRANK, COUPLER, ROCKER]
+    )
+    assert np.isnan(without.standard_errors).all() and "not known" in str(without)
+    np.testing.assert_allclose(without.values, TRUE[1:], rtol=1e-8)
+
+
 POINT = jk.point("coupler", (60.0, 25.0, 0.0))
 
 
@@ -175,7 +220,9 @@ POINT = jk.point("coupler", (60.0, 25.0, 0.0))
         ({}, {"lengths": [CRANK]}, "nothing was measured"),
         ({"D": np.zeros(24), POINT: np.zeros((24, 3))}, {"lengths": [CRANK]}, "say how exact either is"),
         ({"D": np.zeros(24)}, {"lengths": [CRANK], "markers": [POINT]}, "markers must be points that were measured"),
-        ({"D": np.zeros(24)}, {"lengths": [CRANK], "sigma": {"B": 1}}, "no standard deviation of D"),
+        ({"D": np.zeros(24), "B": np.zeros(24)}, {"lengths": [CRANK], "sigma": {"B": 1}}, "no standard deviation of D"),
+        ({"D": np.zeros(24)}, {"lengths": [CRANK], "sigma": {"D": 1, "b": 1}}, "'b', which was not measured"),
+        ({POINT: np.zeros((24, 3))}, {"markers": POINT}, "must be a list of measured points"),
         ({jk.pose("ground"): np.zeros((24, 4, 4))}, {"lengths": [CRANK]}, "'ground' is fixed"),
         ({jk.orientation("rocker"): np.ones((24, 3, 3))}, {"lengths": [CRANK]}, "orthonormal and right-handed"),
     ],
