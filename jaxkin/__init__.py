@@ -39,6 +39,7 @@ from jaxkin.effects.tolerance_result import Tolerances as Tolerances
 from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
+from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.io.study_writer import write_study as write_study

@@ -11,6 +11,7 @@ from jaxkin.cli import run
 from jaxkin.cli.arguments import (
     Drawing,
     Drive,
+    Effects,
     ExactOnly,
     Exclude,
     Files,
@@ -177,12 +178,13 @@ def sweep(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    effects: Effects = [],
 ) -> None:
     """Move an assembly through a range of displacements of some joints, and write its motion.
 
     Written are arrays (motion.npz), a table (motion.csv), an animation (motion.glb), a page for the browser
     (motion.html) and a picture (motion.png). Of more than 200,000 poses only arrays are written, without those of the
-    parts.
+    parts. Effects are computed only where they are asked for.
     """
     with one_line_errors():
-        run.sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only))
+        run.sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects))

@@ -70,6 +70,15 @@ Drive = Annotated[
         "need the same number of poses.",
     ),
 ]
+Effects = Annotated[
+    list[str],
+    typer.Option(
+        "--effects",
+        metavar="NAME,NAME",
+        help="What to compute beside the motion: rates (velocities and accelerations), clashes (parts that cut each "
+        "other, and clearances), contacts (those that end). Each is printed, and written as a table and a picture.",
+    ),
+]
 Out = Annotated[Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for the files written.")]
 PerContact = Annotated[
     bool,

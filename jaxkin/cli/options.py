@@ -30,11 +30,13 @@ class Options:
     unit: str | None = None
     exclude: Sequence[str] = ()
     exact_only: bool = False
+    effects: Sequence[str] = ()
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
         """The study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
 
         drives = parse_drives(self.drive)
+        effects = parse_effects(self.effects)
         rigid, ignore = parse_parts("--rigid", self.rigid), parse_parts("--ignore", self.ignore)
         study = self._study(files, progress)
         return replace(
@@ -46,6 +48,7 @@ class Options:
             combine=study.combine and not self.no_combine,
             exclude=[*study.exclude, *self.exclude],
             infer=study.infer and not self.exact_only,
+            effects={name: study.effects.get(name, {}) for name in (*study.effects, *effects)},
         )
 
     def _study(self, files: Sequence[Path], progress: Callable[[int, int], None] | None) -> Study:
@@ -93,6 +96,18 @@ def parse_drives(options: Iterable[str]) -> dict[str, Range]:
         except ValueError as error:
             raise ValueError(f"--drive {option}: {error}") from None
     return drives
+
+
+def parse_effects(options: Iterable[str]) -> list[str]:
+    """The names of effects, commas between them; ValueError for others."""
+    from jaxkin.io.named_effects import known
+
+    names = [name.strip() for option in options for name in option.split(",")]
+    try:
+        known(names)
+    except ValueError as error:
+        raise ValueError(f"--effects {','.join(options)}: {error}") from None
+    return names
 
 
 def parse_parts(option: str, values: Iterable[str]) -> list[list[str]]:

@@ -32,20 +32,32 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     import jax
 
     from jaxkin.cli import report
+    from jaxkin.io.named_effects import Result, compute, missing
     from jaxkin.io.writers import WRITERS
+
+    results: dict[str, Result] = {}
 
     with progress(3) as step:
         study = found(files, options, step)
     if len(next(iter(study.drive.values()))) > LONG:
+        if study.effects:
+            raise ValueError(
+                f"effects are computed of {LONG} poses at most: drive fewer, or leave out {', '.join(study.effects)}"
+            )
         said, paths = _streamed(study, out)
     else:
-        with progress(1 + len(WRITERS)) as step:
+        with progress(1 + len(WRITERS) + len(study.effects)) as step:
             step("solving")
             motion = jax.block_until_ready(study.sweep())
+            for name in study.effects:
+                step(f"computing {name}")
+                results |= compute(motion, {name: study.effects[name]})
             said, paths = motion, []
             for filename in WRITERS:
                 step(f"writing {filename}")
                 paths += motion.save(out, only=filename)
+            for name, result in results.items():
+                paths += [result.save(out / f"{name}.csv"), result.plot(out / f"{name}.png")]
     report.say(f"{named(files)}: {study.mechanism.mobility()}")
     report.print_inferences(study.mechanism)
     if isinstance(said, str):
@@ -53,6 +65,9 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
         more = f"More than {LONG} poses: arrays only."
     else:
         report.print_motion(said)
+        for result in results.values():
+            report.say(f"\n{result}")
+        report.say(f"\n{missing(study.effects)}" if missing(study.effects) else "")
         more = f"Open {out / 'motion.html'} in a browser."
     report.say()
     report.print_files(paths)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -13,16 +14,17 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._names import by_name, nearest
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status
 
-if TYPE_CHECKING:
-    pass
-
 Inputs = dict[str, Float[Array, " poses"]]
+NAMES = {1: "Velocities", 2: "Accelerations", 3: "Jerks"}
+"""By the order of the derivative with respect to time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,8 @@ class Rates:
     """Rates of the transforms of all parts, in the order of `mechanism.parts`."""
     lower: tuple[tuple[Float[Array, "poses 4 4"], ...], ...] = ()
     """The same of lower orders, velocities first: those of jerks, whose angular part needs them."""
+    order: int = 1
+    """1 for velocities, 2 for accelerations, 3 for jerks."""
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
@@ -56,6 +60,36 @@ class Rates:
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
         """The derivative of the displacement matrix of each part."""
         return dict(zip(self.motion.mechanism.parts, self.matrices, strict=True))
+
+    def __str__(self) -> str:
+        """A line a coordinate: its least and its greatest rate, and where."""
+        lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
+        for name, row in zip(*self._rows(), strict=True):
+            if np.isfinite(row).any():
+                low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
+                lines.append(f"  {name}: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the rates of all joint coordinates over the poses into a picture file; returns its path."""
+        names, rows = self._rows()
+        return draw_lines(names, rows, f"{NAMES[self.order].lower()} of joints", "", Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write them as comma-separated values, a row a pose and a column a joint coordinate; returns the path."""
+        return save_rows(*self._rows(), Path(path))
+
+    def _rows(self) -> tuple[list[str], Float[np.ndarray, "coordinates poses"]]:
+        """Names with units, and rates, of all joint coordinates; NaN at poses that are not closed."""
+        closed, mechanism = np.asarray(self.closed), self.motion.mechanism
+        per = "time" if self.order == 1 else f"time^{self.order}"
+        names, rows = [], []
+        for (joint, rates), made in zip(self.coordinates.items(), mechanism.joints.values(), strict=True):
+            for column, coordinate in enumerate(made.coordinates):
+                unit = (mechanism.unit or "length") if is_length(coordinate) else "rad"
+                names.append(f"{joint}.{coordinate} [{unit}/{per}]")
+                rows.append(np.where(closed, np.asarray(rates)[:, column], np.nan))
+        return names, np.stack(rows) if rows else np.zeros((0, len(closed)))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Velocity (acceleration, jerk) of a point of a part, given where it is in the assembled pose; world axes."""
@@ -84,7 +118,7 @@ class Rates:
 
 
 jax.tree_util.register_dataclass(
-    Rates, data_fields=["motion", "inputs", "displacements", "matrices", "lower"], meta_fields=[]
+    Rates, data_fields=["motion", "inputs", "displacements", "matrices", "lower"], meta_fields=["order"]
 )
 
 
@@ -121,7 +155,7 @@ def accelerations(
         return jax.jvp(place, (inputs,), (tangents,))[1]
 
     found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
-    return Rates(motion, second, *_nan_where_nonfinite(motion, found, first, second))
+    return Rates(motion, second, *_nan_where_nonfinite(motion, found, first, second), order=2)
 
 
 def jerks(
@@ -148,7 +182,7 @@ def jerks(
     found = jax.jvp(acceleration, (motion.inputs, first, second), (first, second, third))[1]
     displacements, matrices = _nan_where_nonfinite(motion, found, first, second, third)
     lower = (velocity(motion.inputs, first)[1], acceleration(motion.inputs, first, second)[1])
-    return Rates(motion, third, displacements, matrices, _nan_where_nonfinite(motion, lower, first, second))
+    return Rates(motion, third, displacements, matrices, _nan_where_nonfinite(motion, lower, first, second), order=3)
 
 
 def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:

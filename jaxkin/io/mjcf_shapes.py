@@ -5,6 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
 from jaxkin.geometry.pose import inverse
 from jaxkin.io.mjcf_text import Compiler, Defaults
@@ -65,5 +66,21 @@ class Shapes:
             numbers(said.get("refpos"), 3, where, (0, 0, 0)),
         )
         scale = tuple(numbers(said.get("scale"), 3, where, (1, 1, 1)))
+        if not file and "vertex" in said:
+            return Shape(pose @ inverse(reference), "mesh", scale, name, _inline(said, f"{where}: mesh {name!r}"))
         folder = self.compiler.folder.rstrip("/")
         return Shape(pose @ inverse(reference), "mesh", scale, f"{folder}/{file}" if folder else file)
+
+
+def _inline(said: dict[str, str], where: str) -> np.ndarray:
+    """The triangles (n, 3, 3) of a mesh that the model holds itself: of its faces, else of its convex hull."""
+    try:
+        points = np.array(said["vertex"].split(), float).reshape(-1, 3)
+        faces = np.array(said.get("face", "").split(), int).reshape(-1, 3)
+        if not np.isfinite(points).all() or (len(faces) and not 0 <= faces.min() <= faces.max() < len(points)):
+            raise ValueError("numbers that are not finite, or faces of vertices that are not there")
+        if not len(faces):
+            faces = ConvexHull(points).simplices
+    except (ValueError, QhullError) as error:
+        raise ValueError(f"{where}: its vertices and faces are no triangles: {str(error).splitlines()[0]}") from error
+    return points[faces]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -13,7 +14,7 @@ from jaxkin.io.mjcf_text import Compiler, Defaults
 from jaxkin.io.names import unique
 from jaxkin.io.robot_couplings import SINGLE
 from jaxkin.io.robot_model import WORLD, RobotJoint, numbers, placed, quaternion, tag
-from jaxkin.joints.coupling import Coupling, polynomial, shifted_coupling
+from jaxkin.joints.coupling import Coupling, polynomial, relation, shifted_coupling
 from jaxkin.joints.kinds import JointKind
 
 KINDS = {"connect": JointKind.SPHERICAL, "weld": JointKind.FIXED}
@@ -48,7 +49,7 @@ class Ties:
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
             if said.get("active", "true") == "false":
                 self.notes.append(f"{where} is not active; left out")
-            elif each.tag == "joint":
+            elif each.tag == "joint" or (each.tag == "tendon" and self._lengths(said)):
                 continue  # see `couplings`
             elif each.tag not in KINDS:
                 about = [repr(value) for key, value in each.attrib.items() if key.rstrip("12") in ("joint", "tendon")]
@@ -71,7 +72,7 @@ class Ties:
                 if name not in joints:
                     raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
             stiff = [name for name in names if joints[name].kind not in SINGLE]
-            factors = np.array([*map(float, (said.get("polycoef") or "0 1").split()), *[0.0] * 5][:5])
+            factors = _polycoef(said)
             if len(names) < 2 or stiff or not factors[1:].any():
                 self.notes.append(
                     f"{where} of {listed(list(map(repr, names)))} is not kept: it ties no two coordinates"
@@ -81,7 +82,35 @@ class Ties:
             made = polynomial(names[0], names[1], factors[: max(powers, 2)], name=f"{names[0]} follows {names[1]}")
             at = np.array([-joints[name].values[0] if joints[name].values else 0.0 for name in names[::-1]])
             result.append(shifted_coupling(made, at))
-        return tuple(result)
+        return (*result, *self._length_couplings(joints))
+
+    def _length_couplings(self, joints: Mapping[str, RobotJoint]) -> Iterator[Coupling]:
+        """Make the couplings of <tendon>: the lengths of fixed tendons are sums of joints, `y_1 - a_1 y_2 = a_0`."""
+        for each in self.root.iterfind("equality/tendon"):
+            said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
+            if said.get("active", "true") == "false" or not (lengths := self._lengths(said)):
+                continue
+            for name in lengths:
+                if name not in joints:
+                    raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
+            name = said.get("name") or f"tendon {said['tendon1']}"
+            made = relation(lengths, _polycoef(said)[0], name=name)
+            at = np.array([-joints[each].values[0] if joints[each].values else 0.0 for each in lengths])
+            yield shifted_coupling(made, at)
+
+    def _lengths(self, said: Mapping[str, str]) -> dict[str, float]:
+        """The factor of each joint in a constraint of tendons; nothing where it is not linear in two joints or more."""
+        factors = _polycoef(said)
+        result: dict[str, float] = defaultdict(float)
+        for key, by in (("tendon1", 1.0), ("tendon2", -factors[1])):
+            if key in said:
+                joints = self.root.findall(f"tendon/fixed[@name='{said[key]}']/joint")
+                if not joints or factors[2:].any():
+                    return {}
+                for each in joints:
+                    result[each.get("joint", "")] += by * float(each.get("coef", "1"))
+        moved = {name: factor for name, factor in result.items() if factor}
+        return moved if len(moved) > 1 else {}
 
     def _loop(self, each: Element, said: dict[str, str], names: Collection[str], where: str) -> RobotJoint:
         """Make the joint of a constraint, closed where the bodies are written unless two sites or a pose say else."""
@@ -144,10 +173,16 @@ class Ties:
                 self.notes.append(f"{where} moves the ball {name!r} about one axis; not kept as a motor")
             else:
                 self.notes.append(f"{where} is of {name!r}, which is no joint that is read; left out")
+        held = {each.get(key) for each in self.root.iterfind("equality/tendon") for key in ("tendon1", "tendon2")}
         for each in self.root.iterfind("tendon/*"):
-            if each.get("name", "") not in pulled:
+            if each.get("name", "") not in pulled | held:
                 self.notes.append(f"{self.file}: {tag(each)}, a tendon, is not kept")
         return tuple(found)
+
+
+def _polycoef(said: Mapping[str, str]) -> np.ndarray:
+    """The five numbers of the polynomial of a constraint."""
+    return np.array([*map(float, (said.get("polycoef") or "0 1").split()), *[0.0] * 5][:5])
 
 
 _OTHERS = ("tendon", "site", "body", "cranksite", "slidersite", "refsite")

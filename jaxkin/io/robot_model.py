@@ -33,6 +33,8 @@ class Shape:
     length; of a mesh its three scales."""
     file: str = ""
     """Of a mesh, as the robot file names it."""
+    corners: np.ndarray | None = None
+    """Triangles (n, 3, 3) of a mesh that the robot file holds itself, metres before its scales."""
 
 
 @dataclass(frozen=True, eq=False)

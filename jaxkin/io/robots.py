@@ -160,7 +160,7 @@ class _Meshes:
         if shape.kind != "mesh":
             return _corners(shape)
         if shape.file not in self.read:
-            self.read[shape.file] = self._read(shape.file)
+            self.read[shape.file] = self._read(shape.file) if shape.corners is None else shape.corners
         found = self.read[shape.file]
         if isinstance(found, str):
             links = self.missing.setdefault(found, [])

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from jaxkin._names import listed, nearest
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
+from jaxkin.io.named_effects import Result, Settings, compute
 from jaxkin.io.ranges import Range, Values, in_radians
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -51,6 +52,8 @@ class Study:
     """The drive as it was written, by joint or coordinate."""
     unit: str = ""
     """Of lengths, where there is no assembly to say it."""
+    effects: Settings = field(default_factory=dict)
+    """The effects that are asked for, with their settings."""
 
     @cached_property
     def contacts(self) -> Contacts:
@@ -117,6 +120,10 @@ class Study:
         """The motion of the mechanism for the drive."""
         return self.mechanism.sweep(self.drive)
 
+    def computed(self, motion: Motion) -> dict[str, Result]:
+        """The effects of a motion that the study asks for, by name."""
+        return compute(motion, self.effects)
+
 
 def load_study(
     path: str | Path, *, seconds: float | None = None, progress: Callable[[int, int], None] | None = None
@@ -142,7 +149,7 @@ def load_study(
     common |= {"couplings": said.made_couplings(path.name)}
     common |= {"joints": joints, "combine": said.combine, "detect": said.contacts, "infer": said.infer}
     common |= {"ranges": said.ranges(), "unit": said.unit, "align": said.align}
-    common |= {"clearance": said.clearance}
+    common |= {"clearance": said.clearance, "effects": said.asked_effects(path.name)}
     if said.geometry is None:
         return Study(path.name, None, **common)
     place = path.parent

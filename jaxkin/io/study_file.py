@@ -12,6 +12,8 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_validator
 
 from jaxkin._files import check_file
+from jaxkin.geometry.movements import is_length
+from jaxkin.io.named_effects import Settings, known
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
@@ -20,6 +22,7 @@ from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.limits import with_limits
 from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS
 
 JOINT_FUNCTIONS = {str(kind): function for kind, function in pairs.JOINTS_BY_HAND.items()} | {
@@ -34,6 +37,7 @@ Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
 Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
 Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
+Ends = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 def _geometry(value: object) -> object:
@@ -82,6 +86,7 @@ class JointTable(BaseModel):
     state: str | None = None
     frames: list[Frame] | None = None
     region: Annotated[str, BeforeValidator(partial(one_of, ("circle",)))] | None = None
+    limits: Ends | dict[str, Ends] | None = None
     off: bool = False
 
     @model_validator(mode="after")
@@ -99,8 +104,20 @@ class JointTable(BaseModel):
 
     def arguments(self) -> dict[str, Any]:
         """What was said beside the kind and the parts."""
-        said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "off"})
+        said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "limits", "off"})
         return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
+
+    def limited(self, joint: Joint) -> Joint:
+        """The joint with its limits, which a study has in degrees and lengths."""
+        if self.limits is None:
+            return joint
+        names = joint.coordinates
+        said = self.limits if isinstance(self.limits, dict) else dict.fromkeys(names[:1], self.limits)
+        given = {
+            name: ends if name in names and is_length(name) else [float(np.radians(end)) for end in ends]
+            for name, ends in said.items()
+        }
+        return with_limits(joint, given if len(names) == 1 or isinstance(self.limits, dict) else self.limits)
 
 
 class RangeTable(BaseModel):
@@ -159,6 +176,7 @@ class StudyFile(BaseModel):
     couplings: dict[str, CouplingTable] = {}
     drive: Drive = {}
     instead: InsteadTable = InsteadTable()
+    effects: dict[str, bool | dict[str, Any]] = {}
 
     @model_validator(mode="after")
     def _solids_or_joints(self) -> StudyFile:
@@ -177,7 +195,8 @@ class StudyFile(BaseModel):
             if table.off:
                 continue
             try:
-                made.append(JOINT_FUNCTIONS[table.kind](name, table.parts[0], table.parts[1], **table.arguments()))
+                joint = JOINT_FUNCTIONS[table.kind](name, table.parts[0], table.parts[1], **table.arguments())
+                made.append(table.limited(joint))
             except ValueError as error:
                 raise ValueError(f"{file}: {error}") from None
         return tuple(made)
@@ -188,6 +207,14 @@ class StudyFile(BaseModel):
             return tuple(table.made(name) for name, table in self.couplings.items())
         except ValueError as error:
             raise ValueError(f"{file}: {error}") from None
+
+    def asked_effects(self, file: str) -> Settings:
+        """The effects that are not off, with their settings; ValueError for names of no effect."""
+        try:
+            known(self.effects)
+        except ValueError as error:
+            raise ValueError(f"{file}: effects: {error}") from None
+        return {name: {} if said is True else said for name, said in self.effects.items() if said is not False}
 
     def ranges(self) -> dict[str, Range]:
         """The drive as it was written."""

@@ -14,6 +14,7 @@ from jaxkin._grouped import grouped, kind_of
 from jaxkin._traced import traced
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
+from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
@@ -129,8 +130,18 @@ def _joints(mechanism: Mechanism, choices: Choices) -> list[str]:
         lines += [choices.off[joint.name]] if joint.name in choices.off else []
         kind, keys = _keys(joint)
         lines += [f"kind = {toml(kind)}", f"parts = {toml(joint.parts)}"]
-        lines += [f"{key} = {toml(value)}" for key, value in keys.items()]
+        lines += [f"{key} = {toml(value)}" for key, value in (keys | _limits(joint)).items()]
     return lines
+
+
+def _limits(joint: Joint) -> dict[str, object]:
+    """The limits of a joint by coordinate, degrees and lengths; nothing where it has none."""
+    ends = {
+        name: [end if is_length(name) else float(np.degrees(end)) for end in ends]
+        for name, ends in zip(joint.coordinates, joint.limits, strict=bool(joint.limits))
+        if np.isfinite(ends).any()
+    }
+    return {"limits": ends} if ends else {}
 
 
 def _couplings(mechanism: Mechanism) -> list[str]:

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 
 
 def toml(value: object) -> str:
-    """Return a value as TOML: JSON's texts, lists and numbers are TOML's too, its tables are not."""
+    """Return a value as TOML: JSON's texts and numbers are TOML's too, but for infinite ones; its tables are not."""
     if isinstance(value, Mapping):
         return f"{{ {', '.join(f'{toml_key(key)} = {toml(each)}' for key, each in value.items())} }}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(toml, value))}]"
+    if isinstance(value, float) and math.isinf(value):
+        return str(value)
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 

@@ -1,7 +1,8 @@
 """Joints written by hand: the lower pairs, and the contact states of the paper, in world coordinates.
 
 All points and directions are those of the assembled pose. Coordinates are those of part 2 relative to part 1, positive
-along the given axis and about it by the right-hand rule.
+along the given axis and about it by the right-hand rule. `limits` are the lowest and the highest of each, (low, high)
+for the only coordinate, {"z": (low, high)} for some of several: poses beyond them are computed too.
 """
 
 from __future__ import annotations
@@ -18,28 +19,53 @@ from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import frame, is_rigid
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.limits import GivenLimits, with_limits
 
 Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 
-def revolute(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
+def revolute(
+    name: str, part1: str, part2: str, *, point: Triple, axis: Triple, limits: GivenLimits | None = None
+) -> Joint:
     """Make a hinge about the axis through the point. Coordinate: phi."""
-    return joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [_frame(name, point, axis)])
+    return with_limits(joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [_frame(name, point, axis)]), limits)
 
 
-def prismatic(name: str, part1: str, part2: str, *, axis: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
+def prismatic(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    axis: Triple,
+    point: Triple = (0.0, 0.0, 0.0),
+    limits: GivenLimits | None = None,
+) -> Joint:
     """Make a slide along the axis; the point only says where it is drawn. Coordinate: z."""
-    return joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [_frame(name, point, axis)])
+    return with_limits(joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [_frame(name, point, axis)]), limits)
 
 
-def cylindrical(name: str, part1: str, part2: str, *, point: Triple, axis: Triple) -> Joint:
+def cylindrical(
+    name: str, part1: str, part2: str, *, point: Triple, axis: Triple, limits: GivenLimits | None = None
+) -> Joint:
     """Make a pin that turns and slides in its hole, contact state (e). Coordinates: z, phi."""
-    return joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [_frame(name, point, axis)])
+    return with_limits(
+        joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [_frame(name, point, axis)]), limits
+    )
 
 
-def planar(name: str, part1: str, part2: str, *, normal: Triple, point: Triple = (0.0, 0.0, 0.0)) -> Joint:
+def planar(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    normal: Triple,
+    point: Triple = (0.0, 0.0, 0.0),
+    limits: GivenLimits | None = None,
+) -> Joint:
     """Make a plane on a plane, contact state (a), that turns about the point. Coordinates: x, y, phi."""
-    return joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [_frame(name, point, normal, "normal")])
+    return with_limits(
+        joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [_frame(name, point, normal, "normal")]), limits
+    )
 
 
 def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
@@ -52,7 +78,9 @@ def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
     )
 
 
-def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple) -> Joint:
+def universal(
+    name: str, part1: str, part2: str, *, point: Triple, axis1: Triple, axis2: Triple, limits: GivenLimits | None = None
+) -> Joint:
     """Make a cross that turns in part 1 about axis1 (phi), and on which part 2 turns about axis2 (theta).
 
     The movement is T_theta_phi with y along axis1 and x along axis2. Coordinates: theta, phi. Raises ValueError where
@@ -71,14 +99,25 @@ def universal(name: str, part1: str, part2: str, *, point: Triple, axis1: Triple
     x = x / xp.linalg.norm(x)
     columns = [xp.append(column, 0.0) for column in (x, y, xp.cross(x, y))]
     pose = xp.stack([*columns, pose[:, 3]], axis=1)
-    return joint(name, (part1, part2), JointKind.UNIVERSAL, ("T_theta_phi",), [pose])
+    return with_limits(joint(name, (part1, part2), JointKind.UNIVERSAL, ("T_theta_phi",), [pose]), limits)
 
 
-def screw(name: str, part1: str, part2: str, *, point: Triple, axis: Triple, pitch: float | int | jax.Array) -> Joint:
+def screw(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    point: Triple,
+    axis: Triple,
+    pitch: float | int | jax.Array,
+    limits: GivenLimits | None = None,
+) -> Joint:
     """Make a helical pair that advances by `pitch` per turn (positive: right-handed). Coordinate: phi."""
     if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
         raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
-    return joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [_frame(name, point, axis)], pitch)
+    return with_limits(
+        joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [_frame(name, point, axis)], pitch), limits
+    )
 
 
 def fixed(name: str, part1: str, part2: str) -> Joint:
@@ -86,7 +125,7 @@ def fixed(name: str, part1: str, part2: str) -> Joint:
     return joint(name, (part1, part2), JointKind.FIXED, ("I",), [np.eye(4)])
 
 
-def free(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
+def free(name: str, part1: str, part2: str, *, point: Triple, limits: GivenLimits | None = None) -> Joint:
     """Make a joint that leaves all six freedoms, about the point, along axes parallel to those of the world.
 
     Coordinates: z1, z2, z3, slides along x, y, z; then theta, phi, psi as of `spherical`. It holds nothing; its
@@ -94,7 +133,7 @@ def free(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
     """
     frames = [_frame(name, point, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     movements = ("T_z", "T_z", "T_z", "T_theta_phi_psi")
-    return joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]])
+    return with_limits(joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]]), limits)
 
 
 def contact_joint(
@@ -105,6 +144,7 @@ def contact_joint(
     state: str,
     frames: Sequence[np.ndarray] | np.ndarray | jax.Array,
     region: Literal["circle"] | None = None,
+    limits: GivenLimits | None = None,
 ) -> Joint:
     """Make a joint that is one of the sixteen contact states of the paper, "a" to "p" (Table 2 as corrected).
 
@@ -128,7 +168,7 @@ def contact_joint(
                 f"joint {name!r}: frame {number} is no rigid pose: its first three columns must be perpendicular unit "
                 f"vectors, right-handed, its last row 0, 0, 0, 1; got {np.asarray(pose).tolist()}"
             )
-    return joint(name, (part1, part2), JointKind.of_state(state), movements, frames)
+    return with_limits(joint(name, (part1, part2), JointKind.of_state(state), movements, frames), limits)
 
 
 JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {

@@ -158,8 +158,8 @@ def _joint(mechanism: Mechanism, target: Target) -> Joint:
         at = xp.mean(xp.stack([xp.asarray(joint.frames_1, float)[0, :3, 3] for joint in held]), axis=0)
     normal = _normal(linkage, held)
     parts = (linkage.fixed[0], target.part)
-    plain = {"point": at} if normal is None else {"point": at, "normal": normal}
-    made = (free if normal is None else planar)(target.joint, *parts, **plain)
+    name = target.joint
+    made = free(name, *parts, point=at) if normal is None else planar(name, *parts, point=at, normal=normal)
     return replace(made, evidence=Evidence(EvidenceKind.TARGET))
 
 

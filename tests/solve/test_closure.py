@@ -114,10 +114,11 @@ def test_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(loop):
 
 def close_behind(system, geometry, state):
     """The geometry whose last constant closes the loop at this state."""
-    rotation, translation, _ = travel(system, geometry, state)
+    loops = geometry.loops
+    rotation, translation, _ = travel(system, loops, state)
     end = np.eye(4)
     end[:3, :3], end[:3, 3] = np.asarray(rotation)[..., 0, 0].T, np.asarray(translation)[:, 0, 0]
-    return geometry._replace(end=geometry.end @ np.linalg.inv(end))
+    return geometry._replace(loops=loops._replace(end=loops.end @ np.linalg.inv(end)))
 
 
 @pytest.mark.long

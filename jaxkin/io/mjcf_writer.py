@@ -1,0 +1,255 @@
+"""MJCF, the models of MuJoCo, written from a mechanism: a tree of bodies, loops closed by <equality>, inline meshes.
+
+The frame of each body is that of the world in the assembled pose, so `xpos` and `xmat` of MuJoCo are the transforms of
+a `Motion`. A loop is closed where the tree leaves a joint out: by <connect> for a ball, else by a body without a solid
+that has the coordinates of the joint, and a <weld> of it to the second part.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element, SubElement
+
+import numpy as np
+
+from jaxkin._files import whole
+from jaxkin._names import listed
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.io.names import unique
+from jaxkin.io.robot_model import WORLD
+from jaxkin.io.units import METRES
+from jaxkin.joints.coupling import Coupling
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.linkage.coordinates import coordinate
+
+if TYPE_CHECKING:
+    from jaxkin.geometry.part import Part
+    from jaxkin.mechanism.mechanism import Mechanism
+
+UNLIMITED = 1e9
+"""Radians or metres that stand for the infinite end of a range that has a finite one; MJCF knows no infinity."""
+LARGEST_POWER = 4
+"""Of the polynomials by which MuJoCo couples two joints."""
+LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
+"""In kg and kg m^2: MuJoCo refuses bodies that move and have none, as those without a solid."""
+
+
+def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
+    """Write a mechanism as a model of MuJoCo (.xml), in metres, and return its path.
+
+    The file holds bodies, joints with their ranges, loops, couplings, motors as actuators, and the solids as meshes; it
+    appears whole or not at all. MuJoCo pulls loops together by springs, so the poses that it settles at agree with a
+    sweep to their softness. A coordinate of a joint that has several is a joint of its own there, "joint_phi".
+
+    Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
+    pose, and for a coupling that MuJoCo cannot say: a polynomial in several coordinates, or of a power above four.
+    """
+    target = Path(path)
+    if target.suffix.lower() != ".xml":
+        raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")
+    root = _Writer(mechanism, target.stem).root
+    ElementTree.indent(root)
+    with whole(target) as draft:
+        ElementTree.ElementTree(root).write(draft, encoding="utf-8", xml_declaration=False)
+    return target
+
+
+class _Writer:
+    """The elements of one model."""
+
+    def __init__(self, mechanism: Mechanism, model: str) -> None:
+        for joint in mechanism.all_joints:
+            _check(joint)
+        self.mechanism = mechanism
+        self.metres = METRES[mechanism.unit]
+        self.root = Element("mujoco", model=model)
+        SubElement(self.root, "compiler", angle="radian", autolimits="true", balanceinertia="true",
+                   boundmass=_text(LEAST_MASS), boundinertia=_text(LEAST_INERTIA))  # fmt: skip
+        self.assets = SubElement(self.root, "asset")
+        world = SubElement(self.root, "worldbody")
+        self.equality = Element("equality")
+        self.tendons = Element("tendon")
+        ground = [WORLD] if WORLD in mechanism.linkage.fixed else []
+        others = [part for part in mechanism.parts if part not in ground]
+        names = unique([WORLD, *others])
+        self.body_names = dict(zip(others, names[1:], strict=True)) | dict.fromkeys(ground, WORLD)
+        self.bodies = {WORLD: world}
+        self.joint_names = _joint_names(mechanism.all_joints)
+        self._write_bodies()
+        self._write_couplings()
+        for element in (self.equality, self.tendons, self._actuators()):
+            if len(element):
+                self.root.append(element)
+        if not len(self.assets):
+            self.root.remove(self.assets)
+
+    def _write_bodies(self) -> None:
+        """Write the bodies in the order of the tree from the fixed parts, and close the loops."""
+        mechanism = self.mechanism
+        for part in mechanism.linkage.fixed:
+            if self.body_names[part] != WORLD:
+                self._body(self.body_names[part], WORLD)
+        of_tree = set()
+        for part, parent, number, sign in mechanism.structure.tree:
+            of_tree.add(number)
+            self._chain(self._body(self.body_names[part], self.body_names[parent]), number, sign)
+        for number, joint in enumerate(mechanism.all_joints):
+            if number not in of_tree:
+                self._close(number, joint)
+        for solid in mechanism.solids:
+            self._solid(solid)
+
+    def _body(self, name: str, parent: str) -> Element:
+        self.bodies[name] = SubElement(self.bodies[parent], "body", name=name)
+        return self.bodies[name]
+
+    def _chain(self, body: Element, number: int, sign: int) -> None:
+        """Write the elementary motions of a joint into the body on its second part; backwards where `sign` is -1."""
+        joint = self.mechanism.all_joints[number]
+        names, pitch, made = self.joint_names[number], float(joint.pitch) * self.metres, []
+        first = 0
+        for frame, key in zip(np.asarray(joint.frames_1, float), joint.movements, strict=True):
+            movement = MOVEMENTS[key]
+            place = {"pos": _text(*frame[:3, 3] * self.metres)}
+            if movement.ball:
+                made.append({"name": names[first], "type": "ball"} | place)
+            for motion in () if movement.ball else movement.elements:
+                column = first + motion.coordinate
+                axis = _text(*sign * frame[:3, motion.axis])
+                slides = motion.kind == "translate"
+                made.append(
+                    {"name": names[column], "type": "slide" if slides else "hinge"}
+                    | ({} if slides else place)
+                    | {"axis": axis}
+                    | self._range(joint, column)
+                )
+                if motion.kind == "screw":
+                    advance = f"{names[column]}_advance"
+                    made.append({"name": advance, "type": "slide", "axis": axis})
+                    self._polynomial(f"{joint.name} pitch", advance, names[column], [pitch / (2 * np.pi)])
+            first += len(movement.coordinates)
+        for attributes in made[::sign]:
+            SubElement(body, "joint", attributes)
+
+    def _close(self, number: int, joint: Joint) -> None:
+        """Close a loop at a joint that the tree leaves out."""
+        one, other = (self.body_names[part] for part in joint.parts)
+        if joint.kind is JointKind.SPHERICAL:
+            anchor = _text(*np.asarray(joint.frames_1, float)[0, :3, 3] * self.metres)
+            SubElement(self.equality, "connect", name=joint.name, body1=one, body2=other, anchor=anchor)
+            return
+        if joint.freedoms:
+            end = unique([*self.bodies, f"{joint.name} end"])[-1]
+            self._chain(self._body(end, one), number, 1)
+            one = end
+        # with its pose, since MuJoCo takes the pose of the bodies where this is left out, but other readers zeros
+        SubElement(self.equality, "weld", name=f"{joint.name} closed" if joint.freedoms else joint.name, body1=one,
+                   body2=other, relpose=_text(0, 0, 0, 1, 0, 0, 0))  # fmt: skip
+
+    def _solid(self, solid: Part) -> None:
+        """Write the triangles of a part as a mesh in the frame of its body."""
+        if not len(solid.triangles):
+            return
+        corners = np.asarray(solid.triangles, float).reshape(-1, 3) * self.metres
+        points, faces = np.unique(corners, axis=0, return_inverse=True)
+        faces = faces.reshape(-1, 3)
+        faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+        # as a shell, since MuJoCo refuses solids whose surface is not closed, and measures the inertia of each
+        SubElement(self.assets, "mesh", name=solid.name, inertia="shell", vertex=_text(*points.ravel()),
+                   face=" ".join(map(str, faces.ravel())))  # fmt: skip
+        # joined parts touch each other by design: collisions of their meshes would push them apart
+        SubElement(self.bodies[self.body_names[solid.name]], "geom", type="mesh", mesh=solid.name, contype="0",
+                   conaffinity="0")  # fmt: skip
+
+    def _range(self, joint: Joint, column: int) -> dict[str, str]:
+        """The range of a coordinate, counted from the assembled pose."""
+        low, high = joint.limits[column] if joint.limits else (-np.inf, np.inf)
+        if np.isinf([low, high]).all():
+            return {}
+        scale = self._scale(joint, column)
+        return {"range": _text(*np.clip([low * scale, high * scale], -UNLIMITED, UNLIMITED))}
+
+    def _scale(self, joint: Joint, column: int) -> float:
+        """Metres in the unit of a coordinate that is a length, 1 for an angle."""
+        return self.metres if is_length(joint.coordinates[column]) else 1.0
+
+    def _polynomial(self, name: str, follower: str, leader: str, factors: Sequence[float], constant: float = 0) -> None:
+        """Couple two joints: follower = constant + factors[0] leader + factors[1] leader^2 + ..."""
+        written = [constant, *factors, *[0.0] * LARGEST_POWER][: LARGEST_POWER + 1]
+        SubElement(self.equality, "joint", name=name, joint1=follower, joint2=leader, polycoef=_text(*written))
+
+    def _write_couplings(self) -> None:
+        for coupling in self.mechanism.linkage.couplings:
+            places = [coordinate(self.mechanism.linkage, name) for name in coupling.coordinates]
+            names = [self.joint_names[joint][column] for joint, column in places]
+            scales = [self._scale(self.mechanism.all_joints[joint], column) for joint, column in places]
+            self._coupling(coupling, names, np.array(scales))
+
+    def _coupling(self, coupling: Coupling, names: Sequence[str], scales: np.ndarray) -> None:
+        """Write a coupling: two joints by a polynomial, more by the length of a tendon that does not change."""
+        powers = np.arange(1, np.asarray(coupling.coefficients).shape[-1] + 1)
+        factors = np.asarray(coupling.coefficients, float) / scales[:, None] ** powers
+        offset = float(coupling.offset)
+        linear = [row for row in range(len(names)) if not factors[row, 1:].any() and factors[row, 0]]
+        if len(names) == 2 and linear and len(powers) <= LARGEST_POWER:
+            follower = linear[-1]
+            leader, by = 1 - follower, factors[linear[-1], 0]
+            self._polynomial(coupling.name, names[follower], names[leader], -factors[leader] / by, offset / by)
+        elif len(linear) == len(names):
+            tendon = SubElement(self.tendons, "fixed", name=coupling.name)
+            for name, factor in zip(names, factors[:, 0], strict=True):
+                SubElement(tendon, "joint", joint=name, coef=_text(factor))
+            SubElement(self.equality, "tendon", name=coupling.name, tendon1=coupling.name, polycoef=_text(offset, 0))
+        else:
+            raise ValueError(
+                f"MuJoCo cannot say the coupling {coupling.name!r}, {coupling}: it couples two joints by a polynomial "
+                f"of at most power {LARGEST_POWER} in one of them, or several joints linearly; write the mechanism "
+                f"without it, and what it ties, {listed(list(map(repr, coupling.coordinates)))}, moves on its own"
+            )
+
+    def _actuators(self) -> Element:
+        actuators = Element("actuator")
+        for motor in self.mechanism.motors:
+            joint, column = coordinate(self.mechanism.linkage, motor)
+            SubElement(actuators, "motor", name=motor, joint=self.joint_names[joint][column])
+        return actuators
+
+
+def _joint_names(joints: Sequence[Joint]) -> list[list[str]]:
+    """A name for each coordinate: that of the joint, followed by that of the coordinate if there are several.
+
+    The angles of a ball have one name together, since a ball is one joint.
+    """
+    result: list[list[str]] = []
+    taken: list[str] = []
+    for joint in joints:
+        together = joint.driven_together
+        own: list[str] = []
+        for columns in together:
+            coordinate = "ball" if len(columns) > 1 else joint.coordinates[min(columns)]
+            name = joint.name if len(together) == 1 else f"{joint.name}_{coordinate}"
+            taken = unique([*taken, name])
+            own += [taken[-1]] * len(columns)
+        result.append(own)
+    return result
+
+
+def _check(joint: Joint) -> None:
+    if traced(joint):
+        raise ValueError(f"joint {joint.name!r} has traced numbers: write the model outside of jit, vmap and grad")
+    if not np.array_equal(joint.frames_1, joint.frames_2):
+        raise ValueError(
+            f"joint {joint.name!r} stands elsewhere on its second part than on its first, as after with_lengths: write "
+            "mechanism.close().mechanism, whose given pose is closed"
+        )
+
+
+def _text(*numbers: float) -> str:
+    """Numbers in full precision, with blanks between them."""
+    return " ".join(repr(float(number)) for number in numbers)

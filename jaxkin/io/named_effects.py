@@ -1,0 +1,92 @@
+"""Effects by name, as studies and the command line ask for them: only those are computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from inspect import signature
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from jaxkin._names import closest, nearest
+from jaxkin.effects.clashes import clashes
+from jaxkin.effects.contact_validity import contact_validity
+from jaxkin.effects.rates import accelerations, velocities
+from jaxkin.geometry.movements import is_length
+from jaxkin.mechanism.motion import Motion
+
+
+class Result(Protocol):
+    """What an effect finds: it prints, draws and saves itself."""
+
+    def plot(self, path: str | Path) -> Path: ...
+
+    def save(self, path: str | Path) -> Path: ...
+
+
+def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
+    """Velocities and accelerations at constant speeds of the drive, degrees and lengths a unit of time."""
+    if not speeds and len(motion.inputs) > 1:
+        raise ValueError(
+            f"rates needs the speeds of the driven coordinates, of which there are {len(motion.inputs)}: write in a "
+            f"study [effects.rates] with {' and '.join(f'{name!r} = 10' for name in motion.inputs)}"
+        )
+    given = {
+        name: speed if is_length(_coordinate_name(motion, name)) else np.radians(speed)
+        for name, speed in speeds.items()
+    } or dict.fromkeys(motion.inputs, 1.0)
+    return {"velocities": velocities(motion, given), "accelerations": accelerations(motion, given)}
+
+
+def _coordinate_name(motion: Motion, name: str) -> str:
+    """The name of the driven coordinate that "joint" or "joint.coordinate" means."""
+    found = [each for each in motion.inputs if each == name or each.rpartition(".")[0] == name]
+    if not found:
+        raise ValueError(f"rates: {name!r} is not driven{nearest(name, motion.inputs)}")
+    return found[0].rpartition(".")[2]
+
+
+EFFECTS: dict[str, Callable[..., Mapping[str, Result]]] = {
+    "rates": _rates,
+    "clashes": lambda motion, *, within=None, tolerance=None, ignore=(): {
+        "clashes": clashes(motion, within=within, tolerance=tolerance, ignore=ignore)
+    },
+    "contacts": lambda motion: {"contacts": contact_validity(motion)},
+}
+"""Name of an effect -> a function of a motion and of settings, to results by the names of their files."""
+
+Settings = Mapping[str, Mapping[str, Any]]
+"""The effects that are asked for by name, each with its settings."""
+
+
+def known(names: Iterable[str]) -> None:
+    """Refuse names that are none of an effect, with a ValueError."""
+    for name in names:
+        if name not in EFFECTS:
+            raise ValueError(f"there is no effect {name!r}{closest(name, EFFECTS)}; there are {', '.join(EFFECTS)}")
+
+
+def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
+    """Compute the effects that are asked for, and nothing else; results by the names of their files.
+
+    Raises ValueError, with the name of the effect, for settings that it does not have and for what it lacks.
+    """
+    known(asked)
+    results: dict[str, Result] = {}
+    for name, settings in asked.items():
+        takes = signature(EFFECTS[name]).parameters
+        free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
+        has = [key for key, each in takes.items() if each.kind is each.KEYWORD_ONLY]
+        for key in settings:
+            if not free and key not in has:
+                knows = f"it has {', '.join(has)}" if has else "it has none"
+                raise ValueError(f"effect {name!r}: there is no setting {key!r}; {knows}")
+        results |= EFFECTS[name](motion, **settings)
+    return results
+
+
+def missing(asked: Iterable[str]) -> str:
+    """What was not computed, in a line; empty where everything was."""
+    left = [name for name in EFFECTS if name not in asked]
+    return f"Not computed: {', '.join(left)} (--effects {','.join(left)})." if left else ""

@@ -1,0 +1,54 @@
+"""Limits of the coordinates of joints by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from jaxkin._names import nearest
+from jaxkin.joints.joint import Joint
+
+GivenLimits = Sequence[float | int] | Mapping[str, Sequence[float | int]]
+"""The lowest and highest displacement of the only coordinate, (low, high), or those of several by their names."""
+
+
+def with_limits(joint: Joint, given: GivenLimits | None) -> Joint:
+    """Give limits to the coordinates of a joint, counted from the assembled pose, radians or lengths; inf for none.
+
+    Raises ValueError for unknown coordinates, for the angles of a ball, which are one turn, and for limits that are not
+    two numbers, low before high.
+    """
+    if given is None:
+        return joint
+    names = joint.coordinates
+    if not isinstance(given, Mapping):
+        if len(names) != 1:
+            form = "{" + ", ".join(f"{name!r}: (low, high)" for name in names[:1]) + "}"
+            raise ValueError(
+                f"joint {joint.name!r} has the coordinates {', '.join(names) or '(none)'}: write limits={form}, "
+                f"got {given!r}"
+            )
+        given = {names[0]: given}
+    found = [(-np.inf, np.inf)] * len(names)
+    together = {name for group in joint.driven_together if len(group) > 1 for name in (names[k] for k in group)}
+    for name, ends in given.items():
+        if name not in names:
+            raise ValueError(f"limits of joint {joint.name!r}: there is no coordinate {name!r}{nearest(name, names)}")
+        if name in together:
+            raise ValueError(
+                f"limits of joint {joint.name!r}: {name!r} is one of the angles of a ball, which have no limits each"
+            )
+        found[names.index(name)] = _ends(ends, f"joint {joint.name!r}: the limits of {name!r}")
+    return replace(joint, limits=tuple(found))
+
+
+def _ends(ends: Sequence[float | int], what: str) -> tuple[float, float]:
+    try:
+        low, high = (float(end) for end in ends)
+    except (TypeError, ValueError):
+        low = high = np.nan
+    if not low < high:
+        raise ValueError(f"{what} must be two numbers, low before high, such as (-0.5, 0.5), got {ends!r}")
+    return low, high

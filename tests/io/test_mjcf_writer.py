@@ -1,0 +1,170 @@
+"""Models of MuJoCo that are written: read back they move as before, and MuJoCo itself, where it is there, closes them.
+
+Random poses of the tree are no solution of the loops: MuJoCo's residual of a pose of ours is the independent check.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import jaxkin as jk
+from jaxkin.examples import path
+from jaxkin.io.mjcf_writer import UNLIMITED
+from reference.catalogue import GROUND, delta, oldham, scotch_yoke, swash_plate
+from reference.mechanisms import cam, planar_fourbar, slider_crank
+
+Z = (0.0, 0.0, 1.0)
+
+
+def coupled():
+    """A differential behind a polynomial: three coordinates in one relation, two in a curved one."""
+    names = ("a", "b", "carrier")
+    joints = [
+        jk.revolute(name, GROUND, f"{name} wheel", point=(0, 0, 10.0 * k), axis=Z) for k, name in enumerate(names)
+    ]
+    slide = jk.prismatic("slide", GROUND, "bar", axis=(1, 0, 0))
+    couplings = [jk.differential("a", "b", "carrier"), jk.polynomial("slide", "a", [0.0, 2.0, 0.5], name="curve")]
+    return jk.Mechanism.build(fixed=[GROUND], joints=[*joints, slide], couplings=couplings, unit="mm")
+
+
+def press():
+    """A screw that lifts the end of a rod between balls: a pitch, in inches."""
+    return jk.Mechanism.build(
+        fixed=[GROUND],
+        unit="in",
+        joints=[
+            jk.screw("spindle", GROUND, "nut", point=(0, 0, 0), axis=Z, pitch=0.5),
+            jk.spherical("low", "nut", "rod", point=(1, 0, 0)),
+            jk.universal("top", "rod", "slider", point=(1, 1, 3), axis1=(1, 0, 0), axis2=(0, 1, 0)),
+            jk.prismatic("rail", "slider", GROUND, axis=(0, 0, 1)),
+        ],
+    )
+
+
+CASES = {
+    "four-bar": (planar_fourbar, {"A": np.linspace(0, 1.5, 7)}),
+    "slider-crank": (slider_crank, {"A": np.linspace(0, 1.5, 7)}),
+    "scotch yoke": (scotch_yoke, None),
+    "cam": (cam, None),
+    "Oldham": (oldham, None),
+    "swash plate": (swash_plate, None),
+    "press": (press, {"spindle": np.linspace(0, 0.8, 5)}),
+    "delta": (delta, None),
+    "couplings": (coupled, {"a": np.linspace(0, 1, 5), "b": np.linspace(0, -2, 5)}),
+}
+METRES = {"": 1.0, "m": 1.0, "mm": 1e-3, "in": 0.0254}
+"""Mechanisms without a unit are taken for metres."""
+
+
+def drive_of(mechanism, drive):
+    """The given drive, or small steps of what can drive."""
+    if drive is not None:
+        return drive
+    names = mechanism.mobility().drivable[: mechanism.mobility().freedoms]
+    return {name: np.linspace(0, 0.2, 5) for name in names}
+
+
+def moved(mechanism, motion):
+    """Displacements of the parts, with lengths in metres."""
+    scale = np.array([[1, 1, 1, METRES[mechanism.unit]]] * 3 + [[1, 1, 1, 1]])
+    return {part: np.asarray(each) * scale for part, each in motion.transforms.items()}
+
+
+@pytest.mark.parametrize("name", ["four-bar", "press", "couplings", *(
+    pytest.param(name, marks=pytest.mark.long) for name in CASES if name not in ("four-bar", "press", "couplings")
+)])  # fmt: skip
+def test_it_is_read_back_as_the_same_mechanism(name, tmp_path):
+    make, drive = CASES[name]
+    mechanism = make()
+    drive = drive_of(mechanism, drive)
+    back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml")).mechanism()
+    assert back.mobility().freedoms == mechanism.mobility().freedoms
+    drive_back = {written_as(mechanism, key): values * scale_of(mechanism, key) for key, values in drive.items()}
+    expected = moved(mechanism, mechanism.sweep(drive, throw=True))
+    found = moved(back, back.sweep(drive_back, throw=True))
+    size = max(1.0, *(float(np.abs(each).max()) for each in expected.values()))
+    for part, transforms in expected.items():
+        # 1e-12 of the largest number: both sweeps close to rounding, and conditioning takes two digits
+        np.testing.assert_allclose(found[part], transforms, rtol=0, atol=1e-12 * size, err_msg=part)
+
+
+def written_as(mechanism, key):
+    """The name in the file of a driven coordinate."""
+    joint = key if key in mechanism.joints else key.rpartition(".")[0]
+    several = len(mechanism.joints[joint].driven_together) > 1
+    return f"{joint}_{key.rpartition('.')[2]}" if several else joint
+
+
+def scale_of(mechanism, key):
+    joint = key if key in mechanism.joints else key.rpartition(".")[0]
+    coordinate = mechanism.joints[joint].coordinates[0] if joint == key else key.rpartition(".")[2]
+    return METRES[mechanism.unit] if coordinate[0] in "xyz" else 1.0
+
+
+def test_solids_limits_and_motors_come_back(tmp_path):
+    assembly = jk.load(path("fourbar"))
+    mechanism = assembly.mechanism(fixed=["ground"])
+    mechanism = replace(mechanism, motors=("ground-crank",))
+    back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml"))
+    was = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in mechanism.solids}
+    now = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in back.parts if part.name in was}
+    assert now.keys() == was.keys()
+    for name, corners in was.items():  # the bounds tell placement and size; corners come in another order
+        for bound in (np.min, np.max):
+            np.testing.assert_allclose(bound(now[name], axis=0), 1e-3 * bound(corners, axis=0), rtol=0, atol=1e-15)
+    assert back.mechanism().motors == mechanism.motors
+
+
+def test_limits_come_back_in_metres(tmp_path):
+    slide = jk.prismatic("slide", GROUND, "bar", axis=(1, 0, 0), limits=(-5.0, np.inf))
+    pin = jk.cylindrical("pin", "bar", "end", point=(0, 0, 0), axis=Z, limits={"phi": (-0.5, 2.0)})
+    mechanism = jk.Mechanism.build(fixed=[GROUND], joints=[slide, pin], unit="mm")
+    back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml")).mechanism()
+    assert back.joints["slide"].limits == ((-0.005, UNLIMITED),)
+    assert back.joints["pin_phi"].limits == ((-0.5, 2.0),)
+    assert back.joints["pin_z"].limits == ()
+
+
+def test_what_cannot_be_written_is_refused(tmp_path):
+    mechanism = planar_fourbar()
+    with pytest.raises(ValueError, match=r"\.xml file"):
+        jk.write_mjcf(mechanism, tmp_path / "model.urdf")
+    longer = mechanism.with_lengths({next(iter(mechanism.lengths)): 45.0})
+    with pytest.raises(ValueError, match="close"):
+        jk.write_mjcf(longer, tmp_path / "model.xml")
+    joints = [jk.revolute(name, GROUND, f"{name} wheel", point=(0, 0, 10.0 * k), axis=Z) for k, name in enumerate("ab")]
+    tied = jk.Mechanism.build(fixed=[GROUND], joints=joints, couplings=[jk.polynomial("a", "b", [0, 1, 0, 0, 0, 1.0])])
+    with pytest.raises(ValueError, match="power 4"):
+        jk.write_mjcf(tied, tmp_path / "model.xml")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", CASES)
+def test_mujoco_closes_it_where_we_do(name, tmp_path):
+    """MuJoCo's own kinematics and constraints at the joint values of our poses: the loops are closed there."""
+    mujoco = pytest.importorskip("mujoco")
+    make, drive = CASES[name]
+    mechanism = make()
+    back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml")).mechanism()
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "model.xml"))
+    data = mujoco.MjData(model)
+    drive = drive_of(mechanism, drive)
+    motion = back.sweep({written_as(mechanism, key): at * scale_of(mechanism, key) for key, at in drive.items()})
+    for pose in range(len(motion)):
+        for number in range(model.njnt):
+            joint, first = model.joint(number), model.jnt_qposadr[number]
+            values = np.asarray(motion.coordinates[joint.name])[pose]
+            if len(values) == 3:  # theta, phi, psi about x, y, z of the world, as Rz Ry Rx
+                quaternion = Rotation.from_euler("xyz", values).as_quat(scalar_first=True)
+                data.qpos[first : first + 4] = quaternion
+            else:
+                data.qpos[first] = values[0]
+        mujoco.mj_forward(model, data)
+        np.testing.assert_allclose(data.efc_pos[data.efc_type == 0], 0, atol=1e-12)  # rounding, of metres below 1e3
+        for body in range(1, model.nbody):
+            expected = np.asarray(motion.transforms[model.body(body).name])[pose]
+            np.testing.assert_allclose(data.xpos[body], expected[:3, 3], rtol=0, atol=1e-12)
+            np.testing.assert_allclose(data.xmat[body].reshape(3, 3), expected[:3, :3], rtol=0, atol=1e-12)

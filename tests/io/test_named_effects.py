@@ -1,0 +1,95 @@
+"""Effects by name: computed where a study or the command line asks for them, and nowhere else."""
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import jaxkin as jk
+from jaxkin.cli.app import app
+from jaxkin.examples import path
+from jaxkin.io import named_effects
+from jaxkin.io.named_effects import EFFECTS, compute, missing
+
+STUDY = """
+geometry = "{file}"
+fixed = ["ground"]
+[drive]
+ground-crank = "0:40:3"
+[effects]
+contacts = true
+clashes = {{ within = 2.0 }}
+rates = {rates}
+"""
+
+
+def study(folder, rates="{ ground-crank = 180 }"):
+    (folder / "study.toml").write_text(STUDY.format(file=path("fourbar"), rates=rates))
+    return jk.load_study(folder / "study.toml")
+
+
+def test_a_study_computes_what_it_asks_for(tmp_path):
+    made = study(tmp_path)
+    motion = made.sweep()
+    results = made.computed(motion)
+    assert list(results) == ["contacts", "clashes", "velocities", "accelerations"]
+    assert results["clashes"].within == 2.0
+    np.testing.assert_allclose(results["velocities"].coordinates["ground-crank"], np.pi, rtol=1e-15)
+    direct = jk.velocities(motion, {"ground-crank": np.pi})
+    np.testing.assert_array_equal(
+        results["velocities"].coordinates["ground-rocker"], direct.coordinates["ground-rocker"]
+    )
+
+
+def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
+    monkeypatch.setitem(named_effects.EFFECTS, "clashes", lambda motion: pytest.fail("clashes were not asked for"))
+    made = study(tmp_path, rates="false")
+    assert list(made.effects) == ["contacts", "clashes"]
+    assert list(compute(made.sweep(), {"contacts": {}})) == ["contacts"]
+    assert missing(["rates", "contacts"]) == "Not computed: clashes (--effects clashes)."
+    assert missing(EFFECTS) == ""
+
+
+@pytest.mark.parametrize(
+    ("effects", "message"),
+    [
+        ({"clahses": {}}, "no effect 'clahses'.*'clashes'"),
+        ({"clashes": {"winthin": 1}}, "no setting 'winthin'; it has within, tolerance, ignore"),
+        ({"contacts": {"within": 1}}, "no setting 'within'; it has none"),
+        ({"rates": {"ground-rocker": 1}}, "'ground-rocker' is not driven"),
+    ],
+)
+def test_what_is_no_effect_is_refused(effects, message, tmp_path):
+    motion = study(tmp_path).sweep()
+    with pytest.raises(ValueError, match=message):
+        compute(motion, effects)
+
+
+def test_a_study_with_an_unknown_effect_is_refused(tmp_path):
+    (tmp_path / "study.toml").write_text(STUDY.format(file=path("fourbar"), rates="true") + "forcs = true\n")
+    with pytest.raises(ValueError, match=r"study\.toml: effects: there is no effect 'forcs'"):
+        jk.load_study(tmp_path / "study.toml")
+
+
+def test_several_drives_need_speeds():
+    z = (0, 0, 1)
+    joints = [jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=z) for k, name in enumerate("AB")]
+    motion = jk.Mechanism.build(fixed=["ground"], joints=joints).sweep({"A": [0.0, 1.0], "B": [0.0, 2.0]})
+    with pytest.raises(ValueError, match=r"speeds of the driven coordinates.*\[effects.rates\]"):
+        compute(motion, {"rates": {}})
+    found = compute(motion, {"rates": {"A": 90, "B.phi": 0}})
+    np.testing.assert_allclose(found["velocities"].coordinates["A"], np.pi / 2, rtol=1e-15)
+
+
+@pytest.mark.long
+def test_the_command_line_writes_them(tmp_path):
+    study(tmp_path, rates="true")
+    said = CliRunner().invoke(app, ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")])
+    assert said.exit_code == 0, said.output
+    for name in ("contacts", "clashes", "velocities", "accelerations"):
+        for suffix in ("csv", "png"):
+            assert (tmp_path / "out" / f"{name}.{suffix}").stat().st_size
+    assert "0 clash" in said.output and "Not computed" not in said.output
+    table = np.genfromtxt(tmp_path / "out" / "velocities.csv", delimiter=",", names=True)
+    np.testing.assert_allclose(table["groundcrankphi_radtime"], 1.0)
+    other = CliRunner().invoke(app, ["sweep", str(path("fourbar")), "--out", "x", "--effects", "clashes,forcs"])
+    assert other.exit_code == 2
