@@ -61,6 +61,11 @@ def as_tolerance(what: str, given: Any) -> Tolerance:
     return Tolerance(_positive(f"the tolerance of {what}", given), 0.0, "even")
 
 
+def named(key: Any) -> str:
+    """Write the name of a length, or of the clearance of a joint."""
+    return f"clearance of {key}" if isinstance(key, str) else " ".join(map(str, key))
+
+
 def _positive(what: str, given: Any) -> float:
     try:
         if isinstance(given, str | bool):

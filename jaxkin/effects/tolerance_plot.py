@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._files import whole
+from jaxkin.effects.tolerance import named
 
 if TYPE_CHECKING:
     from jaxkin.effects.tolerance_result import Tolerances
@@ -19,8 +20,6 @@ MAX_BARS = 15
 def draw_tolerances(found: Tolerances, path: Path) -> Path:
     """Draw bars of the contributions and a histogram of the samples into a picture file; returns its path."""
     from matplotlib.figure import Figure
-
-    from jaxkin.effects.tolerance_result import named
 
     good = found.samples[~np.isnan(found.samples)]
     panels = 2 if len(good) else 1

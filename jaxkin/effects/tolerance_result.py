@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 from jaxkin._files import whole
 from jaxkin._names import closest
 from jaxkin._traced import traced
-from jaxkin.effects.tolerance import Tolerance
+from jaxkin.effects.tolerance import Tolerance, named
 
 RULES = ("worst case", "root sum of squares")
 SIZE_OF_NONE = 1e-13
@@ -228,11 +228,6 @@ class AllowedTolerances:
             equal = f"± {self.equal[key]:.4g}" if np.isfinite(self.equal[key]) else "any"
             lines.append(f"  {name:<{width}}  {f'± {self.scaled[key]:.4g}':>10}  {equal:>12}")
         return "\n".join(lines)
-
-
-def named(key: Any) -> str:
-    """Write the name of a length, or of the clearance of a joint."""
-    return f"clearance of {key}" if isinstance(key, str) else " ".join(map(str, key))
 
 
 def _interval(pair: tuple[float, float]) -> str:

@@ -14,8 +14,8 @@ from jaxkin._traced import traced
 from jaxkin.dimensions.lengths import find_length, length_now
 from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
 from jaxkin.effects.pin_play import directions_of_play
-from jaxkin.effects.tolerance import Tolerance, as_tolerance
-from jaxkin.effects.tolerance_result import Tolerances, named
+from jaxkin.effects.tolerance import Tolerance, as_tolerance, named
+from jaxkin.effects.tolerance_result import Tolerances
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.targets import Target
 from jaxkin.solve.options import SolverOptions, options_with
