@@ -18,6 +18,8 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.calibrate import calibrate as calibrate
+from jaxkin.effects.calibration_result import Calibration as Calibration
 from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
@@ -30,6 +32,11 @@ from jaxkin.effects.rates import jerks as jerks
 from jaxkin.effects.rates import velocities as velocities
 from jaxkin.effects.screw_axes import ScrewAxes as ScrewAxes
 from jaxkin.effects.screw_axes import screw_axes as screw_axes
+from jaxkin.effects.tolerance import Tolerance as Tolerance
+from jaxkin.effects.tolerance import sigma as sigma
+from jaxkin.effects.tolerance_result import AllowedTolerances as AllowedTolerances
+from jaxkin.effects.tolerance_result import Tolerances as Tolerances
+from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
 from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf

@@ -28,6 +28,8 @@ LONG = {
         "how-to/derivatives",
         "how-to/sweep",
         "how-to/time",
+        "how-to/tolerances",
+        "how-to/calibration",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
