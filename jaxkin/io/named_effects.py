@@ -1,4 +1,8 @@
-"""Effects by name, as studies and the command line ask for them: only those are computed."""
+"""Effects by name, as studies and the command line ask for them: only those are computed.
+
+To give an effect a name: a row of `EFFECTS`. A function of a motion whose other arguments have defaults, such as
+`clashes(motion, *, within=None)`, stands there as it is; its keyword arguments are the settings.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +30,7 @@ class Result(Protocol):
 
 
 def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
-    """Velocities and accelerations at constant speeds of the drive, degrees and lengths a unit of time."""
+    """Compute velocities and accelerations for constant `speeds` of the drive, degrees and lengths a unit of time."""
     if not speeds and len(motion.inputs) > 1:
         raise ValueError(
             f"rates needs the speeds of the driven coordinates, of which there are {len(motion.inputs)}: write in a "
@@ -40,35 +44,34 @@ def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
 
 
 def _coordinate_name(motion: Motion, name: str) -> str:
-    """The name of the driven coordinate that "joint" or "joint.coordinate" means."""
+    """Find the driven coordinate, such as "phi", that "joint" or "joint.coordinate" means; ValueError for others."""
     found = [each for each in motion.inputs if each == name or each.rpartition(".")[0] == name]
     if not found:
         raise ValueError(f"rates: {name!r} is not driven{nearest(name, motion.inputs)}")
     return found[0].rpartition(".")[2]
 
 
-EFFECTS: dict[str, Callable[..., Mapping[str, Result]]] = {
+EFFECTS: dict[str, Callable[..., Result | Mapping[str, Result]]] = {
     "rates": _rates,
-    "clashes": lambda motion, *, within=None, tolerance=None, ignore=(): {
-        "clashes": clashes(motion, within=within, tolerance=tolerance, ignore=ignore)
-    },
-    "contacts": lambda motion: {"contacts": contact_validity(motion)},
+    "clashes": clashes,
+    "contacts": contact_validity,
 }
-"""Name of an effect -> a function of a motion and of settings, to results by the names of their files."""
+"""Name of an effect -> a function of a motion and of settings (keyword arguments). The function returns one result,
+whose files have the name of the effect, or several results by the names of their files."""
 
 Settings = Mapping[str, Mapping[str, Any]]
 """The effects that are asked for by name, each with its settings."""
 
 
 def known(names: Iterable[str]) -> None:
-    """Refuse names that are none of an effect, with a ValueError."""
+    """Raise ValueError for a name that no effect has."""
     for name in names:
         if name not in EFFECTS:
             raise ValueError(f"there is no effect {name!r}{closest(name, EFFECTS)}; there are {', '.join(EFFECTS)}")
 
 
 def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
-    """Compute the effects that are asked for, and nothing else; results by the names of their files.
+    """Compute the effects that are asked for, and no others; returns results by the names of their files.
 
     Raises ValueError, with the name of the effect, for settings that it does not have and for what it lacks.
     """
@@ -82,11 +85,12 @@ def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
             if not free and key not in has:
                 knows = f"it has {', '.join(has)}" if has else "it has none"
                 raise ValueError(f"effect {name!r}: there is no setting {key!r}; {knows}")
-        results |= EFFECTS[name](motion, **settings)
+        found = EFFECTS[name](motion, **settings)
+        results |= found if isinstance(found, Mapping) else {name: found}
     return results
 
 
 def missing(asked: Iterable[str]) -> str:
-    """What was not computed, in a line; empty where everything was."""
+    """Name the effects that were not asked for, in a line for the user; empty where all were."""
     left = [name for name in EFFECTS if name not in asked]
     return f"Not computed: {', '.join(left)} (--effects {','.join(left)})." if left else ""

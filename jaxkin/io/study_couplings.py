@@ -3,53 +3,43 @@
 from __future__ import annotations
 
 from functools import partial
-from inspect import signature
+from inspect import Parameter, signature
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from jaxkin.io.study_tables import STRICT, Number, one_of
-from jaxkin.joints import coupling
-from jaxkin.joints.coupling import Coupling
+from jaxkin.joints.coupling import COUPLINGS, Coupling
 
-COUPLING_FUNCTIONS = {
-    function.__name__: function
-    for function in (
-        coupling.gear,
-        coupling.belt,
-        coupling.rack,
-        coupling.differential,
-        coupling.relation,
-        coupling.polynomial,
-    )
+_VALUES = {
+    "str": str,
+    "Number": Number,
+    "Mapping[str, Number]": dict[str, Number],
+    "Sequence[Number] | Array": Annotated[list[Number], Field(min_length=2)],
 }
-"""Kinds of couplings; the keys that each takes are the arguments of its function."""
+"""Annotation of an argument in `jaxkin.joints.coupling` -> what a study may say for it."""
 
 
-class CouplingTable(BaseModel):
+def _arguments(kind: str) -> dict[str, Parameter]:
+    """List what the function of a kind of coupling takes, but for the name of the coupling."""
+    return {name: each for name, each in signature(COUPLINGS[kind]).parameters.items() if name != "name"}
+
+
+_KEYS: dict[str, Any] = {
+    name: (_VALUES[each.annotation] | None, None) for kind in COUPLINGS for name, each in _arguments(kind).items()
+}
+"""Keys of a coupling, of whichever kind, and what each may hold."""
+
+
+class CouplingTable(create_model("CouplingKeys", __config__=STRICT, **_KEYS)):
     """A coupling: its kind, and what the function of that kind takes."""
 
-    model_config = STRICT
-    kind: Annotated[str, BeforeValidator(partial(one_of, COUPLING_FUNCTIONS))]
-    a: str | None = None
-    b: str | None = None
-    ratio: Number | None = None
-    radius_a: Number | None = None
-    radius_b: Number | None = None
-    pinion: str | None = None
-    rack: str | None = None
-    radius: Number | None = None
-    carrier: str | None = None
-    factors: dict[str, Number] | None = None
-    offset: Number | None = None
-    follower: str | None = None
-    leader: str | None = None
-    coefficients: Annotated[list[Number], Field(min_length=2)] | None = None
+    kind: Annotated[str, BeforeValidator(partial(one_of, COUPLINGS))]
 
     @model_validator(mode="after")
     def _keys_of_the_kind(self) -> CouplingTable:
-        takes = {name: p for name, p in signature(COUPLING_FUNCTIONS[self.kind]).parameters.items() if name != "name"}
+        takes = _arguments(self.kind)
         missing = [name for name, p in takes.items() if p.default is p.empty and getattr(self, name) is None]
         if missing:
             raise ValueError(f"a coupling of kind {self.kind!r} needs {' and '.join(missing)}")
@@ -63,7 +53,7 @@ class CouplingTable(BaseModel):
 
     def made(self, name: str) -> Coupling:
         """The coupling; ValueError for numbers that make none."""
-        return COUPLING_FUNCTIONS[self.kind](**self.arguments(), name=name)
+        return COUPLINGS[self.kind](**self.arguments(), name=name)
 
 
 def coupling_keys(given: Coupling) -> dict[str, object]:

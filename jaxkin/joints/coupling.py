@@ -9,7 +9,7 @@ with `q_i` measured from the assembled pose, so that the offset is zero where th
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import comb
 from typing import Any
@@ -138,6 +138,13 @@ def polynomial(
         )
     rows = xp.stack([values[1:], xp.asarray([-1.0] + [0.0] * (len(values) - 2))])
     return Coupling(name or f"polynomial {leader} {follower}", _two(leader, follower), rows, xp.asarray(-values[0]))
+
+
+COUPLINGS: dict[str, Callable[..., Coupling]] = {
+    function.__name__: function for function in (gear, belt, rack, differential, relation, polynomial)
+}
+"""Kind of a coupling -> the function that makes it. Studies are read by this table: arguments of the function, by their
+names and annotations, are keys of the coupling in the file."""
 
 
 def _linear(

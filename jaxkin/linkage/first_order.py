@@ -29,8 +29,9 @@ class Thresholds(NamedTuple):
 RESIDUAL_TOLERANCE = 1e-11
 """`Thresholds.residual` in float64: ten times the residual at which a sweep calls a pose closed, 1e-12."""
 RANK_TOLERANCE = 1e-7
-"""`Thresholds.rank` in float64. Its square, 45 units of rounding, is the damping of J J^T, from which least-norm steps
-are computed. Singular values of J below 1.5e-8, the root of one unit of rounding, are rounding in J J^T."""
+"""`Thresholds.rank` in float64. Seven times the least that is possible: singular values of J below 1.5e-8, the root of
+one unit of rounding, are rounding in J J^T, from which least-norm steps are computed. Its square, 45 units of rounding,
+is the damping of J J^T. Singular values of sound designs are far larger, above `LARGEST_UNCERTAIN`."""
 RATE_TOLERANCE = 2e-5
 """`Thresholds.rate` in float64: four times the rounding of numbers of six digits, 5e-6. Frames of a part with an idle
 motion (a leg that slides along its line) may stay rounded so, since its loops move without exact alignment."""

@@ -33,6 +33,14 @@ def test_the_functions_in_the_table_of_equations_are_in_their_files():
     assert missing == []
 
 
+def test_the_functions_on_the_route_of_the_solver_are_in_their_files():
+    route = (ROOT / "jaxkin" / "solve" / "__init__.py").read_text(encoding="utf-8")
+    steps = re.findall(r"`(\w+(?:/\w+)*\.py)`(?: `(\w+)`)?", route)
+    assert len(steps) >= 19
+    assert [step for step in steps if not (ROOT / "jaxkin" / "solve" / step[0]).exists()] == []
+    assert [step for step in steps if step[1] and not defined(f"jaxkin/solve/{step[0]}", step[1])] == []
+
+
 def defined(file: str, what: str) -> bool:
     """Whether a name is defined at the top of a file, or in a class of it."""
     return re.search(rf"^ *(?:def|class) {what}\b|^ *{what}\b *[:=]", (ROOT / file).read_text(), re.M) is not None

@@ -1,11 +1,14 @@
 """Couplings in files: in studies, and in whole mechanisms, which come back to the same numbers."""
 
 import json
+from inspect import signature
 
 import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.io.study_couplings import CouplingTable
+from jaxkin.joints.coupling import COUPLINGS
 
 Z = (0.0, 0.0, 1.0)
 STUDY = """
@@ -38,6 +41,13 @@ def test_a_study_couples(tmp_path):
     np.testing.assert_allclose(motion.coordinates["slide"][-1], 4 * np.pi, rtol=1e-14)
 
 
+def test_a_coupling_is_one_row_for_users_and_studies():
+    """What its function takes is a key of a study, and users import the function."""
+    for kind, function in COUPLINGS.items():
+        assert set(signature(function).parameters) - {"name"} <= set(CouplingTable.model_fields)
+        assert getattr(jk, kind) is function
+
+
 @pytest.mark.parametrize(
     "coupling",
     [
@@ -58,6 +68,8 @@ def test_a_written_study_says_the_same(tmp_path, coupling):
     [
         ('kind = "geer"', r"couplings.steering.kind: expected one of 'gear', .* got 'geer'; did you mean 'gear'"),
         ('kind = "gear"\na = "pinion"\nb = "slide"', "a coupling of kind 'gear' needs ratio"),
+        (RACK.replace("8.0", '"8"'), "couplings.steering.radius: expected a number, got '8'"),
+        (RACK.replace("radius", "radus"), r"no key 'couplings.steering.radus'; did you mean 'radius'"),
         (RACK + "\nratio = 2.0", "a coupling of kind 'rack' has no ratio; it takes pinion, rack, radius"),
         (RACK.replace("8.0", "0.0"), "study.toml: the radius of 'pinion' must not be zero"),
         (RACK.replace('"slide"', '"slid"'), "coupling 'steering': there is no joint 'slid'; did you mean 'slide'"),
