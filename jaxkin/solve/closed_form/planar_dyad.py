@@ -200,7 +200,7 @@ _FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
 
 
 def _to_line(two: _Link, three: _Link) -> Complex:
-    """z_3 + conj(r_2) z_2 of the slide in RRP."""
+    """Compute z_3 + conj(r_2) z_2 of the slide in RRP."""
     return add(three.shift, times(conj(two.turn), two.shift))
 
 
