@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 
 def check_file(path: Path, kind: str) -> int:
-    """The size in bytes of a file of a kind ("STEP file").
+    """Return the size in bytes of a file that is to be read; `kind` is what the file is, such as "STEP file".
 
     Raises FileNotFoundError where nothing is there, and ValueError for what is no file: a folder, or a pipe or device,
     from which reading may never end.
@@ -26,7 +26,7 @@ def check_file(path: Path, kind: str) -> int:
 
 @contextmanager
 def whole(target: Path) -> Iterator[Path]:
-    """A draft of a file, which takes its place when it is written, and never does where that fails.
+    """Yield a draft of a file, which takes the place of the file when it is written, and never if that fails.
 
     It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
     where the folder of the file is not there.

@@ -22,7 +22,7 @@ class InAssembly(Protocol):
 
 
 def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
-    """What was given, if it is a mapping: ValueError with an example otherwise."""
+    """Return what was given if it is a mapping, else raise ValueError with an example."""
     if not isinstance(given, Mapping):
         raise ValueError(f"{what} are given by name, as in {example}, got {given!r}")
     return given
@@ -58,13 +58,13 @@ def _below(pattern: str, paths: Mapping[str, str]) -> list[str]:
 
 
 def _form(pattern: str) -> re.Pattern[str]:
-    """The pattern as a regular expression: "*" is any text, "?" any one letter, all else itself."""
+    """Compile a pattern to a regular expression: "*" is any text, "?" any one letter, all else itself."""
     pieces = re.split(r"([*?])", pattern)
     return re.compile("".join({"*": ".*", "?": "."}.get(each, re.escape(each)) for each in pieces), re.DOTALL)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The end of a message about an unknown name: "; did you mean 'crank'?", else the names that there are."""
+    """Write the end of a message about an unknown name: "; did you mean 'crank'?", else the names that there are."""
     known = list(known)
     if close := closest(name, known):
         return close
@@ -80,6 +80,6 @@ def listed(words: Sequence[str]) -> str:
 
 
 def closest(name: object, known: Iterable[str]) -> str:
-    """The end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing."""
+    """Write the end of a message that lists the known names itself: "; did you mean 'crank'?", or nothing."""
     close = get_close_matches(str(name), list(known), n=1)
     return f"; did you mean {close[0]!r}?" if close else ""

@@ -7,5 +7,5 @@ from jax.core import Tracer
 
 
 def traced(*trees: object) -> bool:
-    """Whether JAX traces any of the arrays (inside `jit`, `vmap` or `grad`): such numbers cannot be looked at."""
+    """Tell whether JAX traces any of the arrays (inside `jit`, `vmap` or `grad`): their numbers cannot be looked at."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))

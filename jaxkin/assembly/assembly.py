@@ -56,7 +56,7 @@ class Assembly:
         fit: float = 0.02,
         progress: Callable[[int, int], None] | None = None,
     ) -> Contacts:
-        """The contacts between the parts, and what is nearly one; found once for each choice of tolerances.
+        """Find the contacts between the parts, and what is nearly one; found once for each choice of tolerances.
 
         `length` (in the unit of the assembly; 1e-5 of its diagonal by default), `angle` (radians) and `fit` (clearance
         over radius) say what still counts as touching: see `jaxkin.contacts.detect.find_contacts`. `progress(done,
@@ -81,7 +81,7 @@ class Assembly:
         infer: bool = True,
         clearance: float | int | None = None,
     ) -> Mechanism:
-        """The mechanism that the contacts make, with the parts named in `fixed` at rest.
+        """Make the mechanism that the contacts make, with the parts named in `fixed` at rest.
 
         A file that `Mechanism.save` wrote holds the whole mechanism, which nothing need be said about. Where the file
         is the export of a CAD system, its joints, mates and rigid groups make the mechanism instead, and
@@ -152,7 +152,7 @@ class Assembly:
         align: float | int | None = None,
         exclude: Sequence[str] = (),
     ) -> Mechanism:
-        """The mechanism that rigid groups and joints by hand make alone, without contacts and inferences.
+        """Make the mechanism that rigid groups and joints by hand make alone, without contacts and inferences.
 
         What they tie to nothing is left at rest, and a note names it. Joints of parts that are left out go with them.
         Otherwise as `mechanism`.
@@ -180,7 +180,7 @@ class Assembly:
         return proposals(self, None if fixed is None else _in_full(fixed, self.parts, "fixed"), drive, progress)
 
     def without(self, names: Collection[str]) -> Assembly:
-        """The assembly without some parts, by names or patterns. ValueError for names that are not there."""
+        """Make the assembly without some parts, by names or patterns. ValueError for names that are not there."""
         if not names:
             return self
         names = _in_full([*names], self.parts, "exclude")
@@ -252,7 +252,7 @@ def _groups(rigid: Sequence[Sequence[str]], parts: Sequence[Part]) -> Sequence[S
 
 
 def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Contacts:
-    """The contacts, near misses and notes that none of some parts takes part in."""
+    """Find the contacts, near misses and notes that none of some parts takes part in."""
     kept = tuple(each for each in contacts if not {*each.parts} & {*names})
     if not isinstance(contacts, Contacts):
         return Contacts(kept)

@@ -187,5 +187,5 @@ class _ContactJudgement(NamedTuple):
             yield from found
 
     def _frees(self, removed: Sequence[int]) -> bool:
-        """Whether something moves without some joints."""
+        """Tell whether something moves without some joints."""
         return self.system.count_freed(self.system.rows(removed)) > 0

@@ -73,7 +73,7 @@ def closed_export(
 
 
 def _joint(each: Constraint, frames_2: np.ndarray) -> Joint:
-    """The joint of a constraint, its two frames where they are; ValueError for a constraint that is no joint."""
+    """Make the joint of a constraint, its two frames where they are; ValueError for a constraint that is no joint."""
     if each.kind is None:
         raise ValueError(f"{each.text} is no joint by itself: it has no kind")
     movements, pitch = tuple(each.chain.movements), np.asarray(each.pitch, float)
@@ -81,7 +81,7 @@ def _joint(each: Constraint, frames_2: np.ndarray) -> Joint:
 
 
 def _placed(each: Constraint, made: Joint, found: Reassembly) -> Constraint:
-    """The constraint in the closed pose."""
+    """Place the constraint in the closed pose."""
     q = found.coordinates[each.name]
     values = each.values or (0.0,) * len(q)
     return replace(

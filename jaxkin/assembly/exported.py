@@ -62,7 +62,7 @@ class Exported:
         return {each.name: each.values or (0.0,) * freedoms(each.chain.movements) for each in self.constraints}
 
     def renamed(self, names: Mapping[str, str]) -> Exported:
-        """The same with other names for some parts."""
+        """Make the export with other names for some parts."""
 
         def new(parts: tuple[str, ...]) -> tuple[str, ...]:
             return tuple(names.get(part, part) for part in parts)
@@ -75,7 +75,7 @@ class Exported:
         return replace(self, fixed=new(self.fixed), rigid=rigid, constraints=constraints)
 
     def without(self, parts: Collection[str]) -> Exported:
-        """The same without some parts, and what it says of them."""
+        """Make the export without some parts, and without what it says of them."""
 
         def left(group: tuple[str, ...]) -> tuple[str, ...]:
             return tuple(part for part in group if part not in parts)

@@ -78,7 +78,8 @@ def from_export(assembly: Assembly, exported: Exported, said: Said) -> Mechanism
 
 
 def _coupled(linkage: Linkage, exported: Exported, notes: list[str]) -> Linkage:
-    """The linkage with the couplings of the export, but for those of joints that are not there; notes name these."""
+    """Make the linkage with the couplings of the export, but for those of joints that are not there; notes name
+    these."""
     names = {joint.name for joint in linkage.joints if joint.freedoms}
     kept = []
     for coupling in exported.couplings:
@@ -91,7 +92,7 @@ def _coupled(linkage: Linkage, exported: Exported, notes: list[str]) -> Linkage:
 
 
 def _independent(linkage: Linkage, motors: tuple[str, ...], notes: list[str]) -> tuple[str, ...]:
-    """The motors without those that couplings let follow the others; a note names these."""
+    """Select the motors without those that couplings let follow the others; a note names these."""
     names = list(dict.fromkeys(name for coupling in linkage.couplings for name in coupling.coordinates))
     if not names:
         return motors
@@ -112,7 +113,7 @@ def _independent(linkage: Linkage, motors: tuple[str, ...], notes: list[str]) ->
 
 
 def _groups(exported: Exported, said: Said) -> list[Inference]:
-    """The rigid groups of the export, and its welds."""
+    """List the rigid groups of the export, and its welds."""
     groups = [
         Inference(group, Evidence(EvidenceKind.EXPORT, (), "a rigid group of the CAD system"))
         for group in exported.rigid
@@ -122,7 +123,7 @@ def _groups(exported: Exported, said: Said) -> list[Inference]:
 
 
 def _replaced(constraint: Constraint, said: Said) -> bool:
-    """Whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
+    """Tell whether the user says something else of the two parts: a joint by hand, or that they are to be ignored."""
     parts = {*constraint.parts}
     return any(parts == {*given.parts} for given in said.joints) or any(parts == {*pair} for pair in said.ignore)
 
@@ -130,7 +131,7 @@ def _replaced(constraint: Constraint, said: Said) -> bool:
 def _between(
     assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint]
 ) -> list[list[Constraint]]:
-    """The constraints of each two bodies; those inside a body are left out."""
+    """Collect the constraints of each two bodies; those inside a body are left out."""
     body = bodies(assembly.names, said.fixed, [*said.rigid, *(each.parts for each in groups)])
     found: dict[frozenset[str], list[Constraint]] = defaultdict(list)
     for each in constraints:
@@ -162,7 +163,7 @@ def _joints(
     notes: list[str],
     motors: Sequence[str],
 ) -> list[Inference]:
-    """The joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
+    """Make the joints between bodies; what is no joint, and axes that do not meet, are added to the notes."""
     taken = {given.name for given in said.joints}
     driven = {*motors, *(name.rpartition(".")[0] for name in motors)}
     result = []
@@ -179,7 +180,8 @@ def _joints(
 def _joints_of_two(
     several: Sequence[Constraint], noise: Noise, notes: list[str], whole: bool
 ) -> list[tuple[str, Joint]]:
-    """The joints of two bodies with names that others may have too: with `whole` one lower pair where there is one."""
+    """Make the joints of two bodies with names that others may have too: with `whole` one lower pair where there is
+    one."""
     parts = several[0].parts
     if whole and (pair := lower_pair([each.chain for each in several], noise)) is not None:
         evidence = _evidence(several, notes, noise)
@@ -201,7 +203,7 @@ def _joints_of_two(
 
 
 def _evidence(several: Sequence[Constraint], notes: list[str], noise: Noise) -> Evidence:
-    """What a joint is known from; axes of the two sides that do not meet are noted with their sizes."""
+    """Tell what a joint is known from; axes of the two sides that do not meet are noted with their sizes."""
     offset, tilt = max(each.offset for each in several), max(each.tilt for each in several)
     sizes: tuple[tuple[str, float], ...] = ()
     if offset > noise.length or tilt > noise.angle:
@@ -219,5 +221,5 @@ def _told(several: Sequence[Constraint]) -> str:
 
 
 def _numbered(name: str) -> Iterator[str]:
-    """The name, then "name#2", "name#3", ..."""
+    """Yield the name, then "name#2", "name#3", ..."""
     return (name if number == 1 else f"{name}#{number}" for number in count(1))

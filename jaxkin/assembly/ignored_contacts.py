@@ -12,7 +12,7 @@ Sides = tuple[tuple[str, str], tuple[str, str]]
 
 
 def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tuple[Contact, ...]:
-    """The contacts but for those between the two sides of an entry of `ignore`.
+    """Keep the contacts but for those between the two sides of an entry of `ignore`.
 
     A side is a part, "stop", for all of its contacts with the other side, or one of its faces as reports print it,
     "stop face 7". Raises ValueError for an entry that is no pair, or that no contact is between.
@@ -44,7 +44,7 @@ def _is_between(sides: Sides, one: str, other: str) -> bool:
 
 
 def _instead(sides: Sequence[Sides], one: str, other: str) -> str:
-    """The end of the message: what a misspelt side may be meant for, or what the first side does touch."""
+    """Write the end of the message: what a misspelt side may be meant for, or what the first side does touch."""
     known = dict.fromkeys(name for pair in sides for side in pair for name in side)
     for name in (one, other):
         if name not in known:

@@ -52,7 +52,8 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
 def _unlocked(
     assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]
 ) -> Mechanism | None:
-    """The mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None otherwise.
+    """Find the mechanism without the weakest inference that locks it: one with useful freedoms, or with any; None
+    otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
     without which a part would hang on nothing stay.
@@ -74,7 +75,7 @@ def _unlocked(
 
 
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
-    """Whether some part would hang on nothing."""
+    """Tell whether some part would hang on nothing."""
     touching = [contact.parts for contact in without(contacts, said.ignore)]
     ties = [
         *touching,
@@ -94,7 +95,7 @@ def useful_freedoms(mechanism: Mechanism) -> int:
 def _with_seats(
     assembly: Assembly, contacts: Sequence[Contact], said: Said
 ) -> tuple[Mechanism, list[Inference], list[Inference]]:
-    """The mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
+    """Find the mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
     source = told_by(assembly, contacts)
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
     ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
@@ -130,7 +131,7 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:
-    """The mechanism with a note that counts its inferences by their evidence."""
+    """Make the mechanism with a note that counts its inferences by their evidence."""
     kinds = Counter(str(each.evidence.kind) for each in inferences)
     if not kinds:
         return mechanism

@@ -80,7 +80,8 @@ def proposals(
 
 
 def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[str]]:
-    """The fixed part with the bodies that only one other one holds, and these alone: brackets on a wall not drawn."""
+    """Find the fixed part with the bodies that only one other one holds, and these alone: brackets on a wall not
+    drawn."""
     if not mechanism.fixed:
         return []
     owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
@@ -96,7 +97,7 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
 
 
 def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
-    """The largest part of each body, those of large and well connected bodies first."""
+    """Find the largest part of each body, those of large and well connected bodies first."""
     owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
     joined = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
     largest = {body: max(parts, key=lambda part: _extent(solids[part])) for body, parts in mechanism.bodies.items()}
@@ -105,12 +106,12 @@ def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
 
 
 def _extent(part: Part) -> float:
-    """The diagonal of the box of a part."""
+    """Measure the diagonal of the box of a part."""
     return float(np.linalg.norm(part.box[1] - part.box[0]))
 
 
 def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | None) -> Proposal:
-    """What a mechanism does, driven by some coordinates or by those that its mobility names."""
+    """Tell what a mechanism does, driven by some coordinates or by those that its mobility names."""
     fixed, bodies = tuple(choice), len(mechanism.bodies)
     if opening(mechanism.linkage, mechanism.unit) is not None:
         return Proposal(fixed, (), 0, bodies, 0, "its loops are open as it is drawn; see mechanism.close()")

@@ -103,7 +103,7 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
 
 
 def _is_round(part: Part, spin: Spin) -> bool:
-    """Whether the outline of a part, seen along the axis, is round about the axis.
+    """Tell whether the outline of a part, seen along the axis, is round about the axis.
 
     If the part may slide across the axis, the outline need only be round about its own middle.
     """

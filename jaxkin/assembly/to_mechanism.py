@@ -77,7 +77,7 @@ def from_words(
     inferences: Sequence[Inference] = (),
     system: str = "CAD system",
 ) -> Mechanism:
-    """The mechanism that contacts, the user's words and some inferences make; `system` has exported some of these."""
+    """Make the mechanism of contacts, the user's words and some inferences; `system` has exported some of these."""
     groups = [each.parts for each in inferences if each.joint is None]
     joints = (*said.joints, *(each.joint for each in inferences if each.joint is not None))
     names, combine, align = assembly.names, said.combine, said.align
@@ -119,12 +119,12 @@ def told_of(inferences: Sequence[Inference], system: str = "CAD system") -> list
 
 
 def all_contacts(mechanism: Mechanism) -> tuple[Contact, ...]:
-    """The contacts that a mechanism was found from, those of parts at rest too."""
+    """List the contacts that a mechanism was found from, those of parts at rest too."""
     return (*(each for some in mechanism.contacts.values() for each in some), *mechanism.contacts_at_rest)
 
 
 def without_contacts(mechanism: Mechanism, left_out: Collection[Contact | str]) -> Mechanism:
-    """The mechanism from the same solids without some contacts, or joints by hand by their names.
+    """Make the mechanism from the same solids without some contacts, or joints by hand by their names.
 
     Raises ValueError where that leaves a part that hangs on nothing.
     """
@@ -166,7 +166,7 @@ def _pair(parts: tuple[str, str], body: Mapping[str, str]) -> frozenset[str]:
 def _ties(
     assembly: Assembly, body: Mapping[str, str], fixed: Sequence[str], inferences: Sequence[Inference]
 ) -> list[Joint]:
-    """A joint without freedoms from the first part of each rigid group to each of the others."""
+    """Make a joint without freedoms from the first part of each rigid group to each of the others."""
     centres = {part.name: part.box.mean(axis=0) for part in assembly.parts}
     known = {part: each.evidence for each in reversed(inferences) if each.joint is None for part in each.parts}
     return [
@@ -184,7 +184,7 @@ def _ties(
 
 
 def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body: Mapping[str, str]) -> list[str]:
-    """What the user's words did to the contacts."""
+    """Tell what the user's words did to the contacts."""
     notes = [f"{ignored} contact{'' if ignored == 1 else 's'} ignored, as was asked for"] if ignored else []
     for pair, name in by_hand.items():
         states = [f"({contact.state})" for contact in replaced if _pair(contact.parts, body) == pair]
@@ -233,7 +233,8 @@ def _refuse_loose(
 
 
 def told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
-    """The detection that some contacts are from: what it nearly found depends on the tolerances that it was given."""
+    """Find the detection that some contacts are from: what it nearly found depends on the tolerances that it was
+    given."""
     if isinstance(contacts, Contacts):
         return contacts
     sources = [found for found in assembly.found if contacts and any(each is contacts[0] for each in found)]
@@ -241,7 +242,7 @@ def told_by(assembly: Assembly, contacts: Sequence[Contact]) -> Contacts:
 
 
 def _nearest(assembly: Assembly, island: Sequence[str], held: Collection[str]) -> str:
-    """The held part whose box is nearest to the first part of an island."""
+    """Find the held part whose box is nearest to the first part of an island."""
     boxes = {part.name: part.box for part in assembly.parts}
     low, high = boxes[island[0]]
 

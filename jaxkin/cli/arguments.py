@@ -92,7 +92,7 @@ Verbose = Annotated[
 
 
 def _ending(suffix: str, what: str) -> Callable[[Path | None], Path | None]:
-    """A check of the name of a file to write: it is refused before hours of work that would end in no file."""
+    """Make a check of the name of a file to write: it is refused before hours of work that would end in no file."""
 
     def check(path: Path | None) -> Path | None:
         if path is not None and path.suffix.lower() != suffix:

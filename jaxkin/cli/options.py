@@ -33,7 +33,7 @@ class Options:
     effects: Sequence[str] = ()
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
-        """The study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
+        """Make the study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
 
         drives = parse_drives(self.drive)
         effects = parse_effects(self.effects)
@@ -52,7 +52,7 @@ class Options:
         )
 
     def _study(self, files: Sequence[Path], progress: Callable[[int, int], None] | None) -> Study:
-        """What the files say."""
+        """Make the study of what the files say."""
         from jaxkin.io.load import load
         from jaxkin.io.study import Study, load_study
 
@@ -99,7 +99,7 @@ def parse_drives(options: Iterable[str]) -> dict[str, Range]:
 
 
 def parse_effects(options: Iterable[str]) -> list[str]:
-    """The names of effects, commas between them; ValueError for others."""
+    """Read the names of effects, commas between them; ValueError for others."""
     from jaxkin.io.named_effects import known
 
     names = [name.strip() for option in options for name in option.split(",")]
@@ -111,7 +111,7 @@ def parse_effects(options: Iterable[str]) -> list[str]:
 
 
 def parse_parts(option: str, values: Iterable[str]) -> list[list[str]]:
-    """The parts that each value of an option names: "bolt,plate" or "bolt face 3 - plate face 7"; two at least."""
+    """Read the parts that each value of an option names: "bolt,plate" or "bolt face 3 - plate face 7"; two at least."""
     groups = []
     for value in values:
         names = [name.strip() for name in _BETWEEN.split(value)]

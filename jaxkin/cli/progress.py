@@ -31,7 +31,7 @@ class Steps:
 
 @contextmanager
 def progress(steps: int) -> Iterator[Steps]:
-    """A bar on the terminal (stderr), gone when done; its steps are to be told by what it yields."""
+    """Show a bar on the terminal (stderr), gone when done; its steps are to be told by what it yields."""
     from rich.console import Console
     from rich.progress import Progress
 

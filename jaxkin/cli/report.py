@@ -49,7 +49,7 @@ def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> 
 
 
 def print_inferences(mechanism: Mechanism) -> None:
-    """What was inferred beside exact contacts, counted by kind, with the first of each kind."""
+    """Print what was inferred beside exact contacts, counted by kind, with the first of each kind."""
     found = [note for note in mechanism.history if note.startswith(INFERRED)]
     if found:
         say(f"{len(found)} inferred beside exact contacts (all: jaxkin inspect --verbose):")
@@ -58,7 +58,8 @@ def print_inferences(mechanism: Mechanism) -> None:
 
 
 def print_structure(mechanism: Mechanism) -> None:
-    """The tree with the path of each loop, and a table: what closes each loop, and which loops share joints with it."""
+    """Print the tree with the path of each loop, and a table: what closes each loop, and which loops share joints with
+    it."""
     structure, mobility = mechanism.structure, mechanism.mobility()
     parts, joints, loops = len(structure.parts), len(structure.joints), len(structure.loops)
     rows = f"{parts} parts (all fixed ones are one)" if len(structure.fixed) > 1 else f"{parts} parts"
@@ -87,7 +88,7 @@ def print_table(headings: Iterable[str], rows: Iterable[Iterable[str]], numbers:
 
 
 def print_motion(motion: Motion) -> None:
-    """What became of the poses, and the range that each joint coordinate runs through in those on the branch."""
+    """Print what became of the poses, and the range that each joint coordinate runs through in those on the branch."""
     say(str(motion))
     say()
     closed = np.asarray(motion.on_branch)
@@ -102,5 +103,5 @@ def print_motion(motion: Motion) -> None:
 
 
 def print_files(paths: Iterable[Path]) -> None:
-    """The files written and their sizes."""
+    """Print the files written and their sizes."""
     print_table(("file", "kB"), [(str(path), f"{path.stat().st_size / 1000:.0f}") for path in paths], numbers=(1,))

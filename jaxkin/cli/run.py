@@ -75,7 +75,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
 
 
 def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
-    """The motion written chunk by chunk, as arrays only; what became of the poses, and the file."""
+    """Write the motion chunk by chunk, as arrays only; return what became of the poses, and the file."""
     from jaxkin.io.long_motion import write_stream
 
     out.mkdir(parents=True, exist_ok=True)
@@ -87,12 +87,12 @@ def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:
 
 
 def named(files: Sequence[Path]) -> str:
-    """The first file by name, and how many more."""
+    """Name the first file by name, and how many more."""
     return files[0].name + (f" and {len(files) - 1} more" if len(files) > 1 else "")
 
 
 def read(files: Sequence[Path], options: Options, step: Steps) -> Study:
-    """The study that files and options make: a step of the progress."""
+    """Make the study that files and options make: a step of the progress."""
     step(f"reading {named(files)}")
     study = options.on(files, step.within)
     if study.assembly and (parts := len(study.assembly.parts)) > MANY_PARTS:
@@ -112,7 +112,7 @@ def find_contacts(study: Study, step: Steps) -> None:
 
 
 def found(files: Sequence[Path], options: Options, step: Steps) -> Study:
-    """The study that files and options make, its mechanism found: three steps of the progress."""
+    """Make the study that files and options make, its mechanism found: three steps of the progress."""
     study = checked(read(files, options, step))
     find_contacts(study, step)
     step("finding joints")
@@ -121,7 +121,8 @@ def found(files: Sequence[Path], options: Options, step: Steps) -> Study:
 
 
 def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, ...]]:
-    """The study with the parts fixed that do best of those that are tried; all proposals, which are printed too."""
+    """Find the study with the parts fixed that do best of those that are tried; all proposals, which are printed
+    too."""
     from jaxkin.cli import report
 
     with progress(1) as step:
@@ -135,7 +136,7 @@ def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, .
 
 
 def checked(study: Study) -> Study:
-    """The study, if a part is fixed."""
+    """Return the study, if a part is fixed."""
     if study.assembly and not study.held:
         names = ", ".join(study.assembly.names)
         raise ValueError(f"no part is fixed: give --fixed PART, once or more; the parts are {names}")

@@ -19,7 +19,8 @@ Key = tuple[str, ...]
 
 
 def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint:
-    """The crank of a four-bar turns fully: it is the shortest bar, and with each other one no longer than the rest.
+    """Demand that the crank of a four-bar turns fully: it is the shortest bar, and with each other one no longer than
+    the rest.
 
     The four bars are named as in `with_lengths`. For a rocker that turns fully too (a double crank), name the
     ground first and the crank in its place.
@@ -34,7 +35,7 @@ def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint
 
 
 def grashof(*bars: Key) -> Constraint:
-    """Some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
+    """Demand that some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
     if len(bars) != 4:
         raise ValueError(f"grashof: name the four bars of a four-bar by their keys as in with_lengths, got {len(bars)}")
 
@@ -46,7 +47,7 @@ def grashof(*bars: Key) -> Constraint:
 
 
 def transmission_within(joint: str, ends: tuple[str, str], least: float, largest: float = np.pi) -> Constraint:
-    """The transmission angle (see `transmission_angle`) stays between two angles, in radians."""
+    """Demand that the transmission angle (see `transmission_angle`) stays between two angles, in radians."""
 
     def margins(motion: Motion, extras: Mapping[str, Any]):
         angle = transmission_angle(motion, joint, ends)
@@ -56,7 +57,8 @@ def transmission_within(joint: str, ends: tuple[str, str], least: float, largest
 
 
 def in_box(part: str, point: Sequence[float | int] | str, lower: Sequence[float], upper: Sequence[float]) -> Constraint:
-    """A point of a part, given in the assembled pose or as the name of an extra variable, stays within a box (x, y, z).
+    """Demand that a point of a part, given in the assembled pose or as the name of an extra variable, stays within a
+    box (x, y, z).
 
     Use infinity where a side is open.
     """
@@ -74,7 +76,8 @@ def in_box(part: str, point: Sequence[float | int] | str, lower: Sequence[float]
 
 
 def in_sequence(joint: str, *, least: float = 0.0) -> Constraint:
-    """The driven displacements rise from pose to pose, by `least` at least, and by no more than one turn in all."""
+    """Demand that the driven displacements rise from pose to pose, by `least` at least, and by no more than one turn in
+    all."""
 
     def margins(motion: Motion, extras: Mapping[str, Any]):
         values = motion.inputs[
@@ -86,7 +89,7 @@ def in_sequence(joint: str, *, least: float = 0.0) -> Constraint:
 
 
 def above(joint: str, least: float, size: float = 1.0) -> Constraint:
-    """A joint's displacement stays at or above a value; `size` makes it a pure number."""
+    """Demand that a joint's displacement stays at or above a value; `size` makes it a pure number."""
 
     def margins(motion: Motion, extras: Mapping[str, Any]):
         return (joint_coordinate(motion, joint) - least) / size

@@ -93,7 +93,7 @@ def _loss(residuals: Float[np.ndarray, "starts rows"]) -> Float[np.ndarray, " st
 
 
 def _largest(jacobian: Float[np.ndarray, "starts rows variables"]) -> Float[np.ndarray, " starts"]:
-    """The largest diagonal entry of J^T J."""
+    """Find the largest diagonal entry of J^T J."""
     return np.max(np.sum(jacobian**2, axis=1), axis=1)
 
 
@@ -124,7 +124,7 @@ def _step(square, slope, damping, held: Bool[np.ndarray, "starts variables"]) ->
 
 
 def _judged(state: _State, units, foreseen, residuals, jacobian) -> _State:
-    """The step taken where it lowers the loss, and the damping by how well the decrease was foreseen (Nielsen)."""
+    """Find the step taken where it lowers the loss, and the damping by how well the decrease was foreseen (Nielsen)."""
     gained = _loss(state.residuals) - _loss(residuals)
     better = gained > 0
     share = np.where(foreseen > 0, gained / np.where(foreseen > 0, foreseen, 1.0), 0.0)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:
-    """The angle at a joint between its two links, 0 to pi, in every pose.
+    """Measure the angle at a joint between its two links, 0 to pi, in every pose.
 
     `ends` names the joint at the other end of either link: in a four-bar with coupler B C and rocker C D it is
     `transmission_angle(motion, "C", ("B", "D"))`. A right angle transmits best; at 0 and pi the linkage jams.
@@ -41,7 +41,7 @@ def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
 
 
 def length_now(mechanism: Mechanism, key: tuple[str, ...]):
-    """The value of a length by any key that `with_lengths` knows; ValueError where there is none."""
+    """Find the value of a length by any key that `with_lengths` knows; ValueError where there is none."""
     find_length(mechanism.linkage, key)
     row = mechanism.structure.row_of.get(key[0], key[0])
     same = (row, *key[1:])
@@ -72,7 +72,7 @@ def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:
 
 
 def known_joint(motion: Motion, name: str) -> str:
-    """The name, if there is such a joint; else ValueError with the nearest."""
+    """Return the name, if there is such a joint; else ValueError with the nearest."""
     if name not in motion.mechanism.joints:
         raise ValueError(f"there is no joint {name!r}{nearest(name, motion.mechanism.joints)}")
     return name

@@ -30,7 +30,7 @@ class Objective:
     """(name, weight, rows, drawing)."""
 
     def residuals(self, motion: Motion, extras: Extras | None = None) -> Float[Array, " rows"]:
-        """The numbers whose squares add up to the objective, weights included."""
+        """Return the numbers whose squares add up to the objective, weights included."""
         return jnp.concatenate([np.sqrt(w) * jnp.ravel(rows(motion, extras or {})) for _, w, rows, _ in self.terms])
 
     def __call__(self, motion: Motion, extras: Extras | None = None) -> Float[Array, ""]:
@@ -175,7 +175,7 @@ def transmission(joint: str, ends: tuple[str, str], *, beyond: float = 0.0) -> O
 
 
 def stroke_of(joint: str, wanted: float) -> Objective:
-    """A joint's stroke, largest minus smallest displacement, is to be `wanted`; relative error."""
+    """Demand that a joint's stroke, largest minus smallest displacement, is `wanted`; relative error."""
     if not wanted > 0:
         raise ValueError(f"the stroke of {joint!r} must be positive, got {wanted}")
 
@@ -193,7 +193,7 @@ def stroke_of(joint: str, wanted: float) -> Objective:
 
 
 def dwell(joint: str, poses: Any) -> Objective:
-    """A joint is to stand still in the poses given (indices, or a mask): its deviation from its mean there."""
+    """Demand that a joint stands still in the poses given (indices, or a mask): its deviation from its mean there."""
     chosen = np.flatnonzero(poses) if np.asarray(poses).dtype == bool else np.asarray(poses, int).ravel()
     if chosen.size < 2:
         raise ValueError(f"dwell of {joint!r}: name at least two poses, got {chosen.size}")
@@ -220,7 +220,7 @@ def _point(point: Any, extras: Extras):
 
 
 def _nearest(places: Float[Array, "poses k"], targets: Float[Array, "targets k"]) -> Float[Array, "targets k"]:
-    """For each target the nearest point of the polyline through the places."""
+    """Find for each target the nearest point of the polyline through the places."""
     start, step = places[:-1], places[1:] - places[:-1]
     square = jnp.sum(step**2, axis=-1)
     along = jnp.einsum("tsk,sk->ts", targets[:, None] - start, step) / jnp.where(square > 0, square, 1.0)

@@ -156,7 +156,7 @@ def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
 
 
 def _best_of(downhill: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
-    """The given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
+    """Find the given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
     losses, violations = downhill.judge(pool)
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
@@ -198,7 +198,7 @@ def _search(downhill: Solver, vectors, weight: float, stop: Optimiser, history, 
 
 
 def _rank(losses, violations) -> int:
-    """The best feasible design; the least violation where none is feasible."""
+    """Find the best feasible design; the least violation where none is feasible."""
     losses = np.where(np.isfinite(losses), losses, np.inf)
     feasible = violations <= MET
     return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))

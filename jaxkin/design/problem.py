@@ -55,7 +55,7 @@ class Problem:
     """How poses are found."""
 
     def motion(self, vector) -> tuple[Motion, dict[str, Any], dict[str, Any]]:
-        """The motion of a design, its extra variables, and the misfits of its parts."""
+        """Compute the motion of a design, its extra variables, and the misfits of its parts."""
         values = self.variables.values(vector)
         linkage, misfits = rearranged(self.mechanism.linkage, values.lengths)
         linkage = with_points(linkage, values.points)
@@ -79,12 +79,12 @@ class Problem:
         )
 
     def residuals(self, vector, weight) -> Float[Array, " rows"]:
-        """All that a sum of squares adds up."""
+        """Compute all that a sum of squares adds up."""
         judged = self.judge(vector)
         return jnp.concatenate([judged.rows, jnp.sqrt(weight) * judged.violations])
 
     def total(self, vector, weight) -> Float[Array, ""]:
-        """The loss with its penalty."""
+        """Compute the loss with its penalty."""
         judged = self.judge(vector)
         value = jnp.sum(judged.rows**2) if self.squares else judged.rows[0]
         return value + weight * jnp.sum(judged.violations**2)
@@ -94,7 +94,7 @@ class Problem:
 
 
 def takes_extras(loss: Callable[..., Any]) -> bool:
-    """Whether a loss wants the extra variables as a second argument."""
+    """Tell whether a loss wants the extra variables as a second argument."""
     try:
         inspect.signature(loss).bind(None, None)
     except TypeError:

@@ -101,7 +101,7 @@ class Optimum:
         return "\n".join(lines)
 
     def plot(self) -> Any:
-        """A matplotlib figure: the losses over the iterations, and the objective before and after."""
+        """Draw a matplotlib figure: the losses over the iterations, and the objective before and after."""
         from matplotlib.figure import Figure
 
         objective, motion = self.loss if isinstance(self.loss, Objective) else None, self.motion
@@ -153,7 +153,7 @@ class Optimum:
 
 
 def read_optimum(path: str | os.PathLike[str]) -> Optimum:
-    """A result that `Optimum.save` wrote. Raises ValueError where the file is none."""
+    """Read a result that `Optimum.save` wrote. Raises ValueError where the file is none."""
     try:
         with np.load(path, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
@@ -180,7 +180,7 @@ def read_optimum(path: str | os.PathLike[str]) -> Optimum:
 
 
 def judged_range(motion: Motion) -> Moves:
-    """The verdict of a fine sweep over the range of the drive; of several inputs, along the poses given.
+    """Find the verdict of a fine sweep over the range of the drive; of several inputs, along the poses given.
 
     It is swept in pieces as long as the motion is: the program for these is compiled already, and one for the whole
     range takes a hundred times as long to compile as to run.

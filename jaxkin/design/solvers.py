@@ -34,7 +34,8 @@ class Solver(NamedTuple):
 def in_groups(
     program: Callable[[Any], Any], size: int, starts: Any, chosen: Int[np.ndarray, " chosen"] | None = None
 ) -> Any:
-    """What a compiled program of `size` designs gives for the chosen ones of a pytree, in their order, in host memory.
+    """Return what a compiled program of `size` designs gives for the chosen ones of a pytree, in their order, in host
+    memory.
 
     The last group is filled up: for each other number of designs the program would be compiled anew.
     """

@@ -82,7 +82,7 @@ class Variables:
         return names
 
     def values(self, vector) -> Values:
-        """The design that a vector stands for."""
+        """Make the design that a vector stands for."""
         found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": dict(self.fixed_inputs), "extras": {}}
         first = 0
         for entry in self.entries:
@@ -109,7 +109,8 @@ def variables(
     extras: Mapping[str, Any],
     ties: Mapping[Any, Any],
 ) -> Variables:
-    """The variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no sense."""
+    """Make the variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no
+    sense."""
     entries, fixed = [], {}
     for key, bounds in lengths.items():
         length = find_length(mechanism.linkage, key)
@@ -196,6 +197,6 @@ def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) 
 
 
 def spread(variables: Variables, count: int, seed: int) -> Float[np.ndarray, "starts variables"]:
-    """The given design and further ones at random between the bounds."""
+    """Draw designs at random between the bounds, after the given one."""
     random = np.random.default_rng(seed).uniform(size=(max(count - 1, 0), len(variables.start)))
     return np.concatenate([variables.start[None], variables.lower + random * (variables.upper - variables.lower)])

@@ -98,5 +98,5 @@ def _feature(column: int, joint: Joint, side: Side, frame: int) -> Feature:
 
 
 def _has_offset(along: Feature, of: Feature) -> bool:
-    """Whether the place of a feature along an axis is a length: both have a meaningful origin."""
+    """Tell whether the place of a feature along an axis is a length: both have a meaningful origin."""
     return along.kind == "axis" and along.marked and (of.kind == "point" or (of.kind == "axis" and of.marked))

@@ -72,7 +72,7 @@ class Extended:
         return np.array([float(value) for value in exact]), False
 
     def idle(self, q: Row) -> Float[np.ndarray, "columns columns"]:
-        """The projector onto the idle freedoms of a pose: no equation determines them, so they have no exact value."""
+        """Compute the projector onto the idle freedoms of a pose, which have no exact value."""
         jacobian = self._jacobian(q)
         _, values, directions = np.linalg.svd(jacobian)
         kept = directions[: int((values > RANK * values[0]).sum())]

@@ -80,7 +80,7 @@ EXAMPLES: dict[str, Example] = {
 
 
 def path(name: str) -> Path:
-    """The path of the file of an example, by its name in `EXAMPLES`; KeyError names those that exist."""
+    """Find the path of the file of an example, by its name in `EXAMPLES`; KeyError names those that exist."""
     if name not in EXAMPLES:
         raise KeyError(f"no example is named {name!r}: choose one of {', '.join(EXAMPLES)}")
     return Path(str(resources.files(__name__) / EXAMPLES[name].file))

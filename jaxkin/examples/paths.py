@@ -72,7 +72,7 @@ class PathProblem:
 
 
 def fourbar(ground: float, crank: float, coupler: float, rocker: float) -> Mechanism:
-    """A four-bar in the plane x y with crank and ground link along x in the assembled pose."""
+    """Make a four-bar in the plane x y with crank and ground link along x in the assembled pose."""
     apart = ground - crank
     along = (coupler**2 - rocker**2 + apart**2) / (2 * apart)
     pin = (crank + along, np.sqrt(coupler**2 - along**2), 0.0)

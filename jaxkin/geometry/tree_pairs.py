@@ -197,14 +197,14 @@ class _Boxes(NamedTuple):
         return _Boxes(turn, between, half1, half2)
 
     def along1(self) -> Float[np.ndarray, "3 pairs"]:
-        """By how much the boxes are apart along the axes of tree 1.
+        """Measure by how much the boxes are apart along the axes of tree 1.
 
         Negative where they overlap: by the length that the one would have to move to be outside of the other.
         """
         return np.abs(self.between) - self.half1 - _times(np.abs(self.turn), self.half2)
 
     def along2(self) -> Float[np.ndarray, "3 pairs"]:
-        """The same along the axes of tree 2."""
+        """Compute the same lengths along the axes of tree 2."""
         back = self.turn.swapaxes(0, 1)
         return np.abs(_times(back, self.between)) - self.half2 - _times(np.abs(back), self.half1)
 

@@ -143,7 +143,7 @@ def _edge_places(one: Array, other: Array) -> Array:
 
 
 def _pierces(one: Array, other: Array) -> Array:
-    """Whether an edge of one triangle goes through another triangle."""
+    """Tell whether an edge of one triangle goes through another triangle."""
     return jnp.any(~jnp.isnan(_edge_places(one, other)), axis=-1)
 
 

@@ -166,7 +166,7 @@ def aligned_axes(triangles: Triangles) -> Float[np.ndarray, "3 3"]:
 
 
 def _main_direction(normals: np.ndarray, areas: np.ndarray) -> np.ndarray:
-    """The unit direction that the largest area has as normal, either way."""
+    """Find the unit direction that the largest area has as normal, either way."""
     main = np.take_along_axis(normals, np.abs(normals).argmax(axis=1)[:, None], axis=1)
     keys = np.round(normals * np.sign(main) / _SAME_DIRECTION).astype(int)
     _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)

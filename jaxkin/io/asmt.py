@@ -80,7 +80,7 @@ class Node:
         yield from found.inner
 
     def said(self, key: str) -> str:
-        """The one line inside of an element; empty where there is none."""
+        """Read the one line inside of an element; empty where there is none."""
         found = self.find(key)
         return found.inner[0].text if found is not None and found.inner else ""
 
@@ -93,7 +93,7 @@ def read_asmt(path: Path) -> RobotModel:
 
 
 def _tree(path: Path) -> Node:
-    """The assembly of a file as a tree."""
+    """Read the assembly of a file as a tree."""
     with path.open(encoding="utf-8", errors="replace") as file:
         if file.readline().strip() not in FIRST_LINES:
             raise ValueError(f"{path.name}: expected an assembly of FreeCAD's solver, {FIRST_LINES[0]!r} in line 1")
@@ -224,7 +224,7 @@ class _Reader:
         return self.markers[path]
 
     def _target(self, node: Node, known: dict[str, RobotJoint], sides: dict[str, tuple[str, str]]) -> RobotJoint | None:
-        """The joint that a motion or a limit is of: named, or between the same two markers."""
+        """Find the joint that a motion or a limit is of: named, or between the same two markers."""
         path = node.said("MotionJoint")
         if path not in sides:
             markers = node.said("MarkerI"), node.said("MarkerJ")

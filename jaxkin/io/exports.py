@@ -87,7 +87,7 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
 
 
 def _files(folder: Path, parts: Sequence[ExportedPart]) -> tuple[dict[str, Path], list[ExportedPart]]:
-    """The files of the solids by the names that the export gives them, and the parts whose file is not there.
+    """Find the files of the solids by the names that the export gives them, and the parts whose file is not there.
 
     Files are looked for beside the export, in any case of letters; those that are not there in the folders in it and
     next to it, where one has all of them: one of another assembly may have a "Cylinder.step", too.
@@ -102,20 +102,21 @@ def _files(folder: Path, parts: Sequence[ExportedPart]) -> tuple[dict[str, Path]
 
 
 def _there(folder: Path, names: Mapping[str, str]) -> dict[str, Path]:
-    """The files in a folder, by what they are called, of those names that are there."""
+    """Find the files in a folder, by what they are called, of those names that are there."""
     there = {file.name.casefold(): file for file in folder.iterdir()}
     return {called: there[name] for called, name in names.items() if name in there}
 
 
 def _folders(folder: Path) -> list[Path]:
-    """The folders in a folder that can be read, in the order of their names."""
+    """Find the folders in a folder that can be read, in the order of their names."""
     return sorted(each for each in folder.iterdir() if each.is_dir() and os.access(each, os.R_OK | os.X_OK))
 
 
 def _placed(
     export: Export, products: Mapping[str, tuple[Part, ...]], metres: float
 ) -> tuple[tuple[Part, ...], list[tuple[str, ...]], Paths]:
-    """The placed parts, the groups of solids of one instance, and the first part of each instance by its path."""
+    """Return the placed parts, the groups of solids of one instance, and the first part of each instance by its
+    path."""
     box = (_box(BOX * _extent(export) / metres),)
     solids = [(part, solid) for part in export.parts for solid in products.get(part.file, box)]
     names = unique(cleaned(part.names[-1]) or cleaned(solid.name) or "part" for part, solid in solids)
@@ -129,7 +130,7 @@ def _placed(
 
 
 def _extent(export: Export) -> float:
-    """The largest extent of the origins of the parts, metres; one millimetre at least."""
+    """Measure the largest extent of the origins of the parts, metres; one millimetre at least."""
     return max(1e-3, float(np.ptp([part.transform[:3, 3] for part in export.parts], axis=0).max()))
 
 
@@ -148,7 +149,8 @@ class _Places:
         self.body = {part.path: part.body for part in export.parts}
 
     def part(self, path: tuple[str, ...]) -> str | None:
-        """The part at a path: of the root a fixed one, of a rigid assembly the first one; None where there is none."""
+        """Find the part at a path: of the root a fixed one, of a rigid assembly the first one; None where there is
+        none."""
         if path in self.first:
             return self.first[path]
         if not path:
@@ -158,13 +160,13 @@ class _Places:
         return self.first[below[0]] if len(bodies) == 1 and None not in bodies else None
 
     def parts(self, one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, str] | None:
-        """The two parts at two paths; None where there are no two."""
+        """Find the two parts at two paths; None where there are no two."""
         first, second = self.part(one), self.part(other)
         return None if first is None or second is None or first == second else (first, second)
 
 
 def _rigid(export: Export, first: Paths) -> list[tuple[str, ...]]:
-    """The rigid groups of the export, as names of parts."""
+    """Find the rigid groups of the export, as names of parts."""
     groups: dict[tuple[str, ...], list[str]] = {}
     for part in export.parts:
         if part.body is not None:
@@ -173,7 +175,7 @@ def _rigid(export: Export, first: Paths) -> list[tuple[str, ...]]:
 
 
 def _joints(joints: Iterable[ExportedJoint], where: _Places, metres: float, notes: list[str]) -> list[Constraint]:
-    """The joints between parts; what is no joint that is known is added to the notes."""
+    """Find the joints between parts; what is no joint that is known is added to the notes."""
     result = []
     for each in joints:
         text = f"{each.kind} {each.name!r}"
@@ -206,7 +208,7 @@ def _apart(movement: str, base: Pose, follower: Pose) -> tuple[float, float]:
 
 
 def _mates(export: Export, where: _Places, metres: float, notes: list[str]) -> list[Constraint]:
-    """The mates between parts; those that are not understood are added to the notes."""
+    """Find the mates between parts; those that are not understood are added to the notes."""
     size = _extent(export) / metres
     return [found for each in export.mates if (found := _mate(each, where, metres, PARALLEL * size, notes)) is not None]
 
@@ -240,7 +242,7 @@ def _mate(each: ExportedMate, where: _Places, metres: float, length: float, note
 
 
 def _in_unit(transform: Pose, metres: float) -> Pose:
-    """A transform in metres as one in another unit."""
+    """Convert a transform in metres to another unit."""
     result = transform.copy()
     result[:3, 3] /= metres
     return result

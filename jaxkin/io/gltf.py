@@ -77,7 +77,8 @@ def write_animation(motion: Motion, path: Path) -> None:
 
 
 def keyframes(closed: np.ndarray) -> Int[np.ndarray, " keyframes"]:
-    """Which pose each keyframe shows: evenly chosen, each one that is not closed replaced by the last closed one."""
+    """Choose the pose that each keyframe shows: evenly spaced, each one that is not closed replaced by the last closed
+    one."""
     if not closed.any():
         return np.array([], int)
     last_closed = np.maximum.accumulate(np.where(closed, np.arange(len(closed)), int(np.argmax(closed))))
@@ -95,7 +96,7 @@ def quaternions(rotations: Float[np.ndarray, "poses 3 3"]) -> Float[np.ndarray, 
 
 
 def _meshes(parts: Sequence[Part], centres: Float[np.ndarray, "parts 3"]) -> bytes:
-    """A binary glTF of the parts, each about its own centre: float32 is finer there than far from the origin."""
+    """Write a binary glTF of the parts, each about its own centre: float32 is finer there than far from the origin."""
     from trimesh import Scene, Trimesh
     from trimesh.exchange.gltf import export_glb
     from trimesh.graph import smooth_shade
@@ -149,7 +150,7 @@ def _append(tree: dict[str, Any], data: bytearray, values: Float[np.ndarray, "ke
 
 
 def _unpack(glb: bytes) -> tuple[dict[str, Any], bytearray]:
-    """The JSON and the binary chunk of a binary glTF that holds one of each."""
+    """Read the JSON and the binary chunk of a binary glTF that holds one of each."""
     (length,) = struct.unpack_from("<I", glb, 12)
     return json.loads(glb[20 : 20 + length]), bytearray(glb[28 + length :])
 

@@ -35,7 +35,7 @@ def load(
     loops: str | Path | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Assembly:
-    """The assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
+    """Load the assembly in a file, or of one file a part, `{"crank": "crank.stl"}`, in world coordinates.
 
     STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
     one mesh file a part is a node, or a connected body where there is but one node. Of an export for Simscape Multibody
@@ -101,7 +101,7 @@ def _read(
     name: str | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> tuple[tuple[Part, ...], str]:
-    """The parts in a file, or the one part that it is with a name."""
+    """Read the parts in a file, or the one part that it is with a name."""
     suffix = path.suffix.lower()
     if path.is_dir():
         raise ValueError(f"{path} is a folder: give the path of a STEP file in it, or of each of its meshes as a part")
@@ -124,7 +124,8 @@ def _read(
 
 
 def _apart(parts: tuple[Part, ...], where: str = "") -> tuple[Part, ...]:
-    """The parts, no two of them the same solid in the same place; `where` begins the message about two that are."""
+    """Return the parts, no two of them the same solid in the same place; `where` begins the message about two that
+    are."""
     if twins := next(_twins(parts), None):
         raise ValueError(f"{where}the parts {twins} are the same solid in the same place: leave one out")
     return parts
@@ -143,7 +144,7 @@ def _twins(parts: tuple[Part, ...]) -> Iterator[str]:
 
 
 def _agreed(said: Mapping[str, str], unit: str | None) -> str:
-    """The one unit of all files; those that have none are in that of `unit`, or of the others."""
+    """Find the one unit of all files; those that have none are in that of `unit`, or of the others."""
     known = {file: given for file, given in said.items() if given}
     for file, given in known.items():
         if unit is not None and given != unit:

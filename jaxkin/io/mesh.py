@@ -24,7 +24,7 @@ MESHES = (".stl", ".obj", ".ply", ".3mf", ".glb")
 
 
 def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None = None) -> tuple[tuple[Part, ...], str]:
-    """The parts of a mesh file, in its coordinates, and the unit of its lengths, "" where it has none.
+    """Read the parts of a mesh file, in its coordinates, and the unit of its lengths, "" where it has none.
 
     A part is a node of the file; in a file of one node it is a connected body, called as the file, or "part 1",
     "part 2", where there are several. With `whole`, all of the file is one part of that name. Faces that lie on none of
@@ -58,7 +58,7 @@ def read_mesh(path: str | Path, whole: str | None = None, seconds: float | None 
 
 
 def _bodies(node: Node, path: Path) -> list[Node]:
-    """The connected bodies of a node."""
+    """Find the connected bodies of a node."""
     welded = weld(node.corners, 2 * node.tolerance)
     corners = welded.points[welded.triangles]
     closed = shells(welded) if len(corners) else []

@@ -23,7 +23,7 @@ UNITS = {"micron": "um", "millimeter": "mm", "centimeter": "cm", "meter": "m", "
 
 
 def check(path: Path) -> str | None:
-    """The unit of the lengths of a mesh file that exists, if it says one.
+    """Find the unit of the lengths of a mesh file that exists, if it says one.
 
     Raises ValueError for a file that cannot be a mesh of its kind.
     """
@@ -39,7 +39,7 @@ def check(path: Path) -> str | None:
 
 
 def is_binary_stl(path: Path) -> bool:
-    """Whether the size of a checked file is that of the records of binary STL that its header announces."""
+    """Tell whether the size of a checked file is that of the records of binary STL that its header announces."""
     with path.open("rb") as file:
         head = file.read(84)
     return path.suffix.lower() == ".stl" and path.stat().st_size == 84 + 50 * int.from_bytes(head[80:84], "little")
@@ -117,7 +117,7 @@ def _3mf(path: Path, head: bytes, size: int) -> str:
 
 
 def _unpacked(path: Path) -> tuple[int, bytes | None]:
-    """The stated bytes of all members of an archive, where reading them ends, and how its model begins, if any."""
+    """Find the stated bytes of all members of an archive, where reading them ends, and how its model begins, if any."""
     with zipfile.ZipFile(path) as archive:
         size = sum(member.file_size for member in archive.infolist())
         models = [name for name in archive.namelist() if "3d/3dmodel.model" in name.lower()]

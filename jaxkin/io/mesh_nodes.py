@@ -43,7 +43,7 @@ class Node:
 
 
 def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
-    """The nodes of a mesh file that have triangles, and its unit, "" where the format has none.
+    """Read the nodes of a mesh file that have triangles, and its unit, "" where the format has none.
 
     Raises ValueError where it is no mesh that can be read, or not within the limit.
     """

@@ -70,7 +70,7 @@ def read(file, kind: str, most: int, parts: int) -> list[dict]:
 
 
 def instances(G, source, parts: int) -> list[list]:
-    """All paths from the source to the leaves of a graph with several edges between two nodes, as (node, edge)."""
+    """List all paths from the source to the leaves of a graph with several edges between two nodes, as (node, edge)."""
     found, todo = [], [[(source, 0)]]
     while todo:
         path = todo.pop()
@@ -86,7 +86,7 @@ def instances(G, source, parts: int) -> list[list]:
 
 
 def color(mesh) -> list[float] | None:
-    """The one colour of a mesh, red, green, blue in 0..1, if it has one."""
+    """Find the one colour of a mesh, red, green, blue in 0..1, if it has one."""
     material = getattr(mesh.visual, "material", None)
     value = getattr(material, "baseColorFactor", None)
     return None if value is None else [float(c) / 255 for c in value[:3]]

@@ -196,7 +196,7 @@ class _Reader:
         return RobotJoint(name, parts, kind, frame, frame, f"{written} {name!r}", limits, values)
 
     def _limits(self, said: dict[str, str], unit: float, value: float, where: str) -> Limits:
-        """The range of a joint from the pose that is written, where it is limited."""
+        """Read the range of a joint from the pose that is written, where it is limited."""
         limited = said.get("limited", "auto")
         if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
             return ()

@@ -46,7 +46,7 @@ def at_keyframe(
 
 
 def _steps(key: Element, joints: Sequence[RobotJoint | None]) -> dict[str, tuple[Pose, tuple[float, ...]]] | None:
-    """The displacements of the joints of a keyframe; None where its numbers are not theirs."""
+    """Read the displacements of the joints of a keyframe; None where its numbers are not theirs."""
     try:
         numbers = np.array((key.get("qpos") or "").split(), float)
     except ValueError:

@@ -73,7 +73,7 @@ class Shapes:
 
 
 def _inline(said: dict[str, str], where: str) -> np.ndarray:
-    """The triangles (n, 3, 3) of a mesh that the model holds itself: of its faces, else of its convex hull."""
+    """Read the triangles (n, 3, 3) of a mesh that the model holds itself: of its faces, else of its convex hull."""
     try:
         points = np.array(said["vertex"].split(), float).reshape(-1, 3)
         faces = np.array(said.get("face", "").split(), int).reshape(-1, 3)

@@ -126,7 +126,7 @@ class Defaults:
             self._read(each, inner, own)
 
     def said(self, element: Element, child_class: str | None = None, key: str | None = None) -> dict[str, str]:
-        """The attributes of an element with those of its class, by its tag or the `key` of its defaults.
+        """Collect the attributes of an element with those of its class, by its tag or the `key` of its defaults.
 
         `child_class` is the class that the bodies around it give it. Raises ValueError for an unknown class.
         """

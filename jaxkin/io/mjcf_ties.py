@@ -99,7 +99,8 @@ class Ties:
             yield shifted_coupling(made, at)
 
     def _lengths(self, said: Mapping[str, str]) -> dict[str, float]:
-        """The factor of each joint in a constraint of tendons; nothing where it is not linear in two joints or more."""
+        """Read the factor of each joint in a constraint of tendons; nothing where it is not linear in two joints or
+        more."""
         factors = _polycoef(said)
         result: dict[str, float] = defaultdict(float)
         for key, by in (("tendon1", 1.0), ("tendon2", -factors[1])):
@@ -181,7 +182,7 @@ class Ties:
 
 
 def _polycoef(said: Mapping[str, str]) -> np.ndarray:
-    """The five numbers of the polynomial of a constraint."""
+    """Read the five numbers of the polynomial of a constraint."""
     return np.array([*map(float, (said.get("polycoef") or "0 1").split()), *[0.0] * 5][:5])
 
 

@@ -168,7 +168,7 @@ class _Writer:
                    conaffinity="0")  # fmt: skip
 
     def _range(self, joint: Joint, column: int) -> dict[str, str]:
-        """The range of a coordinate, counted from the assembled pose."""
+        """Write the range of a coordinate, counted from the assembled pose."""
         low, high = joint.limits[column] if joint.limits else (-np.inf, np.inf)
         if np.isinf([low, high]).all():
             return {}
@@ -222,7 +222,7 @@ class _Writer:
 
 
 def _joint_names(joints: Sequence[Joint]) -> list[list[str]]:
-    """A name for each coordinate: that of the joint, followed by that of the coordinate if there are several.
+    """Make a name for each coordinate: that of the joint, followed by that of the coordinate if there are several.
 
     The angles of a ball have one name together, since a ball is one joint.
     """

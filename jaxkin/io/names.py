@@ -29,12 +29,12 @@ def cleaned(name: str) -> str:
 
 
 def is_damaged(name: str) -> bool:
-    """Whether a name has letters that nobody typed: control characters, or the rests of another encoding."""
+    """Tell whether a name has letters that nobody typed: control characters, or the rests of another encoding."""
     return any(_damaged(letter) for letter in name if not letter.isspace())
 
 
 def unique(names: Iterable[str]) -> list[str]:
-    """The names with those that come again numbered: "bolt", "bolt#2"."""
+    """Number the names that come again: "bolt", "bolt#2"."""
     result: dict[str, None] = {}
     used: dict[str, int] = {}
     for name in names:

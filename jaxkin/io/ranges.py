@@ -32,7 +32,8 @@ class Range(NamedTuple):
 
 
 def read_range(text: str) -> Values:
-    """The displacements of a text "START:STOP:COUNT", ends included, or "VALUE,VALUE,..."; ValueError otherwise."""
+    """Read the displacements of a text "START:STOP:COUNT", ends included, or "VALUE,VALUE,..."; ValueError
+    otherwise."""
     try:
         if ":" not in text:
             return np.array([float(value) for value in text.split(",")])
@@ -46,7 +47,8 @@ def read_range(text: str) -> Values:
 
 
 def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, Values]:
-    """The drive for `sweep`, by the full names of its coordinates: radians, and lengths in the unit of the mechanism.
+    """Make the drive for `sweep`, by the full names of its coordinates: radians, and lengths in the unit of the
+    mechanism.
 
     Raises ValueError for names that do not exist, for a unit of length on an angle, and the other way round.
     """

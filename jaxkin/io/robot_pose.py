@@ -32,7 +32,7 @@ def posed(model: RobotModel, steps: Mapping[str, tuple[Pose, tuple[float, ...]]]
 
 
 def _moved(each: RobotJoint, places: Mapping[str, Pose], by: tuple[float, ...], in_tree: bool) -> RobotJoint:
-    """The joint on its moved links; one of the tree has the same frame on both of them again."""
+    """Move a joint along with its links; a joint of the tree has the same frame on both links again."""
     second = places[each.parts[1]] @ each.frame_2
     first = second if in_tree else places[each.parts[0]] @ each.frame_1
     if each.kind is JointKind.SPHERICAL:  # the place of a ball is all that matters: its angles count from here

@@ -91,7 +91,7 @@ def _held(model: RobotModel, file: str) -> RobotModel:
 
 
 def _renamed(motor: str, names: Mapping[str, str]) -> str:
-    """The name of a motor, which is a joint, or a coordinate of one, "joint.phi"."""
+    """Rename a motor, which is a joint, or a coordinate of one, "joint.phi"."""
     joint, _, coordinate = motor.rpartition(".")
     return names[motor] if motor in names else f"{names[joint]}.{coordinate}"
 
@@ -115,13 +115,13 @@ def _constraint(each: RobotJoint, name: str, link_names: Mapping[str, str]) -> C
 
 
 def _extent(model: RobotModel) -> float:
-    """The largest extent of the origins of links and joints, metres."""
+    """Measure the largest extent of the origins of links and joints, metres."""
     points = [link.pose[:3, 3] for link in model.links] + [joint.frame_1[:3, 3] for joint in model.joints]
     return max(LEAST_EXTENT, float(np.ptp(points, axis=0).max()))
 
 
 def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.ndarray | None], mark: float) -> Part:
-    """A link as a part in the world; a small box at its origin where none of its solids is there."""
+    """Make a part of a link, in the world; a small box at its origin where none of its solids is there."""
     found = [triangles for shape in link.shapes if (triangles := triangles_of(shape, link.name)) is not None]
     notes = () if found or not link.shapes else ("no file of its solid",)
     corners = np.concatenate(found) if found else _corners(Shape(np.eye(4), "box", (mark,) * 3))
@@ -172,7 +172,7 @@ class _Meshes:
         return apply(shape.pose, corners)
 
     def notes(self) -> list[str]:
-        """The meshes that are not there, with their links."""
+        """Name the meshes that are not there, with their links."""
         return [
             f"{self.path.name}: {why}; {listed(list(map(repr, links)))} {'is' if len(links) == 1 else 'are'} drawn "
             "without it"

@@ -206,7 +206,8 @@ class _Reader:
     def _mimic(
         self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
     ) -> Coupling | None:
-        """The coupling `name = multiplier (leader - reference) + offset`; ValueError for a leader that is not there."""
+        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for a leader that is not
+        there."""
         leader = prefix + mimic.get("joint", "")
         if leader not in joints:
             raise ValueError(f"{where}: mimic names the unknown joint {leader!r}{nearest(leader, joints)}")
@@ -220,7 +221,7 @@ class _Reader:
         return follower(name, leader, factor, offset - factor * reference, joints, f"{where}: mimic", self.notes)
 
     def _axis(self, axis: Element | None, own: Pose, frames: Frames, where: str) -> np.ndarray:
-        """The direction of an axis in the frame of the model; z where none is written."""
+        """Read the direction of an axis in the frame of the model; z where none is written."""
         if axis is None:
             return own[:3, 2]
         found = axis.find("xyz")
@@ -250,7 +251,7 @@ class _Reader:
         return -2 * np.pi / turns if turns else 0.0
 
     def _shapes(self, link: Element) -> list[Shape]:
-        """What is seen of a link; where that is nothing, what it collides with."""
+        """Read what is seen of a link; where that is nothing, what it collides with."""
         found = []
         for each in link.findall("visual") or link.findall("collision"):
             pose = read_pose(each, f"{self.file}: {tag(link)}")
@@ -272,7 +273,8 @@ class _Reader:
 
 
 def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:
-    """The rotation of the frame of a universal joint: y along the axis in the parent, x along that in the child."""
+    """Make the rotation of the frame of a universal joint: y along the axis in the parent, x along that in the
+    child."""
     if abs(one @ other) > SQUARE:
         raise ValueError(f"{where}: the axes of a universal joint must be perpendicular, got {one} and {other}")
     x = direction(other - (other @ one) * one, where)
@@ -280,6 +282,6 @@ def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:
 
 
 def _both(first: Limits, second: Limits) -> Limits:
-    """The limits of two coordinates, of which each may have none."""
+    """Join the limits of two coordinates, of which each may have none."""
     none = ((-np.inf, np.inf),)
     return (*(first or none), *(second or none)) if first or second else ()

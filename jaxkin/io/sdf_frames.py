@@ -43,7 +43,7 @@ def read_pose(element: Element | None, where: str) -> Pose:
 
 
 def relative_to(element: Element, default: str) -> str:
-    """The frame that the <pose> of an element is given in."""
+    """Find the frame that the <pose> of an element is given in."""
     found = element.find("pose")
     return (None if found is None else found.get("relative_to") or found.get("frame")) or default
 
@@ -83,7 +83,8 @@ class Frames:
         return "" if inner is None else f"{inner}{IN_ANOTHER}{self.inner[inner].canonical()}"
 
     def in_model(self, name: str, seen: tuple[str, ...] = ()) -> Pose:
-        """The pose of a frame in that of the model; ValueError for unknown names, and for frames in a circle."""
+        """Compute the pose of a frame in that of the model; ValueError for unknown names, and for frames in a
+        circle."""
         if name in (MODEL, ""):
             return np.eye(4)
         if name in seen:
@@ -104,7 +105,7 @@ class Frames:
         return np.linalg.inv(self.in_model(name)) if name else np.eye(4)
 
     def link_of(self, name: str, seen: tuple[str, ...] = ()) -> str:
-        """The link that a frame moves with; "world" is its own."""
+        """Find the link that a frame moves with; "world" is its own."""
         if name == WORLD or name in self.links:
             return name
         if name == MODEL:

@@ -37,7 +37,8 @@ _PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator
 def read_step(
     path: str | Path, seconds: float | None = None, progress: Callable[[int, int], None] | None = None
 ) -> tuple[tuple[Part, ...], str]:
-    """The parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that unit.
+    """Read the parts of a STEP file, in world coordinates and in the length unit of the file, and the name of that
+    unit.
 
     Each instance of a solid in the assembly is a part. Names are cleaned, with what the file says in `original_name`;
     parts with the same name become "bolt", "bolt#2", parts without a name "part 1", "part 2" by their place in the
@@ -83,7 +84,7 @@ def read_step(
 
 
 def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]]:
-    """The solids of a file as placed meshes, one at least, and what is said about its damages."""
+    """Read the solids of a file as placed meshes, one at least, and what is said about its damages."""
     glb, damages = convert(data, limit)
     found = list(instances(glb))
     if not all(instance.complete for instance in found):  # of a product some is coloured, and some is not
@@ -103,7 +104,7 @@ def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]
 
 
 def _checked(path: Path) -> bytes:
-    """The content of the file, if it can be a STEP file with solids."""
+    """Read the content of the file, if it can be a STEP file with solids."""
     if (size := check_file(path, "STEP file")) > MAX_STEP_BYTES:
         raise ValueError(
             f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_STEP_BYTES / 1e6:.0f}: export it part by part"
@@ -121,12 +122,12 @@ def _checked(path: Path) -> bytes:
 
 
 def _name(instance: Instance, number: int) -> str:
-    """The name of the instance, else of its product, cleaned; a damaged one only where there is no other."""
+    """Find the name of the instance, else of its product, cleaned; a damaged one only where there is no other."""
     given = _given(instance)
     sound = [name for name in given if not is_damaged(name)]
     return next(filter(None, map(cleaned, sound + given)), f"part {number}")
 
 
 def _given(instance: Instance) -> list[str]:
-    """The names of an instance and its product that somebody gave."""
+    """Find the names of an instance and its product that somebody gave."""
     return [name for name in instance.names if not _PLACEHOLDER.fullmatch(name)]

@@ -33,13 +33,13 @@ class Defect:
     """Whether no sound file comes so."""
 
     def note(self, pose: Pose) -> str:
-        """The defect in words, the place in the world; `pose` is that of the mesh."""
+        """Tell the defect in words, the place in the world; `pose` is that of the mesh."""
         near = ", ".join(f"{x:.4g}" for x in apply(pose, self.place))
         return f"{self.what}, near ({near}): {self.remedy}"
 
 
 def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
-    """What is amiss in the triangles of a solid: holes, no volume, or that it cuts itself; the first of these."""
+    """Find what is amiss in the triangles of a solid: holes, no volume, or that it cuts itself; the first of these."""
     welded = weld(triangles, 2 * tolerance)
     if holes := open_loops(welded, tolerance):
         return [Defect("it is not closed, there is a hole", holes[0].mean(axis=0), "a face is missing or wrong", True)]
@@ -54,7 +54,7 @@ def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
 
 
 def missing(text: str, placed: int, found: Sequence[Instance]) -> list[str]:
-    """What the text of a file announces and the reader did not make.
+    """Find what the text of a file announces and the reader did not make.
 
     `placed` is how many parts its assemblies place, 0 without assemblies. The faces counted in the text are those of
     the outer shells of its solids, each once, however often it is placed: never more than there have to be.

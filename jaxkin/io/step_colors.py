@@ -26,7 +26,7 @@ _MAX_DEPTH = 2
 
 
 def one_color_each(text: str) -> str:
-    """The text of a file with the colour of most faces of a product for all that is coloured in this product.
+    """Rewrite the text of a file: the colour of most faces of a product for all that is coloured in this product.
 
     The text is returned as it is where no product has several colours. Faces and solids without a colour stay so.
     """
@@ -53,7 +53,7 @@ class _Colored:
                         self.styled[named[last]] = number
 
     def with_one_each(self) -> str:
-        """The text with one colour for each product."""
+        """Rewrite the text with one colour for each product."""
         done: set[str] = set()
         for number, kind in self.kinds.items():
             if kind.endswith("SHAPE_REPRESENTATION"):
@@ -63,7 +63,7 @@ class _Colored:
         return ";".join(self.statements)
 
     def _named(self, number: str) -> list[str]:
-        """The numbers that a statement names."""
+        """List the numbers that a statement names."""
         return _NUMBER.findall(self.statements[self.places[number]])[1:] if number in self.places else []
 
     def _unite(self, solids: list[str]) -> None:
@@ -84,7 +84,7 @@ class _Colored:
                 self.statements[place] = _STYLES.sub(lambda own: own[1] + given, self.statements[place])
 
     def _faces(self, number: str, depth: int = 0) -> Iterator[str]:
-        """The faces of a solid, or of a shell at some depth below it."""
+        """List the faces of a solid, or of a shell at some depth below it."""
         for each in self._named(number):
             if self.kinds.get(each) in _FACES:
                 yield each
@@ -92,7 +92,7 @@ class _Colored:
                 yield from self._faces(each, depth + 1)
 
     def _style(self, number: str) -> tuple[str, ...]:
-        """What the style of a face or a solid comes down to: colour, transparency."""
+        """Find what the style of a face or a solid comes down to: colour, transparency."""
         found = _STYLES.search(self.statements[self.places[number]])
         todo, ends = _NUMBER.findall(found[0]) if found else [], []
         seen = {number}

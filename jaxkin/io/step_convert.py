@@ -24,7 +24,7 @@ _TOLD_DAMAGES = 3
 
 
 def convert(data: bytes, limit: TimeLimit) -> tuple[bytes, list[str]]:
-    """The binary glTF of the bytes of a STEP file, and what the reader said about damages.
+    """Make the binary glTF of the bytes of a STEP file, and what the reader said about damages.
 
     Raises ValueError with what the reader said if it cannot be read within the limit.
     """

@@ -61,7 +61,7 @@ class Instance:
 
 
 def instances(glb: bytes) -> Iterator[Instance]:
-    """All placed meshes that have triangles, in the order of the file."""
+    """List all placed meshes that have triangles, in the order of the file."""
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
@@ -92,7 +92,7 @@ def _inside(tree: dict[str, Any], nodes: list[int], path: tuple[str, ...]) -> li
 
 
 def _rigid(node: dict[str, Any]) -> Pose:
-    """The nearest rigid pose to the float32 placement of a node."""
+    """Find the nearest rigid pose to the float32 placement of a node."""
     pose = np.array(node.get("matrix", np.eye(4).ravel()), float).reshape(4, 4).T
     left, stretch, right = np.linalg.svd(pose[:3, :3])
     if np.abs(stretch - 1).max() > 1e-4 or np.linalg.det(left @ right) < 0:
@@ -117,12 +117,12 @@ def _mesh(tree: dict[str, Any], binary: bytes, primitives: list[dict[str, Any]])
 
 
 def _faces(primitive: dict[str, Any]) -> dict[str, Any]:
-    """What cascadio says of the faces of the triangles of a primitive; empty where that is nothing."""
+    """Find what cascadio says of the faces of the triangles of a primitive; empty where that is nothing."""
     return primitive.get("extensions", {}).get("TM_brep_faces", {})
 
 
 def _arrays(primitive: dict[str, Any]) -> tuple[Any, ...]:
-    """The numbers of the arrays of a primitive: instances of one product share them."""
+    """Find the numbers of the arrays of a primitive: instances of one product share them."""
     return primitive.get("attributes"), primitive.get("indices"), _faces(primitive).get("faceIndices")
 
 
@@ -136,7 +136,8 @@ def _array(tree: dict[str, Any], binary: bytes, index: int) -> np.ndarray:
 
 
 def _color(tree: dict[str, Any], primitives: list[dict[str, Any]]) -> tuple[Color | None, bool]:
-    """The colour of most triangles, from the linear light of glTF to the usual sRGB, and whether it is the only one."""
+    """Find the colour of most triangles, from the linear light of glTF to the usual sRGB, and whether it is the only
+    one."""
     counts: Counter[int | None] = Counter()
     for primitive in primitives:
         counts[primitive.get("material")] += tree["accessors"][primitive["indices"]]["count"]

@@ -19,13 +19,13 @@ Triangles = Float[np.ndarray, "_ 3 3"]
 
 
 def winding(surface: Surface, triangles: Triangles) -> float:
-    """How the triangles of a face are wound: +1 all out of the material of `surface`, -1 all into it."""
+    """Tell how the triangles of a face are wound: +1 all out of the material of `surface`, -1 all into it."""
     along = np.sum(areas(triangles) * surface.normals(triangles.mean(axis=1)), axis=-1)
     return float(along.sum() / max(np.abs(along).sum(), np.finfo(float).tiny))
 
 
 def points_outwards(surface: Surface, triangles: Triangles, solid: Triangles) -> bool:
-    """Whether the normals of the surface point out of the solid: most of nine rays that leave a face."""
+    """Tell whether the normals of the surface point out of the solid: most of nine rays that leave a face."""
     largest = np.argsort(-np.linalg.norm(areas(triangles), axis=-1))[:3]
     votes = []
     centres = solid.mean(axis=1)
@@ -42,7 +42,7 @@ def points_outwards(surface: Surface, triangles: Triangles, solid: Triangles) ->
 
 
 def _near(start: Points, direction: Points, centres: Points, squared_radii: np.ndarray) -> np.ndarray:
-    """Which balls around triangles a line comes near to: few of a solid, so that only these are intersected."""
+    """Tell which balls around triangles a line comes near to: few of a solid, so that only these are intersected."""
     offset = centres - start
     squared = np.einsum("ij,ij->i", offset, offset)
     distance = squared - (offset @ direction) ** 2 / (direction @ direction)
@@ -50,7 +50,7 @@ def _near(start: Points, direction: Points, centres: Points, squared_radii: np.n
 
 
 def _crossings(start: Points, direction: Points, triangles: Triangles) -> int:
-    """How many triangles a ray goes through (Moeller and Trumbore)."""
+    """Count how many triangles a ray goes through (Moeller and Trumbore)."""
     edge1, edge2 = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     across = np.cross(direction, edge2)
     det = np.sum(across * edge1, axis=-1)

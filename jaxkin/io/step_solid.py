@@ -51,7 +51,7 @@ class Solid:
     defects: tuple[Defect, ...]
 
     def placed(self, name: str, pose: Pose, color: Color | None) -> tuple[Part, list[str]]:
-        """The part at a pose, and those of its notes that tell of a damage."""
+        """Make the part at a pose, and those of its notes that tell of a damage."""
         faces = tuple(Face(face.name, face.surface.moved(pose), apply(pose, face.triangles)) for face in self.faces)
         notes = [*self.notes, *(defect.note(pose) for defect in self.defects if not defect.damage)]
         damages = [*self.damages, *(defect.note(pose) for defect in self.defects if defect.damage)]
@@ -59,7 +59,7 @@ class Solid:
 
 
 def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
-    """The solid of a mesh; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
+    """Make the solid of a mesh; `metres` is the unit of the file, `uncertainty` how far its faces may be off, in it."""
     triangles = mesh.triangles / metres
     tolerance = rounding(triangles)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 0.0
@@ -94,7 +94,7 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
 
 
 def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:
-    """The surface as cascadio describes it, in the frame of the mesh; its side says nothing."""
+    """Make the surface as cascadio describes it, in the frame of the mesh; its side says nothing."""
     if described is None:
         return None
     at = {key: np.array(described[key]) / metres for key in ("origin", "apex", "center") if key in described}
@@ -113,7 +113,7 @@ def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) 
 
 
 def _oriented(surface: Surface, triangles: Triangles, rows: Rows) -> tuple[Surface, Triangles, str]:
-    """The surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
+    """Make the surface of some triangles of a solid and these triangles, both facing outwards, and what was amiss."""
     corners = triangles[rows]
     wound = winding(surface, corners)
     outwards = wound > 0

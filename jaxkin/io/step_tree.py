@@ -9,7 +9,7 @@ MAX_STEP_PARTS = 20_000
 
 
 def placed_parts(text: str, name: str) -> int:
-    """How many parts the assemblies of a file place; 0 where it has none.
+    """Count how many parts the assemblies of a file place; 0 where it has none.
 
     `name` is what messages call the file. Each occurrence (NEXT_ASSEMBLY_USAGE_OCCURRENCE) names the assembly and what
     is placed in it. Raises ValueError for more than `MAX_STEP_PARTS`, and where an assembly holds itself.

@@ -15,7 +15,7 @@ _DEPTH = 5
 
 
 def length_unit(text: str, name: str) -> tuple[str, float]:
-    """The unit that the first shapes of the file are given in: its name, a key of `METRES`, and its metres.
+    """Find the unit that the first shapes of the file are given in: its name, a key of `METRES`, and its metres.
 
     `name` is what messages call the file. Raises ValueError for a unit that is not in `METRES`; a file without unit is
     read in millimetres, as the kernel does, with a warning.
@@ -41,7 +41,7 @@ def length_unit(text: str, name: str) -> tuple[str, float]:
 
 
 def uncertainty(text: str) -> float:
-    """The largest deviation of geometry that a file says it has, in its length unit; 0 where it says none."""
+    """Find the largest deviation of geometry that a file says it has, in its length unit; 0 where it says none."""
     statements = (statement for statement in text.split(";") if "UNCERTAINTY_MEASURE_WITH_UNIT" in statement)
     number = re.compile(r"LENGTH_MEASURE\s*\(\s*(\d+\.?\d*(?:[Ee][+-]?\d+)?)\s*\)")
     found = [match[1] for match in map(number.search, statements) if match]

@@ -80,7 +80,7 @@ class Study:
         return found.with_couplings(self.couplings) if self.couplings else found
 
     def _uncoupled(self) -> Mechanism:
-        """The mechanism without the couplings of the study."""
+        """Make the mechanism without the couplings of the study."""
         if self.assembly is None:
             return Mechanism.build(fixed=self.fixed, joints=self.joints, unit=self.unit, align=self.align)
         if not self.held:
@@ -117,19 +117,19 @@ class Study:
         return in_radians(self.mechanism, self.ranges)
 
     def sweep(self) -> Motion:
-        """The motion of the mechanism for the drive."""
+        """Compute the motion of the mechanism for the drive."""
         return self.mechanism.sweep(self.drive)
 
     def computed(self, motion: Motion) -> dict[str, Result]:
-        """The effects of a motion that the study asks for, by name."""
+        """Compute the effects of a motion that the study asks for, by name."""
         return compute(motion, self.effects)
 
 
 def load_study(
     path: str | Path, *, seconds: float | None = None, progress: Callable[[int, int], None] | None = None
 ) -> Study:
-    """The study that a TOML file describes; its geometry is looked for beside the file, and read as by
-    `load`, within `seconds` a file and with its `progress`.
+    """Load the study that a TOML file describes; its geometry is looked for beside the file, and read as by `load`,
+    within `seconds` a file and with its `progress`.
 
     Raises FileNotFoundError where there is no such file, and ValueError, with the key, what arrived and what was
     expected, where it is no study. What it says about parts and joints is checked when `mechanism` or `drive` is asked

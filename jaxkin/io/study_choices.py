@@ -100,7 +100,7 @@ def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> Iterator[str]:
 
 
 def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
-    """The line that turns a joint off, or why there is none."""
+    """Write the line that turns a joint off, or why there is none."""
     if any(name.rpartition(".")[0] == joint.name for name in driven):
         return "# (It is driven: choose another drive before you turn it off.)"
     mechanism = tried.without(joint)
@@ -123,7 +123,8 @@ def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:
 
 
 def _exclude(name: str, kind: str, parts: Sequence[Part], solids: Sequence[Part]) -> str:
-    """One line for the parts of one product: their pattern where it stands for them alone, otherwise their names."""
+    """Write one line for the parts of one product: their pattern where it stands for them alone, otherwise their
+    names."""
     names = [part.name for part in parts]
     patterns = [pattern for pattern in (f"{name}*", f"*/{name}*") if len(names) > 1 and _means(pattern, solids, names)]
     across = max(float(np.linalg.norm(np.ptp(part.box, axis=0))) for part in parts)
@@ -143,7 +144,7 @@ def _inferred(joint: Joint) -> bool:
 
 
 def _told(mechanism: Mechanism) -> str:
-    """What a choice makes of the mechanism."""
+    """Tell what a choice makes of the mechanism."""
     if opening(mechanism.linkage, mechanism.unit) is not None:
         return "loops that are open as drawn"
     found = mechanism.mobility()

@@ -48,16 +48,16 @@ class CouplingTable(create_model("CouplingKeys", __config__=STRICT, **_KEYS)):
         return self
 
     def arguments(self) -> dict[str, Any]:
-        """What was said beside the kind."""
+        """Return the keys that were said beside the kind, as arguments of the function of the kind."""
         return self.model_dump(exclude_none=True, exclude={"kind"})
 
     def made(self, name: str) -> Coupling:
-        """The coupling; ValueError for numbers that make none."""
+        """Make the coupling, with its name; ValueError for numbers that make none."""
         return COUPLINGS[self.kind](**self.arguments(), name=name)
 
 
 def coupling_keys(given: Coupling) -> dict[str, object]:
-    """The keys of a table that says a coupling; ValueError for polynomials of several coordinates."""
+    """Write a coupling as the keys of its table in a study; ValueError for polynomials of several coordinates."""
     coefficients, offset = np.asarray(given.coefficients, float), float(given.offset)
     if coefficients.shape[1] == 1 or not coefficients[:, 1:].any():
         factors = dict(zip(given.coordinates, coefficients[:, 0].tolist(), strict=True))

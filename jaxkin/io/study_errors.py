@@ -32,7 +32,7 @@ _EXPECTED = {
 
 
 def messages(error: ValidationError, file: str, keys: Mapping[tuple[str, ...], Sequence[str]]) -> str:
-    """All mistakes that pydantic found, a line each. `keys` are those that the tables know; "*" is any name."""
+    """Tell all mistakes that pydantic found, a line each. `keys` are those that the tables know; "*" is any name."""
     found = error.errors(include_url=False)
     lines = [f"{file}: {_said(one, keys)}" for one in found[:_MAX_MISTAKES]]
     more = [f"{file}: and {len(found) - _MAX_MISTAKES} more mistakes"] if len(found) > _MAX_MISTAKES else []
@@ -74,7 +74,8 @@ def _misplaced(loc: Sequence[str | int], keys: Mapping[tuple[str, ...], Sequence
 
 
 def _path(loc: Sequence[str | int]) -> str:
-    """The key as one would write it: joints.A.axis[2]; a name with other letters than those of a bare key in quotes."""
+    """Write the key as one would write it: joints.A.axis[2]; a name with other letters than those of a bare key in
+    quotes."""
     path = ""
     for name in loc:
         if isinstance(name, int):

@@ -48,7 +48,7 @@ def _geometry(value: object) -> object:
 
 
 def _as_range(value: object) -> object:
-    """A text or a list as the table that says the same."""
+    """Read a text or a list as the table that says the same."""
     if isinstance(value, str):
         return {"values": read_range(value).tolist()}
     if isinstance(value, list):
@@ -67,7 +67,7 @@ class ToleranceTable(BaseModel):
     fit: Annotated[Number, Field(ge=0)] | None = None
 
     def given(self) -> dict[str, float]:
-        """Those that were said."""
+        """Return the tolerances that were said, by name."""
         return self.model_dump(exclude_none=True)
 
 
@@ -103,12 +103,12 @@ class JointTable(BaseModel):
         return self
 
     def arguments(self) -> dict[str, Any]:
-        """What was said beside the kind and the parts."""
+        """Return the keys that were said beside the kind and the parts, as arguments of the function of the kind."""
         said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "limits", "off"})
         return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
 
     def limited(self, joint: Joint) -> Joint:
-        """The joint with its limits, which a study has in degrees and lengths."""
+        """Make the joint with its limits, which a study has in degrees and lengths."""
         if self.limits is None:
             return joint
         names = joint.coordinates
@@ -138,7 +138,7 @@ class RangeTable(BaseModel):
         return self
 
     def range(self) -> Range:
-        """The values themselves."""
+        """Return the range of values, with the unit of these."""
         if self.values is not None:
             return Range(np.array(self.values, float), self.unit)
         return Range(np.linspace(self.first or 0.0, self.last or 0.0, self.poses or 1), self.unit)
@@ -189,7 +189,7 @@ class StudyFile(BaseModel):
         return self
 
     def made_joints(self, file: str) -> tuple[Joint, ...]:
-        """The joints by hand that are not off; ValueError for an axis that is none, and the like."""
+        """Make the joints by hand that are not off; ValueError for an axis that is none, and the like."""
         made = []
         for name, table in self.joints.items():
             if table.off:
@@ -202,14 +202,14 @@ class StudyFile(BaseModel):
         return tuple(made)
 
     def made_couplings(self, file: str) -> tuple[Coupling, ...]:
-        """The couplings; ValueError for a ratio of zero, and the like."""
+        """Make the couplings; ValueError for a ratio of zero, and the like."""
         try:
             return tuple(table.made(name) for name, table in self.couplings.items())
         except ValueError as error:
             raise ValueError(f"{file}: {error}") from None
 
     def asked_effects(self, file: str) -> Settings:
-        """The effects that are not off, with their settings; ValueError for names of no effect."""
+        """Find the effects that are not off, with their settings; ValueError for names of no effect."""
         try:
             known(self.effects)
         except ValueError as error:
@@ -217,7 +217,7 @@ class StudyFile(BaseModel):
         return {name: {} if said is True else said for name, said in self.effects.items() if said is not False}
 
     def ranges(self) -> dict[str, Range]:
-        """The drive as it was written."""
+        """Return the drive as it was written: a range for each coordinate, by name."""
         drive = self.drive if self.instead.drive is None else self.instead.drive
         return {name: table.range() for name, table in drive.items()}
 
@@ -234,7 +234,7 @@ _KEYS = {
 
 
 def read_study_file(path: Path) -> StudyFile:
-    """The file as it is written, validated; ValueError, FileNotFoundError otherwise."""
+    """Read the file as it is written, validated; ValueError, FileNotFoundError otherwise."""
     if (size := check_file(path, "TOML file of a study")) > MAX_STUDY_BYTES:
         raise ValueError(f"{path.name} has {size} bytes: a study has {MAX_STUDY_BYTES} at most")
     try:

@@ -117,7 +117,7 @@ def _bodies(mechanism: Mechanism, bodies: Bodies, exclude: Sequence[str], choice
 
 
 def _after(evidence: Evidence | None) -> str:
-    """What something is known from, as the end of a line."""
+    """Write what something is known from, as the end of a line."""
     return f"  # {' '.join(str(evidence).split())}" if evidence and evidence != BY_HAND else ""
 
 
@@ -135,7 +135,7 @@ def _joints(mechanism: Mechanism, choices: Choices) -> list[str]:
 
 
 def _limits(joint: Joint) -> dict[str, object]:
-    """The limits of a joint by coordinate, degrees and lengths; nothing where it has none."""
+    """Write the limits of a joint by coordinate, degrees and lengths; nothing where it has none."""
     ends = {
         name: [end if is_length(name) else float(np.degrees(end)) for end in ends]
         for name, ends in zip(joint.coordinates, joint.limits, strict=bool(joint.limits))
@@ -153,7 +153,7 @@ def _couplings(mechanism: Mechanism) -> list[str]:
 
 
 def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
-    """The kind of a joint as a study names it, and its arguments."""
+    """Find the kind of a joint as a study names it, and the arguments of the function of that kind."""
     pose = np.asarray(joint.frames_1, float)[0]
     usual = np.allclose(pose, frame(pose[:3, 3], pose[:3, 2]), atol=_SAME)
     if joint.kind in JOINTS_BY_HAND and (usual or joint.kind not in _AS_CONTACT):

@@ -33,14 +33,14 @@ def write_arrays(motion: Motion, path: Path) -> None:
 
 
 def poses_of(motion: Motion) -> dict[str, np.ndarray]:
-    """The arrays of one row a pose, but for the displacements of parts, which follow from those of the joints."""
+    """List the arrays of one row a pose, but for the displacements of parts, which follow from those of the joints."""
     arrays = {f"input:{name}": np.asarray(values) for name, values in motion.inputs.items()}
     arrays |= {f"joint:{name}": np.asarray(values) for name, values in motion.coordinates.items()}
     return arrays | {"status": np.asarray(motion.status), "residual": np.asarray(motion.residual)}
 
 
 def words_of(mechanism: Mechanism) -> dict[str, np.ndarray]:
-    """What the columns and codes of those are called."""
+    """Name the columns and codes of the arrays of `poses_of`."""
     words = {f"coordinates:{name}": np.array(j.coordinates, dtype=str) for name, j in mechanism.joints.items()}
     return words | {"status_names": np.array([s.name for s in Status]), "unit": np.array(mechanism.unit)}
 
@@ -67,7 +67,7 @@ def write_table(motion: Motion, path: Path) -> None:
 
 
 def _heading(name: str, unit: str) -> str:
-    """The name of a coordinate with its unit, which for lengths may not be known."""
+    """Write the name of a coordinate with its unit, which for lengths may not be known."""
     if not is_length(name.rpartition(".")[2]):
         return f"{name} [rad]"
     return f"{name} [{unit}]" if unit else name

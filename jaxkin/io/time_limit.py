@@ -46,7 +46,7 @@ class TimeLimit:
         return left
 
     def exceeded(self) -> ValueError:
-        """The error for a file that was not read in time."""
+        """Make the error for a file that was not read in time."""
         return ValueError(
             f"{self.name} ({self.size / 1e6:.3g} MB) was not read within {self.seconds:.3g} seconds: it is damaged, or "
             f"larger than can be used; export it again, or part by part, or allow more time with "

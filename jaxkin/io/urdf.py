@@ -95,7 +95,7 @@ class _Reader:
         return [value for each in self.root.iter() for value in each.attrib.values()]
 
     def _parts(self, joint: Element) -> tuple[str, str]:
-        """The parent and child link of a joint; ValueError where they are not there."""
+        """Find the parent and child link of a joint; ValueError where they are not there."""
         names = []
         for side in ("parent", "child"):
             found = joint.find(side)
@@ -108,7 +108,7 @@ class _Reader:
         return names[0], names[1]
 
     def _tree(self) -> tuple[list[Element], str]:
-        """The joints from the root link on, and that link; ValueError where the links are no tree."""
+        """Find the joints from the root link on, and that link; ValueError where the links are no tree."""
         above: dict[str, Element] = {}
         below: dict[str, list[Element]] = {}
         for each in self.joints:
@@ -165,7 +165,7 @@ class _Reader:
         return RobotJoint(name, parts, kind, frame, frame, f"{said} {name!r}", limits)
 
     def _mimic(self, each: Element, joints: dict[str, RobotJoint]) -> Coupling | None:
-        """The coupling of a joint that follows another one; None where it follows none, or does not move."""
+        """Make the coupling of a joint that follows another one; None where it follows none, or does not move."""
         found = each.find("mimic")
         name, where = each.get("name", ""), f"{self.file}: {tag(each)}: mimic"
         if found is None:
@@ -179,7 +179,7 @@ class _Reader:
         return follower(name, leader, factor, offset, joints, where, self.notes)
 
     def _limits(self, each: Element, where: str) -> Limits:
-        """The limits of a joint: none where neither is written, and zero for the one that is not."""
+        """Read the limits of a joint: none where neither is written, and zero for the one that is not."""
         found = each.find("limit")
         if found is None or (found.get("lower") is None and found.get("upper") is None):
             return ()
@@ -189,7 +189,7 @@ class _Reader:
         return ((low, high),) if low <= high else ()
 
     def _shapes(self, link: Element) -> tuple[Shape, ...]:
-        """What is seen of a link; where that is nothing, what it collides with."""
+        """Read what is seen of a link; where that is nothing, what it collides with."""
         every = link.findall("visual") or link.findall("collision")
         return tuple(shape for each in every if (shape := self._shape(each, tag(link))) is not None)
 
@@ -211,7 +211,7 @@ class _Reader:
         return None
 
     def _loop(self, number: int, pair: tuple[str, str, JointKind], joints: dict, poses: dict[str, Pose]) -> RobotJoint:
-        """The joint that holds two frames together."""
+        """Make the joint that holds two frames together."""
         one, other, kind = pair
         links = [self._link_of(name, joints) for name in (one, other)]
         where = f"{self.loops.name}: closed_loop {number}"
@@ -227,7 +227,7 @@ class _Reader:
         return RobotJoint(name, (links[0], links[1]), kind, first, second, f"closed_loop {name!r} ({what})")
 
     def _link_of(self, name: str, joints: dict[str, RobotJoint]) -> str:
-        """The link whose frame a name means: the child of the joint, or the link itself."""
+        """Find the link whose frame a name means: the child of the joint, or the link itself."""
         if name in joints:
             return joints[name].parts[1]
         if name in self.links:

@@ -235,7 +235,7 @@ def _full_name(coupling: Coupling, key: str, by_joint: Mapping[str, Joint]) -> s
 
 
 def _groups(joint: Joint) -> list[tuple[int, ...]]:
-    """For each coordinate of a joint those that are one turn with it."""
+    """List for each coordinate of a joint the coordinates that are one turn with it."""
     return [group for group in joint.driven_together for _ in group]
 
 

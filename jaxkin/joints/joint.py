@@ -97,7 +97,7 @@ _STATIC = ("name", "parts", "kind", "movements", "limits")
 
 
 def _static(joint: Joint) -> tuple[Any, ...]:
-    """The static fields of a joint."""
+    """Return the static fields of a joint."""
     return tuple(getattr(joint, name) for name in _STATIC)
 
 

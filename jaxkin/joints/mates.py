@@ -85,7 +85,7 @@ def mate(tag: str, one: Feature, other: Feature, angle: float, length: float) ->
 
 
 def _circle_in_plane(one: Feature, other: Feature, angle: float, length: float) -> MateSet | None:
-    """The displacements of a circle on a circle, or in a plane; None for other features."""
+    """Find the displacements of a circle on a circle, or in a plane; None for other features."""
     flat = [feature.circle or feature.kind == "plane" for feature in (one, other)]
     if not all(flat) or not (one.circle or other.circle) or not _parallel(one, other, angle):
         return None
@@ -158,7 +158,7 @@ _DISTANCES = {
 
 
 def _angle_kept(one: Feature, other: Feature, angle: float) -> Chain:
-    """All translations, and the turns about both axes: one where the axes are parallel."""
+    """Find the displacements that keep an angle: all translations, and the turns about both axes (one if parallel)."""
     first, second = frame(one.point, one.axis), frame(one.point, other.axis)
     kinds, frames = [JointKind.PLANAR, JointKind.PRISMATIC], [first, first]
     if not _parallel(one, other, angle):
@@ -167,7 +167,7 @@ def _angle_kept(one: Feature, other: Feature, angle: float) -> Chain:
 
 
 def _state(letter: str, *frames: Pose, region: str | None = None) -> tuple[Chain, JointKind]:
-    """The displacements of a contact state, and the kind of joint that it is: that of a lower pair where it is one."""
+    """Find the displacements of a contact state, and the kind of joint: that of a lower pair where there is one."""
     movements = find_state(letter, region).movements
     pair = MOVEMENTS[movements[0]].pair if len(movements) == 1 else None
     return Chain(movements, np.stack(frames)), JointKind(pair) if pair else JointKind.of_state(letter)
@@ -178,11 +178,11 @@ def _parallel(one: Feature, other: Feature, angle: float) -> bool:
 
 
 def _on_plane(plane: Feature, point: Vector) -> Vector:
-    """The foot of a point on a plane."""
+    """Project a point onto a plane."""
     return point - float((point - plane.point) @ plane.axis) * plane.axis
 
 
 def _away(line: Feature, point: Vector) -> Vector:
-    """The offset of a point from a line."""
+    """Compute the offset of a point from a line."""
     offset = point - line.point
     return offset - (offset @ line.axis) * line.axis

@@ -65,7 +65,7 @@ def _at(point: np.ndarray) -> Pose:
 
 
 def _cross(first: Pose, second: Pose) -> tuple[Pose, Pose]:
-    """The frames of a universal joint: y along the axis on part 1, x along that on part 2."""
+    """Make the frames of a universal joint: y along the axis on part 1, x along the axis on part 2."""
     y, x = first[:3, 2], second[:3, 2]
     if abs(float(x @ y)) > PERPENDICULAR:
         raise ValueError(f"the axes of a universal joint must be perpendicular, the cosine between them is {x @ y:.3g}")

@@ -66,13 +66,13 @@ def order_with_couplings(
 
 
 def _only(tied: Collection[int], known: Collection[int]) -> list[int]:
-    """The one column of a coupling that is not known; empty if there are none or several."""
+    """Find the one column of a coupling that is not known; empty if there are none or several."""
     unknown = [column for column in tied if column not in known]
     return unknown if len(unknown) == 1 else []
 
 
 def _alone(number: int, couplings: Mapping[int, Collection[int]], held: Collection[int]) -> list[int]:
-    """The first column of a coupling that is in no loop, not known, and in no other of these couplings."""
+    """Find the first column of coupling `k` that is in no loop, not known, and in no other coupling that is left."""
     others = {column for k, tied in couplings.items() if k != number for column in tied}
     return [column for column in couplings[number] if column not in held and column not in others][:1]
 
@@ -82,14 +82,14 @@ def _of_coupling(number: int, column: int, owner: Sequence[int]) -> Group:
 
 
 def _solving(groups: Sequence[Group], joints: Collection[int]) -> list[int]:
-    """Numbers of the groups that some of these joints are solved in."""
+    """List the numbers of the groups in which some of these joints are solved."""
     return [number for number, group in enumerate(groups) if set(group.joints) & set(joints)]
 
 
 def _together(
     loops: Sequence[Circuit], couplings: Mapping[int, Collection[int]], columns: Columns, driven: Collection[int]
 ) -> Group:
-    """One group of all loops and couplings; its rank is that of independent equations."""
+    """Make one group of all loops and couplings; its rank is the number of independent equations."""
     unknowns = tuple(column for column in range(len(columns)) if column not in driven)
     joints = tuple(dict.fromkeys(columns[column][0] for column in unknowns))
     known = tuple(dict.fromkeys(joint for joint, _ in columns if joint not in joints))

@@ -106,7 +106,7 @@ def _joint(record: Mapping[str, Any]) -> Joint:
 
 
 def _frames(record: Mapping[str, Any], side: str) -> np.ndarray:
-    """The frames of a joint on one side, one a movement; ValueError where they are no finite 4x4 poses."""
+    """Read the frames of a joint on one side, one a movement; ValueError where they are no finite 4x4 poses."""
     found = np.asarray(record[side], float).reshape(-1, 4, 4)
     if len(found) != len(record["movements"]) or not np.isfinite(found).all():
         raise ValueError(

@@ -49,14 +49,14 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
 
 
 def _bodies(mechanism: Mechanism) -> list[str]:
-    """The bodies of more than one part, and how many there are."""
+    """List the bodies of more than one part, after a line with the number of all bodies."""
     several = [parts for parts in mechanism.bodies.values() if len(parts) > 1]
     rows = [f"{parts[0]}: {len(parts)} parts, with {listed(parts[1:])}" for parts in several]
     return [f"Bodies: {len(mechanism.bodies)}", *(f"  {row}" for row in shortened(rows))]
 
 
 def _joints(joints: Sequence[Joint]) -> list[str]:
-    """A table, one row a joint; limits where there are any; what a joint is known from where that is in any doubt."""
+    """Write a table of joints: limits if any joint has some, and what a joint is known from if that is in doubt."""
     rows = [("joint", "parts", "kind", "coordinates", "limits", "known from")]
     for joint in joints:
         inferred = joint.evidence is not None and joint.evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER)
@@ -70,7 +70,7 @@ def _joints(joints: Sequence[Joint]) -> list[str]:
 
 
 def _limits(joint: Joint) -> str:
-    """The limits of a joint from the assembled pose, radians or lengths: "-0.5 to 1"; empty where it has none."""
+    """Write the limits of a joint, radians or lengths from the assembled pose: "-0.5 to 1"; empty without any."""
     return ", ".join(
         f"{low:.4g} to {high:.4g}" if np.isfinite([low, high]).any() else "none" for low, high in joint.limits
     )
@@ -98,7 +98,7 @@ def _why_it_cannot_move(mechanism: Mechanism, freedoms: int) -> list[str]:
 
 
 def why_infeasible(mechanism: Mechanism, drive: InfeasibleDrive) -> str:
-    """Why the loops cannot follow a drive, with the contacts or joints without which they could, where none moves."""
+    """Tell why the loops cannot follow a drive; where nothing moves, also which contacts or joints are to blame."""
     if not drive.immobile:
         return drive.why
     row_of = mechanism.structure.row_of

@@ -76,7 +76,7 @@ class DrivePlan(NamedTuple):
 
 
 def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
-    """The plan of a drive of the coordinates of these names; ValueError as in `coordinates.resolve`.
+    """Plan the drive of the coordinates named `keys`; ValueError as in `coordinates.resolve`.
 
     The plan is kept as long as the linkage lives, unless its numbers, or what JAX makes of them here, are traced.
     """
@@ -99,7 +99,7 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
 
 @once_for_each
 def _kept(linkage: Linkage) -> dict[Any, DrivePlan]:
-    """The plans of drives of a linkage, by the names that the drives give."""
+    """Keep the plans of drives of a linkage, by the names that the drives give."""
     del linkage
     return {}
 
@@ -128,7 +128,7 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
 def _element(
     linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
 ) -> DrivenElement:
-    """A structure element with its loops in the order in which they are solved; `on_host` where numbers are there."""
+    """Plan a structure element, its loops in the order in which they are solved; `on_host` where numbers are known."""
     loop_group, loop_class = linkage.structure.loop_groups[number], linkage.classes[number]
     # of a single loop there is one order only, and the freedoms take a millisecond to find
     several = len(loop_group.loops) + len(loop_group.couplings) > 1
@@ -154,7 +154,7 @@ def _element(
 def ranked_groups(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
 ) -> tuple[Group, ...]:
-    """The groups of loops of a structure element, by the ranks of the closure Jacobian beside the assembled pose."""
+    """Find the groups of loops of a structure element by ranks of the closure Jacobian beside the assembled pose."""
     columns = solved_coordinates(linkage, loop_group, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
     looped = {joint for loop in loop_group.loops for joint, _ in loop}
@@ -171,7 +171,7 @@ def ranked_groups(
 def _counted_groups(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
 ) -> tuple[Group, ...]:
-    """The groups of loops of a structure element where nothing but the class of the loops is known."""
+    """Find the groups of loops of a structure element by counting, from the class of the loops alone."""
     solved = solved_coordinates(linkage, loop_group, driven, loop_class)
     about_point = loop_class.spherical
     equations = [IN_SUBGROUP if solved.planar or k in about_point else None for k in range(len(loop_group.loops))]
@@ -189,7 +189,7 @@ def _counted_groups(
 def _with_couplings(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, columns: Columns, order: OrderOfLoops
 ) -> tuple[Group, ...]:
-    """The groups of loops in the order that `order` finds, with the couplings before, among and after them."""
+    """Find the groups of loops in the order that `order` finds, with the couplings before, among and after them."""
     given = [columns.index(place) for place in driven]
     if not loop_group.couplings:
         return order(given)
@@ -201,7 +201,7 @@ def _with_couplings(
 
 
 def _edited(linkage: Linkage, loop_group: LoopGroup) -> bool:
-    """Whether the loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
+    """Tell whether loops may be open at the assembled pose: after a change of lengths, or where numbers are traced."""
     joints = [linkage.solved_joints[joint] for joint in loop_group.joints]
     couplings = [linkage.couplings[number] for number in loop_group.couplings]
     return (

@@ -45,7 +45,7 @@ def lost_contact_report(
 def _of_joint(
     name: str, contacts: Sequence[LostContact], mechanism: Mechanism, inputs: Mapping[str, np.ndarray | Array]
 ) -> list[str]:
-    """What becomes of a joint that leaves its faces."""
+    """Tell of a joint that leaves its faces: at which inputs, which faces, and what still holds the parts."""
     loose = np.any([each.loose for each in contacts], axis=0)
     farthest = max(contacts, key=lambda each: each.gap)
     unit, kind, left = mechanism.unit, mechanism.joints[name].kind, farthest.left
@@ -59,13 +59,13 @@ def _of_joint(
 
 
 def runs(mask: Bool[np.ndarray, " poses"]) -> list[tuple[int, int]]:
-    """First and last index of each run of true values."""
+    """Find the first and last index of each run of true values."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(int)))
     return [(int(first), int(end) - 1) for first, end in edges.reshape(-1, 2)]
 
 
 def _run(inputs: Mapping[str, np.ndarray | Array], first: int, last: int, unit: str) -> str:
-    """Consecutive poses and the inputs at the ends, in degrees and in the unit of the mechanism."""
+    """Name consecutive poses, with the inputs at both ends, in degrees and in the unit of the mechanism."""
     said = []
     for name, values in inputs.items():
         is_angle = not is_length(name.rpartition(".")[2])
@@ -77,7 +77,7 @@ def _run(inputs: Mapping[str, np.ndarray | Array], first: int, last: int, unit: 
 
 
 def _apart(lost: LostContact, unit: str) -> str:
-    """The faces and how far they are apart at most."""
+    """Name the faces of a contact, and how far they are apart at most."""
     contact = lost.contact
     faces = " and ".join(f"{part} {face}" for part, face in zip(contact.parts, contact.faces, strict=True))
     return f"({contact.state}) {faces} up to {lost.gap:.4g} {unit}".rstrip() + " apart"

@@ -59,7 +59,7 @@ class LostContact:
 
 
 def lost_contacts(motion: Motion) -> tuple[LostContact, ...]:
-    """The contacts that are lost at closed poses of a motion, in the order of the joints.
+    """Find the contacts that are lost at closed poses of a motion, in the order of the joints.
 
     None for mechanisms without solids, for joints by hand, and for contacts in states (i), (k), (l), (m), (o), (p) and
     a ball seated in a cone, whose faces are not followed.
@@ -94,7 +94,7 @@ class FaceSetting:
         self._flush: dict[tuple[str, str], list[Face]] = {}
 
     def flush(self, part: str, name: str) -> list[Face]:
-        """The other faces of the body of a part that continue the surface of one of its faces."""
+        """Find the other faces of the body of a part that continue the surface of one of its faces."""
         if (part, name) not in self._flush:
             face = self.faces[part, name]
             self._flush[part, name] = [
@@ -105,13 +105,13 @@ class FaceSetting:
         return self._flush[part, name]
 
     def continued(self, contact: Contact) -> list[tuple[Face, Face]]:
-        """The two faces of a contact and those that continue them, each of side 1 with each of side 2."""
+        """Pair the faces of both sides of a contact: the two in contact, and all faces that continue them."""
         one, two = ([self.faces[key], *self.flush(*key)] for key in zip(contact.parts, contact.faces, strict=True))
         return list(product(one, two))
 
 
 def _on_one(face: Face, other: Face, length: float) -> bool:
-    """Whether another face lies on the surface of a face, facing the same way."""
+    """Tell whether another face lies on the surface of a face, facing the same way, within a length."""
     if other.surface.kind != face.surface.kind:
         return False
     corners, middles = other.triangles.reshape(-1, 3), other.triangles.mean(axis=1)
@@ -122,7 +122,7 @@ def _on_one(face: Face, other: Face, length: float) -> bool:
 def _of_joint(
     joint: Joint, contacts: Sequence[Contact], moved: Displacements, setting: FaceSetting
 ) -> list[LostContact]:
-    """The contacts of a joint that are lost, over the poses of the displacements of its part 2."""
+    """Find the contacts of a joint that are lost, over the displacements of part 2 of the joint."""
     gaps = [gaps_of(joint, contact, moved, setting) for contact in contacts]
     gaps = [np.where(each > setting.length, each, 0.0) for each in gaps]
     lost = [k for k, each in enumerate(gaps) if each.any()]
@@ -146,13 +146,13 @@ def _of_joint(
 
 
 def _left(contacts: Sequence[Contact], noise: Noise) -> str:
-    """The kind of the joint that the contacts that are left amount to; empty if there is none."""
+    """Find the kind of the joint that the remaining contacts amount to; empty if there is none."""
     pair = combine(regularise(contacts, noise).contacts, noise) if contacts else None
     return pair.kind if pair else ""
 
 
 def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Displacements | None:
-    """The displacements of face 2 of a contact relative to face 1, from those of part 2 of its joint.
+    """Compute the displacements of face 2 of a contact relative to face 1, from those of part 2 of the joint.
 
     None where the contact is not between the two bodies of the joint.
     """
@@ -164,7 +164,7 @@ def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: 
 
 
 def gaps_of(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Gaps:
-    """How far the faces of a contact are apart, and all that continue them; negative infinity where nobody looks."""
+    """Measure how far the faces of a contact, and all that continue them, are apart; -inf where nobody looks."""
     of_faces = contact.contact_state.gaps
     relative = moved_second(joint, contact, moved, setting)
     if of_faces is None or relative is None:
@@ -182,14 +182,14 @@ def gaps_of(joint: Joint, contact: Contact, moved: Displacements, setting: FaceS
 
 
 def _over_all_poses(found: LostContact, closed: np.ndarray, poses: int) -> LostContact:
-    """The same, of the closed poses, with the others."""
+    """Spread a lost contact from the closed poses over all poses; its gap is zero at the others."""
     gaps, loose = np.zeros(poses), np.zeros(poses, bool)
     gaps[closed], loose[closed] = found.gaps, found.loose
     return LostContact(found.joint, found.contact, gaps, loose, found.left)
 
 
 def joined(pieces: Sequence[tuple[Sequence[LostContact], int]]) -> tuple[LostContact, ...]:
-    """The lost contacts of a motion from those of its consecutive pieces, each with its number of poses."""
+    """Join the lost contacts of consecutive pieces of a motion, each piece with its number of poses."""
     poses = sum(count for _, count in pieces)
     found: dict[tuple[str, tuple[str, str], tuple[str, str]], LostContact] = {}
     start = 0

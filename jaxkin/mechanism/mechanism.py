@@ -124,7 +124,7 @@ class Mechanism:
         return Named("joint", ((joint.name, joint) for joint in self.all_joints))
 
     def joints_between(self, part1: str, part2: str) -> tuple[str, ...]:
-        """Names of the joints between two parts, in whichever order. ValueError for an unknown part."""
+        """List the names of the joints between two parts, in whichever order. ValueError for an unknown part."""
         if unknown := [part for part in (part1, part2) if part not in self.parts]:
             raise ValueError(f"there is no part {unknown[0]!r}{nearest(unknown[0], self.parts)}")
         return tuple(joint.name for joint in self.all_joints if set(joint.parts) == {part1, part2})
@@ -138,7 +138,7 @@ class Mechanism:
         method: str | None = None,
         throw: bool = False,
     ) -> Motion:
-        """The motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
+        """Compute the motion for given displacements of some joints: see `jaxkin.mechanism.sweep.sweep`."""
         from jaxkin.mechanism.sweep import sweep
 
         return sweep(self, drive, options=options, tolerance=tolerance, method=method, throw=throw)
@@ -168,7 +168,7 @@ class Mechanism:
         tolerance: float | jax.Array | None = None,
         method: str | None = None,
     ) -> Stream:
-        """The motion for a range of any length, in bounded memory: an iterable of the motions of `chunk` poses each.
+        """Compute the motion for a range of any length in bounded memory: iterate over motions of `chunk` poses each.
 
         Together they are what `sweep` gives, by one program, anew whenever the result is gone through; its `len` is the
         number of chunks. Raises ValueError as `sweep`, for a chunk of no pose, and inside `jit`, `vmap` and `grad`.
@@ -205,7 +205,7 @@ class Mechanism:
         return lengths(self.linkage)
 
     def with_lengths(self, changes: Mapping[Any, Any]) -> Mechanism:
-        """The mechanism with some of its `lengths` changed and all others as they are.
+        """Make the mechanism with some of its `lengths` changed and all others as they are.
 
         Of the two joints that a key names the first stays where it is on its part and the second moves, with all that
         coincide with it; the part's further joints stay too, and their distances and angles to the moved one are kept
@@ -218,7 +218,7 @@ class Mechanism:
         return self.with_linkage(with_lengths(self.linkage, changes))
 
     def with_frames(self, frames: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
-        """The mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
+        """Make the mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
 
         A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only.
         Numbers are aligned as by `build` unless traced. ValueError for unknown names and for what is no rigid pose.
@@ -228,23 +228,23 @@ class Mechanism:
         return self._aligned_with(with_frames(self.linkage, frames), align)
 
     def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
-        """The mechanism with origins of joint frames moved to given points; keys and `align` as in `with_frames`."""
+        """Make the mechanism with origins of joint frames moved to given points; all else as in `with_frames`."""
         from jaxkin.dimensions.frames import with_points
 
         return self._aligned_with(with_points(self.linkage, points), align)
 
     def at(self, motion: Motion | Pose, index: int = 0) -> Mechanism:
-        """The mechanism assembled as in pose `index` of its motion: see `jaxkin.mechanism.placed_at.mechanism_at`."""
+        """Assemble the mechanism as in pose `index` of its motion: see `jaxkin.mechanism.placed_at.mechanism_at`."""
         from jaxkin.mechanism.placed_at import mechanism_at
 
         return mechanism_at(self, motion, index)
 
     def with_couplings(self, couplings: Sequence[Coupling]) -> Mechanism:
-        """The mechanism with coordinates tied by further couplings, such as `jk.gear`; ValueError as by `build`."""
+        """Make the mechanism with coordinates tied by further couplings, as of `jk.gear`; ValueError as by `build`."""
         return replace(self, linkage=coupled(self.linkage, couplings))
 
     def with_linkage(self, linkage: Linkage) -> Mechanism:
-        """The mechanism of a linkage with the same joints in other places; solids are left behind."""
+        """Make the mechanism of a linkage with the same joints in other places; solids are left behind."""
         return replace(self, linkage=linkage, solids=())
 
     def _aligned_with(self, linkage: Linkage, align: float | int | None) -> Mechanism:
@@ -258,7 +258,7 @@ class Mechanism:
         return save_mechanism(self, path)
 
     def plan(self, drive: Iterable[Key]) -> Plan:
-        """What a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
+        """Tell what a drive of these coordinates moves, and in which order: see `jaxkin.mechanism.plan.plan`."""
         from jaxkin.mechanism.plan import plan
 
         return plan(self, drive)

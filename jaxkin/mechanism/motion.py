@@ -128,7 +128,7 @@ class Motion:
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
-    """Three numbers, in the unit of the mechanism; ValueError where they are none."""
+    """Convert three numbers, in the unit of the mechanism, to an array; ValueError where they are none."""
     try:
         found = jnp.asarray(point, float)
     except (TypeError, ValueError):
@@ -139,7 +139,7 @@ def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, 
 
 
 def largest_residuals(motion: Motion) -> Float[np.ndarray, " status"]:
-    """The largest closure residual of the poses of each status."""
+    """Find the largest closure residual among the poses of each status."""
     status, residual = np.asarray(motion.status), np.nan_to_num(np.asarray(motion.residual, float))
     return np.array([residual[status == each].max(initial=0.0) for each in Status])
 
@@ -151,7 +151,7 @@ def tally(
     largest: Float[np.ndarray, " status"],
     lost: Sequence[LostContact],
 ) -> str:
-    """What became of poses, in words: how many of each status, the largest residual of closed ones, faces left."""
+    """Tell in words what became of poses: how many of each status, the largest residual of closed ones, faces left."""
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]

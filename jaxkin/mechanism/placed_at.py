@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mechanism:
-    """The mechanism of the same parts and joints, assembled as in a closed pose of one of its motions.
+    """Assemble the same parts and joints as in a closed pose of a motion of the mechanism.
 
     Solids, limits and couplings stand there too, and all displacements count from there; lengths stay as they are.
     Raises ValueError for a pose that is not closed, for the motion of a mechanism with other joints, and inside `jit`,
@@ -77,7 +77,7 @@ def placed_at(
 
 
 def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Place]:
-    """Displacements of all parts, in world coordinates, from the fixed ones along the tree of the structure."""
+    """Compute the displacements of all parts, in world coordinates, from the fixed ones along the tree."""
     places = {part: np.eye(4) for part in linkage.fixed}
     for part, parent, index, sign in linkage.structure.tree:
         step = _displacement(linkage.joints[index], coordinates[index])
@@ -91,7 +91,7 @@ def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Place:
 
 
 def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
-    """The joint in its new place, the frames on its two parts the same.
+    """Move a joint to its new place, where the frames on its two parts are the same.
 
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
     what it was, whatever the last one has turned or shifted.

@@ -52,7 +52,7 @@ class Plan:
 
 
 def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
-    """The plan of a drive by the names of coordinates, as in `sweep`; a drive with its values will do as well.
+    """Plan a drive, given by the names of coordinates as in `sweep`; a drive with its values will do as well.
 
     Raises ValueError for names that are not there, for none, and where the given pose is open: see `Mechanism.close`.
     """
@@ -74,7 +74,7 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
 
 
 def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
-    """What the drive leaves free, and why an order is not that of the ranks."""
+    """Tell what the drive leaves free, and where the order is found by counting and not by ranks."""
     notes = []
     free = () if traced(linkage) else undriven_freedoms(linkage, list(driven))
     if free:
@@ -90,7 +90,7 @@ def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps:
 
 
 def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> list[str]:
-    """Elements without a driven joint, and coordinates outside of loops."""
+    """Tell of the structure elements without a driven joint, and of coordinates outside of loops."""
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}
@@ -119,7 +119,7 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
 
 
 def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
-    """Coordinates along the normals of planar elements, and loops in which all coordinates are given."""
+    """Tell of coordinates along the normals of planar elements, and of loops in which all coordinates are given."""
     texts = []
     for element in found.elements:
         own = set(element.columns)
@@ -140,7 +140,7 @@ def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
 
 
 def _parts(linkage: Linkage, joints: Iterable[int]) -> list[str]:
-    """The rows of the parts that some joints connect."""
+    """List the parts that some joints connect, as rows of the incidence matrix."""
     rows: Mapping[str, str] = linkage.structure.row_of
     held = {rows[part] for joint in joints for part in linkage.joints[joint].parts}
     return [part for part in linkage.structure.parts if part in held]

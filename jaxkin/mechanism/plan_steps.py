@@ -76,7 +76,7 @@ class Step:
 
 
 def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[Step]:
-    """The steps of a structure element, numbered from `first` on: one for each group that has unknowns."""
+    """List the steps of a structure element, numbered from `first` on: one for each group that has unknowns."""
     freedoms = None if traced(linkage) else _freedoms(linkage, element)
     groups = _ranked(linkage, element, freedoms)
     blocks = blocks_of_groups(element.system)
@@ -94,7 +94,7 @@ def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
 
 
 def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
-    """The groups of an element with their ranks, which are not found beforehand for a single loop."""
+    """Find the groups of an element with their ranks, which `plan_drive` does not find for a single loop."""
     several = len(element.loop_group.loops) + len(element.loop_group.couplings) > 1
     if freedoms is None or not freedoms.closes or several:
         return element.groups
@@ -104,7 +104,7 @@ def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | N
 
 
 def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]) -> set[int]:
-    """The groups with unknowns that one needs: in place of one without, what that one needs."""
+    """Find the groups with unknowns that group `number` needs, directly or over groups without unknowns."""
     return {
         k
         for other in groups[number].after
@@ -149,7 +149,7 @@ def _step(
 
 
 def _method(element: DrivenElement, number: int) -> tuple[str, str]:
-    """How a group is solved, "formula" or "Newton", and why."""
+    """Tell how a group is solved, "formula" or "Newton", and why."""
     blocks = blocks_of_groups(element.system)
     found = group_formulas(element.system)[sum(bool(block.columns) for block in blocks[:number])]
     if isinstance(found, str):
@@ -166,14 +166,14 @@ def _names(linkage: Linkage, element: DrivenElement, block: EquationBlock) -> tu
 
 
 def _subgroup(element: DrivenElement, group: Group, freedoms: LoopFreedoms) -> Subgroup:
-    """The smallest subgroup that holds the coordinates of a group's loops, those that rest left out."""
+    """Find the smallest subgroup that holds the moving coordinates of the loops of a group."""
     held = {joint for loop in group.loops for joint, _ in loop}
     columns = [freedoms.columns.index(place) for place in element.columns if place[0] in held]
     return subgroup(freedoms.assembled[:, columns], 10 * freedoms.thresholds.rank)
 
 
 def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
-    """What the loops of a group are to the solver, and of a single one the pattern of its joints."""
+    """Name what the loops of a group are to the solver, and for a single loop the pattern of its joints."""
     loops = _loops(element, number)
     kinds = [_kind(element.system, loop) for loop in loops]
     if len(loops) != 1:
@@ -193,7 +193,7 @@ def _loops(element: DrivenElement, number: int) -> tuple[int, ...]:
 
 
 def _kind(system: LoopSystem, loop: int) -> str:
-    """The class of a loop by the equations that the solver needs for it."""
+    """Name the class of a loop by the equations that the solver needs for it."""
     if system.planar:
         return "planar"
     if loop in system.sections.spherical:

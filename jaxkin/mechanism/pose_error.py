@@ -33,7 +33,7 @@ def check(motion: Motion) -> None:
 
 
 def _message(motion: Motion) -> str:
-    """One line for each status, the worst first: how many poses, the first one with its inputs, the remedy."""
+    """Write one line for each status, the worst first: how many poses, the first one with its inputs, the remedy."""
     status, on_branch = np.asarray(motion.status), np.asarray(motion.on_branch)
     off_branch = status[~on_branch]
     lines = [f"{len(off_branch)} of {len(motion)} poses are not on the branch of the assembled pose:"]

@@ -101,7 +101,7 @@ class Reassembly:
 def close(
     mechanism: Mechanism, hold: Iterable[str] = (), align: float | int | None = None, look_around: bool = True
 ) -> Reassembly:
-    """The mechanism with its loops closed: see `Mechanism.close`.
+    """Close the loops of a mechanism without a drive: see `Mechanism.close`.
 
     Without `look_around` other assembly modes are not looked for, which takes most of the time.
     """
@@ -172,7 +172,7 @@ def _close_group(
 
 
 def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:
-    """What was closed for the rounding of the numbers, in words."""
+    """Tell in words how far loops that count as closed stay open, because the numbers given were rounded."""
     left = [group.after * group.loops.length for group in moved if group.after > group.loops.thresholds.residual]
     said = f"{max(left, default=0.0):.1g} {unit}".rstrip()
     return [f"for the rounding of the numbers, loops were closed that stay open by {said}"] if left else []

@@ -107,7 +107,7 @@ class Stream:
         return motion, leading, met, same
 
     def _as_given(self, motion: Motion, first: int) -> Motion:
-        """The motion of a chunk with the inputs that were given, NONFINITE where these are not finite."""
+        """Give the motion of a chunk the inputs as they were given: poses are NONFINITE where these are not finite."""
         chunk = slice(first, first + len(motion))
         if self._finite is None or (finite := self._finite[chunk]).all():
             return motion
@@ -117,7 +117,7 @@ class Stream:
         return Motion(self.mechanism, inputs, displacements, status, residual, motion.options)
 
     def _leads(self, first: int) -> Iterator[Float[np.ndarray, "driven leading"]]:
-        """Inputs that lead to the pose before the chunk that begins at pose `first`, that included: to try in turn."""
+        """Yield paths of inputs to try in turn, each to the pose before the chunk that begins at pose `first`."""
         before = max(first - 1, 0)
         end = np.stack([values[before] for values in self._followed.values()])[:, None]
         if len(self.inputs) == 1:
@@ -163,7 +163,7 @@ class Stream:
         return other.closed
 
     def _turns(self, last: _SharedPose | None, met: _SharedPose) -> tuple[Float[np.ndarray, " _"], ...]:
-        """The full turns, radians, by which angles of a chunk continue those of the chunk before."""
+        """Count the full turns, in radians, by which angles of a chunk continue those of the chunk before."""
         if last is None:
             return tuple(np.zeros_like(here) for here in met.displacements)
         turns = []

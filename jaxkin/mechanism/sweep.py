@@ -122,7 +122,7 @@ def _of_least_residual(
 
 
 def _closure_tolerance(asked: Any) -> ClosureTolerance:
-    """The residuals asked for: a number or a traced one, or None for those of the precision."""
+    """Make the tolerance of a number, known or traced, or for None that of the floating-point precision."""
     dtype = dtypes.canonicalize_dtype(float)
     if traced(asked):
         return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)

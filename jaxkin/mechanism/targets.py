@@ -99,7 +99,7 @@ def with_targets(mechanism: Mechanism, drive: Mapping[Any, Any]) -> tuple[Mechan
 
 
 def names_with_targets(mechanism: Mechanism, keys: Iterable[Key]) -> tuple[Mechanism, list[str]]:
-    """As `with_targets`, for a drive without values."""
+    """Add the joints of targets to a mechanism, as `with_targets` does, for a drive without values."""
     keys = list(keys)
     targets = [key for key in keys if isinstance(key, Target)]
     found = mechanism_with(mechanism, targets) if targets else mechanism
@@ -114,7 +114,7 @@ def names_with_targets(mechanism: Mechanism, keys: Iterable[Key]) -> tuple[Mecha
 
 
 def mechanism_with(mechanism: Mechanism, targets: Iterable[Target]) -> Mechanism:
-    """The mechanism with the joints of some targets; one is made once for a linkage unless JAX traces it."""
+    """Add the joints of some targets to a mechanism; for each linkage they are made once, unless JAX traces it."""
     targets = tuple(targets)
     if traced(mechanism.linkage):
         return replace(mechanism, linkage=_linkage_with(mechanism, targets))
@@ -126,7 +126,7 @@ def mechanism_with(mechanism: Mechanism, targets: Iterable[Target]) -> Mechanism
 
 @once_for_each
 def _kept(linkage: Linkage) -> dict[tuple[Target, ...], Linkage]:
-    """The linkages with the joints of targets that were asked for."""
+    """Keep the linkages with the joints of targets that were asked for."""
     del linkage
     return {}
 
@@ -145,7 +145,7 @@ def _linkage_with(mechanism: Mechanism, targets: tuple[Target, ...]) -> Linkage:
 
 
 def _joint(mechanism: Mechanism, target: Target) -> Joint:
-    """The joint of a target: from the fixed parts, at its point or at the middle of the joints of its part."""
+    """Make the joint of a target: from the fixed parts, at its point or at the middle of the joints of its part."""
     linkage = mechanism.linkage
     if target.part not in linkage.parts:
         raise ValueError(f"{target.joint}: there is no part {target.part!r}{nearest(target.part, linkage.parts)}")
@@ -168,7 +168,7 @@ def middle_of_joints(linkage: Linkage, part: str) -> Any:
 
 
 def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:
-    """The normal of the plane in which all these joints move their parts; None where there is no such plane."""
+    """Find the normal of the plane in which all these joints move their parts; None where there is no such plane."""
     numbers = {linkage.joints.index(joint) for joint in joints}
     for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
         if numbers <= set(group.joints) and found.plane is not None:
@@ -190,7 +190,7 @@ def extent(mechanism: Mechanism) -> float:
 
 
 def _driven(joint: Joint, target: Target) -> range:
-    """Indices of the coordinates of the joint that the target prescribes."""
+    """List the indices of the coordinates of the joint that the target prescribes."""
     slides = joint.freedoms - (1 if joint.freedoms == 3 else 3)
     return {
         "pose": range(joint.freedoms),
@@ -200,7 +200,7 @@ def _driven(joint: Joint, target: Target) -> range:
 
 
 def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict[str, Any]:
-    """The driven coordinates of the joint of a target, by full names."""
+    """Compute the driven coordinates of the joint of a target, by full names."""
     shape = {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}[target.kind]
     xp: Any = jnp if traced(values, joint) else np
     given: Any
@@ -242,7 +242,7 @@ def check_rigid(target: Target, turned: Any, given: Any) -> None:
 
 
 def _in_plane(target: Target, axes: Any, moved: Any, turned: Any, size: float, xp: Any) -> list[Any]:
-    """The coordinates x, y, phi of a planar pair; ValueError where known numbers leave its plane."""
+    """Compute the coordinates x, y, phi of a planar pair; ValueError where known numbers leave its plane."""
     local = moved @ axes
     turn = axes.T @ turned @ axes
     off = [xp.abs(local[:, 2]) / size, xp.abs(turn[:, :2, 2]).max(axis=1), xp.abs(turn[:, 2, :2]).max(axis=1)]
@@ -255,7 +255,7 @@ def _in_plane(target: Target, axes: Any, moved: Any, turned: Any, size: float, x
 
 
 def _angles(turned: Any, xp: Any) -> tuple[Any, Any, Any]:
-    """The angles theta, phi, psi of rotations Rz(psi) Ry(phi) Rx(theta)."""
+    """Compute the angles theta, phi, psi of rotations Rz(psi) Ry(phi) Rx(theta)."""
     level = xp.hypot(turned[:, 2, 1], turned[:, 2, 2])
     return (
         xp.arctan2(turned[:, 2, 1], turned[:, 2, 2]),

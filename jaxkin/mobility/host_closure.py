@@ -126,7 +126,7 @@ class ClosedLoops:
         self.slices = {index: slice(*first[i : i + 2]) for i, index in enumerate(joints)}
 
     def _scaled(self, coupling: Coupling, names: Sequence[str]) -> tuple[list[int], np.ndarray, float]:
-        """Columns of a coupling, its coefficients for scaled coordinates and its offset, over the largest of these."""
+        """Find the columns of a coupling; scale its coefficients and offset, over the largest coefficient."""
         columns = [names.index(name) for name in coupling.coordinates]
         given = np.asarray(coupling.coefficients, float)
         scaled = given * self.units[columns, None] ** np.arange(1, given.shape[1] + 1)

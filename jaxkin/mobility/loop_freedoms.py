@@ -91,7 +91,7 @@ class LoopFreedoms:
         return (there, found) if is_generic else self._home
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:
-        """The closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
+        """Compute the closure Jacobian at a closed pose, with the derivatives of the couplings below it."""
         return np.concatenate([loop_jacobian(self.loop_group.loops, self.columns, there.screws), there.coupled])
 
     @cached_property

@@ -1,7 +1,8 @@
 """Structure elements and their tree (Fig. 4).
 
-An element is one closed loop, several loops that share joints, or a part that is in no loop. It stands in the tree
-below the joint or the part that connects it to the fixed parts.
+An element is one closed loop, several loops that share joints, or a part that is in no loop. The element stands in the
+tree below the joint or the part that connects the element to the fixed parts. Parts are rows of the incidence matrix: a
+row is one part, or all fixed parts together.
 """
 
 from __future__ import annotations
@@ -16,48 +17,48 @@ from jaxkin.topology.graph import Graph, WalkStep
 
 @dataclass(frozen=True)
 class StructureElement:
-    """A structure element, a node of the tree: one closed loop, several that share joints, or a part."""
+    """A structure element, a node of the tree: one closed loop, several loops that share joints, or a part."""
 
     kind: Literal["single loop", "multiple loop", "part"]
-    """"part": a part in no loop, or one that several elements hang on and that none above holds."""
+    """"part": a part in no loop, or a part that several elements hang on and that no element above contains."""
     parts: tuple[str, ...]
-    """Names of its rows of the incidence matrix, the upper adjacent part first."""
+    """Names of the parts of the element (rows of the incidence matrix), the upper adjacent part first."""
     loops: tuple[int, ...]
-    """Numbers of its loops."""
+    """Numbers of the loops of the element, in `Structure.loops`."""
     upper: str
-    """Upper adjacent part, which ties the element to the one above; of the root, the fixed parts."""
+    """Name of the upper adjacent part, which ties the element to the element above; of the root, the fixed parts."""
     lower: tuple[str, ...]
-    """Lower adjacent parts, which other elements hang on."""
+    """Names of the lower adjacent parts, which other elements hang on."""
     joint: str | None
-    """The joint node above; None for the root, and where `upper` is itself a part of the element above."""
+    """Name of the joint node above; None for the root, and where `upper` is itself a part of the element above."""
     above: int | None
-    """Number of the element above; None for the root."""
+    """Number of the element above, in `Structure.elements`; None for the root."""
 
 
 class ElementNode(NamedTuple):
-    """A structure element by the indices of its rows and joints."""
+    """A structure element by indices: of parts as rows of the incidence matrix, of joints as its columns."""
 
     joints: tuple[int, ...]
-    """Joints of its loops, rising; none for a part."""
+    """Joints of the loops of the element, in rising order; none for a part."""
     rows: tuple[int, ...]
-    """Its rows, the upper adjacent part first."""
+    """Parts of the element, the upper adjacent part first."""
     step: WalkStep | None
     """The step over the joint above, downwards; None where there is no such joint."""
     above: int | None
     """Index of the element above; None for the root."""
     depth: int
-    """Number of elements above it."""
+    """Number of elements on the way from the root to the element."""
     lower: tuple[int, ...] = ()
-    """Rows of the lower adjacent parts."""
+    """Lower adjacent parts."""
 
     @property
     def loops(self) -> int:
-        """Number of its independent loops."""
+        """Number of independent loops of the element: its joints less its parts plus one; 0 for a part."""
         return len(self.joints) - len(self.rows) + 1
 
 
 def element_tree(graph: Graph, root: int) -> tuple[ElementNode, ...]:
-    """Build the tree of elements, level by level from the element that contains the row `root`.
+    """Build the tree of elements, level by level from the element that contains the part `root`, a row.
 
     In the paper a joint always connects two elements. Here elements that share a part are connected too: they hang
     below the element that contains the part first. Where no element does (the fixed parts, or the part below a joint,
@@ -85,11 +86,11 @@ def element_tree(graph: Graph, root: int) -> tuple[ElementNode, ...]:
 
 
 class _Children(NamedTuple):
-    """Finds the elements that hang below a row of the graph."""
+    """What is needed to find the elements that hang below a part of the graph."""
 
     graph: Graph
     groups_at: Mapping[int, Sequence[tuple[int, ...]]]
-    """For each row the loop groups (as joints) that contain it."""
+    """Part (row) -> the loop groups that contain the part, each as its joints."""
     in_loops: frozenset[int]
     """Joints of all loops."""
 
@@ -102,7 +103,10 @@ class _Children(NamedTuple):
         return _Children(graph, groups_at, frozenset(joint for loop_group in graph.loop_groups for joint in loop_group))
 
     def at_row(self, row: int, placed: Container[int], above: int, depth: int) -> list[ElementNode]:
-        """The elements below a row: loops that contain it, and what its joints hold, but for joints already placed."""
+        """Find the elements below a part: loops that contain the part, and what joints outside of loops hang on it.
+
+        Joints that were `placed` in the tree before are left out.
+        """
         loops = [
             _node(self.graph, row, loop_group, None, above, depth)
             for loop_group in self.groups_at.get(row, ())
@@ -115,13 +119,14 @@ class _Children(NamedTuple):
         ]
 
     def over_joint(self, row: int, step: WalkStep | None, above: int | None, depth: int) -> ElementNode:
-        """The element whose upper adjacent part is a row: the loops through that row if they are one group."""
+        """Make the element whose upper adjacent part is `row`: the loops through this part if they are one group, else
+        the part alone."""
         groups = self.groups_at.get(row, ())
         return _node(self.graph, row, groups[0] if len(groups) == 1 else (), step, above, depth)
 
 
 def named(nodes: Sequence[ElementNode], rows: Sequence[str], joints: Sequence[str]) -> tuple[StructureElement, ...]:
-    """Replace indices by the names of rows and joints; loops are numbered element by element."""
+    """Replace the indices of nodes by the names of parts (`rows`) and `joints`; number loops element by element."""
     elements: list[StructureElement] = []
     first = 0
     for node in nodes:

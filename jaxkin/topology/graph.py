@@ -40,11 +40,11 @@ class Graph:
         return tuple(map(tuple, around))
 
     def tail(self, step: WalkStep) -> int:
-        """The row that a step leaves."""
+        """Return the row that a step leaves."""
         return self.ends[step.joint][0 if step.sign > 0 else 1]
 
     def head(self, step: WalkStep) -> int:
-        """The row that a step leads to."""
+        """Return the row that a step leads to."""
         return self.ends[step.joint][1 if step.sign > 0 else 0]
 
     @cached_property

@@ -107,7 +107,7 @@ def _nearness(points: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.n
 
 
 def _cross(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:
-    """Whether the line from a to b and that from c to d have a point in common."""
+    """Tell whether the line from a to b and that from c to d have a point in common."""
     return (_side(a, b, c) * _side(a, b, d) < 0) & (_side(c, d, a) * _side(c, d, b) < 0)
 
 

@@ -89,7 +89,7 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
 
 
 def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> bool:
-    """Whether the last pose of the sample is the first one, after another in between."""
+    """Tell whether the last pose of the sample is the first one, after another in between."""
     gaps = [np.ptp(move(sample, part.name, part.box)[[0, -1]], axis=0).max() for part in parts]
     return len(sample[parts[0].name]) > 2 and bool(max(gaps) < CLOSED * size)
 

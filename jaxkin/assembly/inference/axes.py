@@ -88,7 +88,7 @@ def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]
 
 
 def _fits(pair: CommonAxis, clearance: float | None) -> bool:
-    """Whether the pin can be in the hole: by its radius, by how far it is off centre, and along the axis."""
+    """Tell whether the pin can be in the hole: by its radius, by how far it is off centre, and along the axis."""
     loose, radius = pair.clearance, pair.other.radius
     centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
     most = MAX_CLEARANCE * radius if clearance is None else clearance
@@ -112,7 +112,7 @@ def _overlap(one: Bore, other: Bore) -> float:
 
 
 def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
-    """Whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin."""
+    """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin."""
     for each in pins:
         thicker = each.other is pair.other and each.one.radius > _OTHER_RADIUS * pair.one.radius
         if thicker and each.one.part != pair.one.part and _overlap(pair.one, each.one) > 0:

@@ -76,7 +76,8 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
 
 def bearing_bodies(known: Known, found: Sequence[Bearing]) -> list[Inference]:
-    """The inner ring of each bearing with its shaft and what is between the rings; the outer one with its housing."""
+    """Join the inner ring of each bearing with its shaft and what is between the rings; the outer one with its
+    housing."""
     result = []
     for each in found:
         if each.between:
@@ -92,7 +93,7 @@ def bearing_bodies(known: Known, found: Sequence[Bearing]) -> list[Inference]:
 
 
 def bearing_joints(known: Known, found: Sequence[Bearing]) -> list[Inference]:
-    """A revolute joint for each two bodies that bearings join, however many of them are on their common axis."""
+    """Make a revolute joint for each two bodies that bearings join, however many of them are on their common axis."""
     body, lines, result = known.body, {}, []
     for each in found:
         owners = frozenset((body[each.outer], body[each.inner]))
@@ -143,7 +144,7 @@ def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _inside(outer: _Ring, inner: _Ring) -> bool:
-    """Whether a ring is inside another one, with room for balls, and at the same place of one axis."""
+    """Tell whether a ring is inside another one, with room for balls, and at the same place of one axis."""
     ratio = inner.outside.radius / outer.hole.radius
     if not THICKEST <= ratio < 1 / ROUND or not inner.outside.on_axis_of(outer.hole):
         return False
@@ -162,7 +163,7 @@ def _flush(outer: _Ring, inner: _Ring) -> bool:
 
 
 def _between(part: Part, outer: _Ring, inner: _Ring) -> bool:
-    """Whether a part is inside of the section that both rings make together."""
+    """Tell whether a part is inside of the section that both rings make together."""
     reach, slack = outer.outside.radius, SLACK * outer.outside.radius
     middle = part.box.mean(axis=0) - outer.hole.point
     if np.linalg.norm(middle) > 2 * reach + outer.hole.half:  # before all corners are looked at

@@ -40,7 +40,8 @@ class Bore:
     """Half the length along the axis."""
 
     def on_axis_of(self, other: Bore, angle: float = NEAR_ANGLE, length: float = NEAR_LENGTH) -> bool:
-        """Whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's radius)."""
+        """Tell whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's
+        radius)."""
         offset = self.point - other.point
         apart = np.linalg.norm(offset - (offset @ other.axis) * other.axis)
         return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle and apart <= length * other.radius)

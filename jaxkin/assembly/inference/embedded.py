@@ -37,7 +37,8 @@ def share_inside(points: Points, other: Part) -> float:
 def inside(
     points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
 ) -> Bool[np.ndarray, " points"]:
-    """Whether points lie in a closed surface: most of three rays from each go through it an odd number of times."""
+    """Tell whether points lie in a closed surface: most of three rays from each go through it an odd number of
+    times."""
     votes = np.zeros(len(points), int)
     for ray in _RAYS:
         turn = np.linalg.qr(np.column_stack([ray, np.eye(3)[:, :2]]))[0]
@@ -51,7 +52,7 @@ def inside(
 def _crossed(
     points: Float[np.ndarray, "points 3"], triangles: Float[np.ndarray, "triangles 3 3"]
 ) -> Int[np.ndarray, " points"]:
-    """How many triangles lie ahead of each point along the first coordinate."""
+    """Count how many triangles lie ahead of each point along the first coordinate."""
     start, edges = triangles[None, :, :, 1:], np.roll(triangles, -1, axis=1)[None, :, :, 1:] - triangles[None, :, :, 1:]
     offset = points[:, None, None, 1:] - start
     turns = edges[..., 0] * offset[..., 1] - edges[..., 1] * offset[..., 0]

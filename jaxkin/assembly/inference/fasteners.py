@@ -86,7 +86,8 @@ def stacks(
 
 
 def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozenset[str], list[Bore]]:
-    """The parallel axes that two parts have in common, two or more, through fasteners or as bores without a pin."""
+    """Find the parallel axes that two parts have in common, two or more, through fasteners or as bores without a
+    pin."""
     shared: dict[frozenset[str], list[Bore]] = {}
     through = [
         (frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)
@@ -100,14 +101,14 @@ def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozen
 
 
 def _beside(one: Bore, other: Bore) -> bool:
-    """Whether two axes are parallel and not the same."""
+    """Tell whether two axes are parallel and not the same."""
     offset = other.point - one.point
     apart2 = float(offset @ offset) - float(offset @ one.axis) ** 2
     return parallel(one, other) and apart2 > max(one.radius, other.radius) ** 2
 
 
 def parallel(one: Bore, other: Bore) -> bool:
-    """Whether the axes of two fasteners are parallel, as those of one pattern are."""
+    """Tell whether the axes of two fasteners are parallel, as those of one pattern are."""
     return abs(float(one.axis @ other.axis)) > _PARALLEL
 
 

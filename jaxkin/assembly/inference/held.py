@@ -51,7 +51,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
-    """The stacks with the parts that their fasteners are one body with already: these hold them, too."""
+    """Find the stacks with the parts that their fasteners are one body with already: these hold them, too."""
     body, members = known.body, {}
     for part in known.names:
         members.setdefault(body[part], []).append(part)
@@ -95,7 +95,7 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
 
 
 def _holder(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
-    """The part that holds a stack: of the body whose bores reach farthest along the axis."""
+    """Find the part that holds a stack: of the body whose bores reach farthest along the axis."""
     along, reach = stack.axis.axis, {}
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):

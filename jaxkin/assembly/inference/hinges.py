@@ -47,7 +47,7 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
 
 
 def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:
-    """The common axes of pins, and of bores without a pin those between neighbours along one axis.
+    """Find the common axes of pins, and of bores without a pin those between neighbours along one axis.
 
     Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
     """
@@ -69,7 +69,7 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
 
 
 def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool) -> list[Inference]:
-    """A revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
+    """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
     """

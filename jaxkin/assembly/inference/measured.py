@@ -59,14 +59,14 @@ class Measured:
         return [self.parts[index] for index in np.flatnonzero(meet) if self.parts[index] is not part]
 
     def stops(self, part: Part, axis: Bore) -> list[Stop]:
-        """The plane faces of a part that stand across the axis of a bore among `bores`, near to it."""
+        """Find the plane faces of a part that stand across the axis of a bore among `bores`, near to it."""
         key = part.name, id(axis)  # no other bore gets its number: those of `bores` live as long
         if key not in self._stops:
             self._stops[key] = stops(part, axis)
         return self._stops[key]
 
     def share_inside(self, part: Part, other: Part) -> float:
-        """The share of a part's corners that lie in the material of another one."""
+        """Measure the share of a part's corners that lie in the material of another one."""
         key = part.name, other.name
         if key not in self._inside:
             if part.name not in self._samples:

@@ -41,7 +41,7 @@ def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
 
 
 def _pointed_at(known: Known, stack: Stack, own: Collection[str]) -> tuple[float, str] | None:
-    """The first part that the axis of a screw meets beyond its own body, and how far from the end of the screw."""
+    """Find the first part that the axis of a screw meets beyond its own body, and how far from the end of the screw."""
     reach = stack.axis.half + MAX_SHORTFALL * stack.axis.radius
     ends = stack.axis.point - reach * stack.axis.axis, stack.axis.point + reach * stack.axis.axis
     low, high = np.minimum(*ends), np.maximum(*ends)

@@ -66,6 +66,6 @@ def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | N
 
 
 def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
-    """The least gap from faces of one that look forwards to faces of the other that look backwards."""
+    """Measure the least gap from faces of one that look forwards to faces of the other that look backwards."""
     gaps = [b.height - a.height for a in one if a.forwards for b in other if not b.forwards]
     return min((max(gap, 0.0) for gap in gaps if gap >= -MAX_OVERLAP * radius), default=None)

@@ -19,13 +19,13 @@ Coordinates = Sequence[Float[Array, " #poses"] | None]
 
 
 def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None = None) -> list[int]:
-    """The rows of a chain from `begin` to before `end`, by default all, that move."""
+    """List the rows of a chain that move, from `begin` to before `end`, by default all."""
     column = chain_tables(system).column[:, chain]
     return [row for row in range(begin, len(column) if end is None else end) if column[row] < system.columns]
 
 
 def planar_place(system: LoopSystem, axes: Axes, row: int, chain: int) -> Complex:
-    """The centre of a row that turns, the direction of one that slides."""
+    """Find the centre of a row that turns, or the direction of one that slides."""
     x, y = (axes.centre if chain_tables(system).turn[row, chain] else axes.direction)[row, chain]
     return Complex(x, y)
 
@@ -50,7 +50,7 @@ def planar_product(
 
 
 def planar_rest(axes: Axes, chain: int) -> PlanarDisplacement:
-    """What a chain leaves open in the assembled pose."""
+    """Compute what a chain leaves open in the assembled pose."""
     (cos, _), (sin, _) = axes.open_turn[chain]
     return PlanarDisplacement(Complex(cos, sin), Complex(*axes.open_shift[chain]))
 

@@ -32,7 +32,7 @@ class GroupFormula(NamedTuple):
 
 @lru_cache(maxsize=256)
 def group_formulas(system: LoopSystem) -> tuple[GroupFormula | str, ...]:
-    """The formula of every group that has unknowns, in the order of solution; or why it has none, in words."""
+    """Find the formula of every group that has unknowns, in order of solution; or say in words why there is none."""
     blocks = zip(system.order, blocks_of_groups(system), strict=True)
     return tuple(_formula(system, loops, block) for loops, block in blocks if block.columns)
 
@@ -72,7 +72,7 @@ def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -
 def _of_chain(
     system: LoopSystem, name: str, chain: int, other_chain: int | None, block: EquationBlock, unknowns: int
 ) -> GroupFormula | str:
-    """The formula of that name for the unknowns of a block, which one chain is to hold."""
+    """Make the formula for the unknowns of a block, which one chain is to hold; or say in words why there is none."""
     if len(block.columns) != unknowns:
         return f"{len(block.columns)} unknowns, where the formula of the {name} is for {unknowns}"
     table = chain_tables(system)

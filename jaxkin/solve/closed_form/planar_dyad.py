@@ -126,14 +126,14 @@ def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarD
 
 
 def _first(kinds: str) -> int:
-    """The number of the unknown at which the loop is begun, so that its letters are a key of `_FORMULAS`."""
+    """Find the unknown at which the loop is begun, so that its letters are a key of `_FORMULAS`."""
     return next(k for k in range(3) if kinds[k:] + kinds[:k] in _FORMULAS)
 
 
 def _links(
     kinds: str, first: int, places: Sequence[Complex], between: Sequence[PlanarDisplacement]
 ) -> tuple[_Link, _Link, _Link]:
-    """The links behind the unknowns, begun at the unknown `first`; each from centre to centre, a slide's at 0."""
+    """List the links behind the unknowns, begun at the unknown `first`; each from centre to centre, a slide's at 0."""
     links: list[_Link] = []
     for k, (here, then) in enumerate(zip(kinds, kinds[1:] + kinds[:1], strict=True)):
         place, turn, shift = places[(first + k) % 3], *between[(first + k) % 3]
@@ -200,7 +200,7 @@ _FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
 
 
 def _to_line(two: _Link, three: _Link) -> Complex:
-    """z_3 + conj(r_2) z_2 of the slide in RRP."""
+    """Compute z_3 + conj(r_2) z_2 of the slide in RRP."""
     return add(three.shift, times(conj(two.turn), two.shift))
 
 

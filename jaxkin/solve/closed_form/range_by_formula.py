@@ -136,7 +136,7 @@ class _Reached(NamedTuple):
 
 
 def _nodes(system: LoopSystem, values: Float[Array, " poses"]) -> Float[Array, " nodes"]:
-    """The inputs of the nodes: a full turn from the assembled pose, or as far as `values` to either side of it."""
+    """List the inputs of the nodes: a full turn from the assembled pose, or as far as `values` to either side of it."""
     if system.periodic:
         return jnp.linspace(0.0, TURN, NODES, dtype=values.dtype)
     farthest = jnp.maximum(jnp.max(jnp.abs(values), initial=0.0), np.finfo(float).tiny)

@@ -32,8 +32,10 @@ class Solved(NamedTuple):
 
 
 def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
-    """The signed root of the discriminant of every group in the assembled pose, in which all coordinates are taken as
-    zero: its sign is that of the branch."""
+    """Compute the signed root of the discriminant of every group in the assembled pose: its sign is that of the branch.
+
+    All coordinates are taken as zero there.
+    """
     rest: Coordinates = [jnp.zeros(1, axes.centre.dtype)] * system.columns
     return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
@@ -123,7 +125,7 @@ def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordin
 
 
 def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
-    """The balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
+    """Find the balls of a rod as seen from the unknown, and the length of the rod: arguments of the formulas of `rod`.
 
     The chain begins in the first ball, at the origin of its coordinates, and ends in the second; the rod is the other
     chain, or whatever lies on the other side.

@@ -108,12 +108,12 @@ def compilations() -> int:
 
 
 def _asks_for_formulas(options: SolverOptions, inputs: Given) -> bool:
-    """Whether poses may be computed by formulas, where there are some."""
+    """Tell whether poses may be computed by formulas, where there are some."""
     return options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
 
 
 def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None) -> bool:
-    """Whether a traced range is left to formulas alone: where the geometry is traced, too, or has no limit in a turn.
+    """Tell whether a traced range is left to formulas alone: the geometry is traced, too, or has no limit in a turn.
 
     Where only the inputs are traced, a mechanism that has limits gets the general program, which follows them.
     """
@@ -123,7 +123,7 @@ def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given,
 
 
 def _passes_a_turn(system: LoopSystem, axes: Axes) -> bool:
-    """Whether the formulas prove that the input makes a full turn, for axes that are known."""
+    """Tell whether the formulas prove that the input makes a full turn, for axes that are known."""
     with jax.ensure_compile_time_eval():
         tolerance = ClosureTolerance(*[np.asarray(default_tolerance(np.float64))] * 2)
         return bool(_turn_program()(system, axes, np.zeros((1, 1)), tolerance).passes_a_turn)
@@ -216,19 +216,19 @@ _displacements_program = jax.jit(displacements, static_argnames="system")
 
 @cache
 def _solve_program():
-    """The program of a plain sweep: poses and displacements."""
+    """Make the program of a plain sweep: poses and displacements."""
     return jax.jit(_solve, static_argnames=("system", "options", "shard_count"), **jit_options())
 
 
 @cache
 def _formula_program():
-    """The program of a plain sweep whose poses are formulas: poses and displacements."""
+    """Make the program of a plain sweep whose poses are formulas: poses and displacements."""
     return jax.jit(_by_formula, static_argnames="system", **jit_options())
 
 
 @cache
 def _formula_poses_program():
-    """The program of poses that are formulas, of which the displacements are differentiated."""
+    """Make the program of poses that are formulas; their displacements are differentiated by another program."""
     return jax.jit(_poses_by_formula, static_argnames="system")
 
 

@@ -101,7 +101,7 @@ def group_system(
 
 
 def coupled_places(linkage: Linkage, number: int) -> Columns:
-    """The (joint, coordinate) of each coordinate that a coupling ties."""
+    """List the (joint, coordinate) of each coordinate that a coupling ties."""
     return tuple(coordinate(linkage, name) for name in linkage.couplings[number].coordinates)
 
 

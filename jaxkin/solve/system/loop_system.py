@@ -138,7 +138,7 @@ class LoopSystem:
         )
 
     def span(self, joint: int) -> range:
-        """The columns of a joint."""
+        """List the columns of a joint."""
         first = self._first_columns[joint]
         return range(first, first + freedoms(self.movements[joint]))
 
@@ -232,7 +232,7 @@ class LoopSystem:
         return sum(map(len, self.rows[: len(self.loops)]))
 
     def columns_of(self, number: int) -> set[int]:
-        """The columns that a loop passes, or that a coupling ties, by the number that `order` gives it."""
+        """List the columns that a loop passes, or that a coupling ties, by the number that `order` gives it."""
         if number >= len(self.loops):
             return set(self.couplings[number - len(self.loops)])
         return {column for joint, _ in self.loops[number] for column in self.span(joint)}
