@@ -41,8 +41,14 @@ def draw_tolerances(found: Tolerances, path: Path) -> Path:
                 axes.axvline(
                     float(found.nominal + sign * offset), color="black", linestyle=style, lw=1, label=name * (sign > 0)
                 )
-        for number, end in enumerate(end for end in found.wanted or () if np.isfinite(end)):
+        middle, spread = float(found.nominal), float(found.worst_case)
+        low, high = min(good.min(), middle - spread), max(good.max(), middle + spread)
+        near = [end for end in found.wanted or () if low - (high - low) < end < high + (high - low)]
+        for number, end in enumerate(near):  # ends that are far away would press the histogram into a line
             axes.axvline(end, color="tab:red", lw=1.5, label="" if number else "wanted")
+        low, high = min([low, *near]), max([high, *near])
+        if high > low:
+            axes.set_xlim(low - 0.05 * (high - low), high + 0.05 * (high - low))
         if found.within is not None:
             axes.set_title(f"yield {100 * found.within:.2f} %", fontsize="medium")
         axes.set(xlabel=found.label, ylabel="samples")
