@@ -24,6 +24,8 @@ from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
 from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
+from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
+from jaxkin.effects.forces.equilibrium import equilibrium as equilibrium
 from jaxkin.effects.forces.given import force as force
 from jaxkin.effects.forces.given import joint_load as joint_load
 from jaxkin.effects.forces.given import joint_spring as joint_spring

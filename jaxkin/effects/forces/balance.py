@@ -135,7 +135,8 @@ def balance(motion: Motion) -> Balance:
         for (number, k), slope in gradient.items():
             if k in pulls[number]:
                 tie[number] = tie.get(number, 0.0) + slope[:, None] * pulls[number][k]
-    return Balance(size, *map(tuple, (places, screws, pulls, projectors, levers)), tuple(gradients), tuple(ties))
+    joints = (tuple(places), tuple(screws), tuple(pulls), tuple(projectors), tuple(levers))
+    return Balance(size, *joints, tuple(gradients), tuple(ties))
 
 
 def driven_coordinates(motion: Motion) -> dict[tuple[int, int], str]:

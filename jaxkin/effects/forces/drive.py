@@ -12,11 +12,11 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.effects.forces.changes import Changes, changes
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, loads, nan_unless_closed, units_of
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
-from jaxkin.effects.rates import velocities
 from jaxkin.mechanism.motion import Motion
 
 
@@ -108,25 +108,25 @@ def drive_forces(
     Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError where nothing acts, for
     parts and coordinates that are not there, and for masses of another mechanism.
     """
-    found, moving = loads(motion, Acting(masses, gravity, applied, rates, accelerations))
+    acting = Acting(masses, gravity, applied, rates, accelerations)
+    check(motion, acting)
+    moving = changes(motion, rates, accelerations)
+    found = loads(motion, acting, moving)
     forces, powers = {}, {}
-    for name, force in _by_virtual_work(motion, found).items():
-        metre = units_of(motion, name)[1]
-        forces[name] = nan_unless_closed(motion, force / metre)
-        powers[name] = nan_unless_closed(motion, force * moving.inputs[name] if moving else jnp.zeros_like(force))
+    for name in motion.inputs:
+        force = -_work_along(motion, found, moving, name)
+        power = force * moving.inputs[name] if moving.inputs else jnp.zeros_like(force)
+        forces[name] = nan_unless_closed(motion, force / units_of(motion, name)[1])
+        powers[name] = nan_unless_closed(motion, power)
     return DriveForces(motion, forces, powers)
 
 
-def _by_virtual_work(motion: Motion, found: Loads) -> dict[str, Float[Array, " poses"]]:
-    """Pair the loads with the derivatives of the sweep: joules per radian, or per unit of the mechanism."""
-    forces = {}
-    for name in motion.inputs:
-        change = velocities(motion, {other: float(other == name) for other in motion.inputs})
-        along = jnp.stack([each[:, :3] for each in change.matrices], axis=1)
-        work = jnp.sum(found.works * along, axis=(1, 2, 3))
-        for (joint, index), load in found.joints.items():
-            own = motion.mechanism.all_joints[joint]
-            metre = units_of(motion, f"{own.name}.{own.coordinates[index]}")[1]
-            work = work + metre * load * change.displacements[joint][:, index]
-        forces[name] = -work
-    return forces
+def _work_along(motion: Motion, found: Loads, moving: Changes, name: str) -> Float[Array, " poses"]:
+    """The work of all loads along a driven coordinate: joules per radian, or per unit of the mechanism."""
+    change = moving.along[name]
+    work = jnp.sum(found.works * change.transforms, axis=(1, 2, 3))
+    for (joint, index), load in found.joints.items():
+        own = motion.mechanism.all_joints[joint]
+        metre = units_of(motion, f"{own.name}.{own.coordinates[index]}")[1]
+        work = work + metre * load * change.displacements[joint][:, index]
+    return work

@@ -185,9 +185,10 @@ def _density(given: Any) -> Any:
         return DENSITIES[given.lower()]
     if traced(given):
         return given
-    if (not np.isscalar(given) and np.shape(given) != ()) or not np.isfinite(given) or given < 0:
+    number = np.asarray(given)
+    if number.shape != () or number.dtype.kind not in "iuf" or not (np.isfinite(number) and number >= 0):
         raise ValueError(f"a density must be one number, kg/m^3, or the name of a material, got {given!r}")
-    return float(given)
+    return float(number)
 
 
 def _of_solid(part: Part, density: Any, metre: float) -> tuple[Any, Any, Any]:
@@ -242,11 +243,24 @@ def _given(name: str, given: Any, part: Part | None, metre: float) -> tuple[Any,
         inertia = _shaped(
             name, "inertia", xp.asarray(given.inertia, float) * xp.eye(3) if single else given.inertia, (3, 3)
         )
+        _check_inertia(name, inertia)
     elif shape is not None:
         inertia = given.mass / shape[0] * shape[2] * metre**2
     else:
         inertia = np.zeros((3, 3))
     return given.mass, centre, inertia
+
+
+def _check_inertia(name: str, inertia: Any) -> None:
+    """Raise ValueError for known numbers that no distribution of mass has."""
+    if traced(inertia):
+        return
+    size = np.abs(inertia).max()
+    if np.abs(inertia - inertia.T).max() > 1e-9 * size or np.linalg.eigvalsh(inertia).min() < -1e-9 * size:
+        raise ValueError(
+            f"the inertia of {name!r} is no inertia of a part: its matrix must be symmetric, without negative "
+            f"eigenvalues, got {np.asarray(inertia).tolist()}"
+        )
 
 
 def _shaped(name: str, what: str, value: Any, shape: tuple[int, ...]) -> Any:

@@ -16,10 +16,11 @@ from jaxtyping import Array, Float
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.effects.forces.balance import Balance, Wrenches, balance, driven_coordinates, size_and_middle, solve
+from jaxkin.effects.forces.changes import changes
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, loads, nan_unless_closed
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -127,8 +128,10 @@ def reactions(
 
     Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError as `jk.drive_forces`.
     """
-    acting, _ = loads(motion, Acting(masses, gravity, applied, rates, accelerations))
-    places, wrenches, drives, imbalance = _balanced(motion, acting)
+    acting = Acting(masses, gravity, applied, rates, accelerations)
+    check(motion, acting)
+    moving = None if rates is None else changes(motion, rates, accelerations)
+    places, wrenches, drives, imbalance = _balanced(motion, loads(motion, acting, moving))
     size = size_and_middle(motion.mechanism.linkage)[0]
     metre = METRES[motion.mechanism.unit]
     names = list(motion.mechanism.joints)

@@ -15,9 +15,9 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin._names import nearest
+from jaxkin.effects.forces.changes import Changes
 from jaxkin.effects.forces.given import Applied, Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.rates import Rates, accelerations, velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
@@ -42,57 +42,56 @@ class Acting(NamedTuple):
 
     masses: Masses | None = None
     gravity: Any = STANDARD_GRAVITY
-    applied: Sequence[Applied] = ()
+    applied: Sequence[Applied] | Applied = ()
     rates: Mapping[str, Any] | None = None
     accelerations: Mapping[str, Any] | None = None
 
 
-def loads(motion: Motion, acting: Acting) -> tuple[Loads, Rates | None]:
-    """Find all that acts in each pose, and the velocities where rates are given; ValueError for what makes no sense."""
+def loads(motion: Motion, acting: Acting, moving: Changes | None) -> Loads:
+    """Find all that acts in each pose, inertia and dampers where the parts move."""
     masses, metre = acting.masses, METRES[motion.mechanism.unit]
-    applied = _checked(motion, acting)
     place = jnp.stack([motion.transforms[part][:, :3] for part in motion.mechanism.parts], axis=1)
-    moving = second = None
-    if acting.rates is not None:
-        moving = velocities(motion, acting.rates)
-        if masses is not None:
-            second = accelerations(motion, acting.rates, acting.accelerations)
     works = jnp.zeros_like(place)
     if masses is not None:
         moments = masses.second_moments()
-        works = metre * _gravity(acting.gravity)[None, None, :, None] * moments[None, :, 3:4]
-        if second is not None:
-            change = jnp.stack([each[:, :3] for each in second.matrices], axis=1)
-            works = works - metre**2 * jnp.einsum("npij,pjk->npik", change, moments)
-        works = jnp.broadcast_to(works, place.shape)
+        weight = metre * _gravity(acting.gravity)[:, None] * moments[:, 3:4]
+        works = works + weight[None]
+        if moving is not None and moving.acceleration is not None:
+            works = works - metre**2 * jnp.einsum("npij,pjk->npik", moving.acceleration.transforms, moments)
     in_joints: dict[tuple[int, int], Array] = {}
-    for each in applied:
+    for each in applied_of(acting):
         if isinstance(each, JointLoad):
             at, load = _in_joint(motion, moving, each)
             in_joints[at] = in_joints.get(at, jnp.zeros(len(motion))) + load
         else:
             for part, work in _on_parts(motion, moving, each, metre):
                 works = works.at[:, motion.mechanism.parts.index(part)].add(work)
-    return Loads(works, in_joints), moving
+    return Loads(works, in_joints)
 
 
-def _checked(motion: Motion, acting: Acting) -> tuple[Applied, ...]:
-    """Check the arguments against the motion; returns what is applied."""
+def applied_of(acting: Acting) -> tuple[Applied, ...]:
+    """What is applied, one alone as well as several; ValueError for other things."""
+    given = acting.applied
+    applied = (given,) if isinstance(given, (Force, Torque, Spring, JointLoad)) else tuple(given)
+    for each in applied:
+        if not isinstance(each, (Force, Torque, Spring, JointLoad)):
+            raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
+    return applied
+
+
+def check(motion: Motion, acting: Acting) -> None:
+    """Raise ValueError for arguments that do not fit the motion, with what to write instead."""
     if not isinstance(motion, Motion):
         raise ValueError(f"forces are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
-    masses, applied = acting.masses, acting.applied
-    if isinstance(applied, Force | Torque | Spring | JointLoad):
-        applied = (applied,)
+    mechanism, masses, applied = motion.mechanism, acting.masses, applied_of(acting)
     for each in applied:
-        if not isinstance(each, Force | Torque | Spring | JointLoad):
-            raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
         parts = each.parts if isinstance(each, Spring) else () if isinstance(each, JointLoad) else (each.part,)
         for part in parts:
-            if part not in motion.mechanism.parts:
-                raise ValueError(f"there is no part {part!r} to act on{nearest(str(part), motion.mechanism.parts)}")
+            if part not in mechanism.parts:
+                raise ValueError(f"there is no part {part!r} to act on{nearest(str(part), mechanism.parts)}")
     if masses is not None and not isinstance(masses, Masses):
         raise ValueError(f"masses are made by jk.masses(mechanism, density), got {type(masses).__name__}")
-    if masses is not None and (masses.parts != motion.mechanism.parts or masses.unit != motion.mechanism.unit):
+    if masses is not None and (masses.parts != mechanism.parts or masses.unit != mechanism.unit):
         raise ValueError(
             "the masses are those of another mechanism: its parts or its unit differ; write "
             "jk.masses(motion.mechanism, ...)"
@@ -101,7 +100,6 @@ def _checked(motion: Motion, acting: Acting) -> tuple[Applied, ...]:
         raise ValueError("nothing acts: give jk.masses(mechanism, density), or applied=[jk.force(...)], or both")
     if acting.rates is None and acting.accelerations is not None:
         raise ValueError("accelerations were given without rates: write rates={'A': 0.0} for a start from rest")
-    return tuple(applied)
 
 
 def _gravity(given: Any) -> Float[Array, "3"]:
@@ -119,7 +117,7 @@ def _rows(motion: Motion, values: Any, what: str, axes: int) -> Array:
     return jnp.broadcast_to(values, (len(motion), *values.shape[values.ndim - axes :]))
 
 
-def _on_parts(motion: Motion, moving: Rates | None, load: Force | Torque | Spring, metre: float):
+def _on_parts(motion: Motion, moving: Changes | None, load: Force | Torque | Spring, metre: float):
     """Yield parts and the matrices C of a load on them."""
     if isinstance(load, Spring):
         yield from _of_spring(motion, moving, load, metre)
@@ -135,7 +133,7 @@ def _on_parts(motion: Motion, moving: Rates | None, load: Force | Torque | Sprin
         yield load.part, jnp.pad(turned, ((0, 0), (0, 0), (0, 1)))
 
 
-def _of_spring(motion: Motion, moving: Rates | None, load: Spring, metre: float):
+def _of_spring(motion: Motion, moving: Changes | None, load: Spring, metre: float):
     """Yield the two parts of a spring and its matrices C on them."""
     one, other = load.parts
     apart = motion.points(other, load.points[1]) - motion.points(one, load.points[0])
@@ -145,8 +143,12 @@ def _of_spring(motion: Motion, moving: Rates | None, load: Spring, metre: float)
     what = f"the spring of {one!r} and {other!r}"
     stiffness, length, damping = (_rows(motion, x, what, 0) for x in (load.stiffness, load.length, load.damping))
     pull = stiffness[:, None] * metre * (apart - length[:, None] * along)
-    if moving is not None:
-        change = moving.points(other, load.points[1]) - moving.points(one, load.points[0])
+    if moving is not None and moving.velocity is not None:
+        rates = [
+            moving.velocity.transforms[:, motion.mechanism.parts.index(part)] @ jnp.append(jnp.asarray(point), 1.0)
+            for part, point in zip(load.parts, load.points, strict=True)
+        ]
+        change = rates[1] - rates[0]
         pull = pull + (damping * metre * jnp.sum(along * change, axis=1))[:, None] * along
     yield one, metre * pull[:, :, None] * _homogeneous(load.points[0])
     yield other, -metre * pull[:, :, None] * _homogeneous(load.points[1])
@@ -156,7 +158,9 @@ def _homogeneous(point: Any) -> Float[Array, "1 1 4"]:
     return jnp.append(jnp.asarray(point, float), 1.0)[None, None, :]
 
 
-def _in_joint(motion: Motion, moving: Rates | None, load: JointLoad) -> tuple[tuple[int, int], Float[Array, " poses"]]:
+def _in_joint(
+    motion: Motion, moving: Changes | None, load: JointLoad
+) -> tuple[tuple[int, int], Float[Array, " poses"]]:
     """The load in a coordinate: newton metres, newtons."""
     joint, index = coordinate(motion.mechanism.linkage, load.coordinate)
     owner = motion.mechanism.all_joints[joint]
@@ -170,8 +174,8 @@ def _in_joint(motion: Motion, moving: Rates | None, load: JointLoad) -> tuple[tu
         _rows(motion, x, what, 0) for x in (load.load, load.stiffness, load.rest, load.damping)
     )
     found = given - stiffness * metre * (motion.displacements[joint][:, index] - rest)
-    if moving is not None:
-        found = found - damping * metre * moving.displacements[joint][:, index]
+    if moving is not None and moving.velocity is not None:
+        found = found - damping * metre * moving.velocity.displacements[joint][:, index]
     return (joint, index), found
 
 
