@@ -18,7 +18,8 @@ def hinge(mechanism, joint, mass, metre, inside="") -> str:
     """A body in axes parallel to the world, which turns about a joint; `inside` are bodies that hang on it."""
     frame = np.asarray(mechanism.joints[joint].frames_1[0], float)
     point, axis = metre * frame[:3, 3], frame[:3, 2]
-    inertia = np.asarray(mass.inertia, float) * np.eye(3)
+    inertia = np.asarray(mass.inertia, float)
+    inertia = inertia if inertia.ndim else inertia * np.eye(3)
     six = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
     place = metre * np.asarray(mass.centre, float)
     return (

@@ -55,7 +55,7 @@ def test_every_part_is_in_balance(motion, found):
     }
     largest = max(float(jnp.abs(rows).max()) for rows in found.forces.values())
     for part, mass in FOURBAR_MASSES.items():
-        inertia = np.asarray(mass.inertia) * np.eye(3)
+        inertia = np.asarray(mass.inertia) * np.eye(3)  # along the axes, all of them
         centre = np.asarray(motion.points(part, mass.centre))
         push = mass.mass * (by_time(1e-3 * centre, RATE, 2) - np.array(GRAVITY))
         turned = np.asarray(motion.transforms[part][:, :3, :3])
