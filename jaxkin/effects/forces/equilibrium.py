@@ -99,8 +99,10 @@ def equilibrium(
         raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
 
     def force(values: Inputs) -> Float[np.ndarray, " poses"]:
-        found = drive_forces(mechanism.sweep({key: values}), masses, gravity=gravity, applied=applied)
-        return np.asarray(next(iter(found.forces.values())), float)
+        # all of one length, so that they share a compiled program
+        padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
+        found = drive_forces(mechanism.sweep({key: padded}), masses, gravity=gravity, applied=applied)
+        return np.asarray(next(iter(found.forces.values())), float)[: len(values)]
 
     forces = force(inputs)
     at_zero = np.flatnonzero(forces == 0)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import jax
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.effects.forces.balance import balance
+from jaxkin.effects.forces.balance import Balance, balance
 from jaxkin.mechanism.motion import Motion
 
 COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
@@ -39,34 +40,37 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
     if traced(motion):
         raise ValueError("which reactions are determined is found on the host: ask outside of jit, vmap and grad")
     closed = np.flatnonzero(np.asarray(motion.closed))
-    chosen = closed[np.unique(np.linspace(0, len(closed) - 1, MAX_POSES + 2)[1:-1].astype(int))] if len(closed) else []
-    found = [_at(motion, int(pose)) for pose in chosen]
-    return min(found, key=lambda each: each[0])[1] if found else ()
-
-
-def _at(motion: Motion, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
-    """Number of open reactions at a pose, and where they are."""
-    one = replace(
+    if not len(closed):
+        return ()
+    chosen = closed[np.unique(np.linspace(0, len(closed) - 1, MAX_POSES + 2)[1:-1].astype(int))]
+    some = replace(
         motion,
-        inputs={name: values[pose : pose + 1] for name, values in motion.inputs.items()},
-        displacements=tuple(values[pose : pose + 1] for values in motion.displacements),
-        status=motion.status[pose : pose + 1],
-        residual=motion.residual[pose : pose + 1],
+        inputs={name: values[chosen] for name, values in motion.inputs.items()},
+        displacements=tuple(values[chosen] for values in motion.displacements),
+        status=motion.status[chosen],
+        residual=motion.residual[chosen],
     )
-    linkage, system = motion.mechanism.linkage, balance(one)
+    system = jax.tree.map(np.asarray, jax.jit(balance)(some))
+    found = [_at(some, system, pose) for pose in range(len(chosen))]
+    return min(found, key=lambda each: each[0])[1]
+
+
+def _at(motion: Motion, system: Balance, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
+    """Number of open reactions at a pose, and where they are."""
+    linkage = motion.mechanism.linkage
     moving = [part for part in linkage.parts if part not in linkage.fixed]
     columns, owner, bases = [], [], []
     for number, joint in enumerate(linkage.joints):
-        values, vectors = np.linalg.eigh(np.asarray(system.projectors[number][0]))
+        values, vectors = np.linalg.eigh(system.projectors[number][pose])
         basis = vectors[:, values > 0.5]
-        columns.append(_on_parts(joint.parts, moving, np.asarray(system.levers[number][0]) @ basis))
+        columns.append(_on_parts(joint.parts, moving, system.levers[number][pose] @ basis))
         owner += [number] * basis.shape[1]
         bases.append(basis)
     for tie in system.ties:
         column = np.zeros((6 * len(moving), 1))
         for number, wrench in tie.items():
-            lever = np.asarray(system.levers[number][0])
-            column += _on_parts(linkage.joints[number].parts, moving, lever @ np.asarray(wrench[0])[:, None])
+            lever = system.levers[number][pose]
+            column += _on_parts(linkage.joints[number].parts, moving, lever @ wrench[pose][:, None])
         columns.append(column)
         owner.append(-1)
     matrix = np.concatenate([np.zeros((6 * len(moving), 0)), *columns], axis=1)
@@ -75,7 +79,9 @@ def _at(motion: Motion, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
     found = []
     for number, joint in enumerate(linkage.joints):
         wrench = bases[number] @ open_ones[:, np.array(owner, int) == number].T
-        axes = np.asarray(one.transforms[joint.parts[1]][0], float)[:3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
+        axes = (
+            np.asarray(motion.transforms[joint.parts[1]][pose], float)[:3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
+        )
         own = np.concatenate([axes.T @ wrench[:3], axes.T @ wrench[3:]])
         which = np.linalg.norm(own, axis=1) > SHARE
         if which.any():

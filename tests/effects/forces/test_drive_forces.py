@@ -102,6 +102,7 @@ def test_power_goes_into_energy_and_dampers(motion, found):
     np.testing.assert_allclose(found.power, RATE * found.forces["A.phi"], rtol=1e-12)
 
 
+@pytest.mark.long
 def test_an_arm_speeds_up_by_its_inertia_and_a_jack_lifts_by_its_pitch():
     """Torque = I a + m g r cos(q); force x pitch / 2 pi; a slide lifts its weight: mechanisms without loops."""
     q = np.linspace(-1.0, 2.0, 7)
@@ -124,6 +125,7 @@ def test_an_arm_speeds_up_by_its_inertia_and_a_jack_lifts_by_its_pitch():
     assert found.units == {"P.z": "N"}
 
 
+@pytest.mark.long
 def test_a_gear_divides_the_torque():
     wheels = [
         jk.revolute(name, "base", part, point=(x, 0, 0), axis=Z)
@@ -138,6 +140,7 @@ def test_a_gear_divides_the_torque():
     np.testing.assert_allclose(own.torques["B"], np.tile([0, 0, -8.0], (3, 1)), atol=1e-9)
 
 
+@pytest.mark.long
 def test_a_spring_of_no_length_whose_points_meet():
     mechanism = fourbar()
     load = jk.spring("ground", (0, 0, 0), "crank", (0, 0, 0), 10.0, 5.0, 1.0)
@@ -145,6 +148,7 @@ def test_a_spring_of_no_length_whose_points_meet():
     np.testing.assert_allclose(forces, 0.0, atol=1e-15)
 
 
+@pytest.mark.long
 def test_gradients_by_masses_and_loads(motion):
     def peak(x):
         given = FOURBAR_MASSES | {"coupler": jk.Mass(x[0], jnp.array([x[1], 50.0, 0.0]), x[2])}
@@ -160,6 +164,7 @@ def test_gradients_by_masses_and_loads(motion):
     np.testing.assert_allclose(found, expected, rtol=1e-6)
 
 
+@pytest.mark.long
 def test_poses_that_are_not_closed_are_nan_and_it_prints_draws_and_saves(tmp_path):
     motion = fourbar(ground=40.0, crank=20.0, coupler=25.0, rocker=30.0).sweep({"A": TURN})
     closed = np.asarray(motion.closed)
@@ -199,6 +204,7 @@ def test_what_makes_no_sense_is_refused(motion, masses):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_gradients_by_lengths():
     mechanism, inputs = fourbar(), TURN[::6]
     own = jk.masses(mechanism, given=FOURBAR_MASSES)
@@ -269,6 +275,7 @@ def test_two_drives_share_the_work():
         np.testing.assert_allclose(balanced.drives[name], found.forces[name], atol=1e-8)
 
 
+@pytest.mark.long
 def test_without_a_unit_lengths_are_metres():
     mechanism = planar_fourbar()
     forces = jk.drive_forces(mechanism.sweep({"A": TURN}), applied=jk.force("rocker", (100, 80, 0), (1, 0, 0)))

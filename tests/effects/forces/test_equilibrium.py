@@ -26,6 +26,7 @@ def test_a_pendulum_hangs_or_stands():
     np.testing.assert_allclose(found.motion.inputs["A.phi"], found.values)
 
 
+@pytest.mark.long
 def test_a_spring_against_a_weight(tmp_path):
     """k q = m g r cos(q), stable; and with a soft spring there may be none in the range."""
     mechanism = pendulum()

@@ -95,6 +95,7 @@ def test_what_a_planar_linkage_leaves_open_is_named(found):
     assert "not determined in B (crank - coupler): torque x, torque y, force z" in str(found)
 
 
+@pytest.mark.long
 def test_a_slider_crank_under_its_piston_force():
     """The rod is a two-force member: F / cos(rod) along it, and F tan(rod) on the rail; crank torque F dx/dtheta."""
     mechanism = replace(slider_crank(), unit="mm")
@@ -110,6 +111,7 @@ def test_a_slider_crank_under_its_piston_force():
     np.testing.assert_allclose(found.torques["S"][:, 2], np.cross(arm, found.forces["S"])[:, 2], atol=1e-7)
 
 
+@pytest.mark.long
 def test_a_door_on_two_hinges_shares_its_weight():
     """Two equal hinges on one axis, as a door has: the weight along the axis is not determined, and is shared."""
     joints = [
@@ -131,6 +133,7 @@ def test_a_door_on_two_hinges_shares_its_weight():
     assert "force z" in found.undetermined[0].components
 
 
+@pytest.mark.long
 def test_gradients_by_masses_and_forces(motion):
     def peak(x):
         own = jk.masses(motion.mechanism, given=FOURBAR_MASSES | {"coupler": jk.Mass(x[0], (x[1], 50.0, 0.0), x[2])})
@@ -143,6 +146,7 @@ def test_gradients_by_masses_and_forces(motion):
     np.testing.assert_allclose(jax.grad(peak)(x), expected, rtol=1e-6)
 
 
+@pytest.mark.long
 def test_it_prints_draws_and_saves_and_open_poses_are_nan(tmp_path):
     motion = fourbar(ground=40.0, crank=20.0, coupler=25.0, rocker=30.0).sweep({"A": TURN})
     found = jk.reactions(motion, applied=jk.torque("rocker", (0, 0, 1.0)))
@@ -158,6 +162,7 @@ def test_it_prints_draws_and_saves_and_open_poses_are_nan(tmp_path):
     np.testing.assert_allclose(table["A_force_y_N"], found.forces["A"][:, 1], rtol=1e-8)
 
 
+@pytest.mark.long
 def test_a_freedom_without_a_drive_is_told():
     """Two hinges in a row, the second without a drive: what gravity asks of it nothing holds."""
     joints = [
