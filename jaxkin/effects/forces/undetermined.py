@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import jax
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.effects.forces.balance import Balance, balance
+from jaxkin.effects.forces.balance import balance
 from jaxkin.mechanism.motion import Motion
 
 COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
@@ -55,8 +56,8 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
     return min(found, key=lambda each: each[0])[1]
 
 
-def _at(motion: Motion, system: Balance, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
-    """Number of open reactions at a pose, and where they are."""
+def _at(motion: Motion, system: Any, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
+    """Number of open reactions at a pose of a `Balance`, and where they are."""
     linkage = motion.mechanism.linkage
     moving = [part for part in linkage.parts if part not in linkage.fixed]
     columns, owner, bases = [], [], []
