@@ -30,6 +30,7 @@ LONG = {
         "how-to/time",
         "how-to/tolerances",
         "how-to/calibration",
+        "how-to/forces",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
