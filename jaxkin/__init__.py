@@ -18,6 +18,9 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.assembly_modes import AssemblyMode as AssemblyMode
+from jaxkin.effects.assembly_modes import AssemblyModes as AssemblyModes
+from jaxkin.effects.assembly_modes import assembly_modes as assembly_modes
 from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity

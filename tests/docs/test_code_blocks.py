@@ -28,6 +28,7 @@ LONG = {
         "how-to/derivatives",
         "how-to/sweep",
         "how-to/time",
+        "how-to/modes",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
