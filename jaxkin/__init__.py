@@ -25,6 +25,10 @@ from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
+from jaxkin.effects.limit_search import LimitKind as LimitKind
+from jaxkin.effects.limits import Limit as Limit
+from jaxkin.effects.limits import Limits as Limits
+from jaxkin.effects.limits import limits as limits
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw
 from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
@@ -17,9 +17,8 @@ from jaxtyping import Array, Float
 from jaxkin._names import by_name, listed
 from jaxkin._traced import traced
 from jaxkin.effects.mode_plot import draw_modes
-from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes
+from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
 from jaxkin.effects.pose_plot import save_rows
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
@@ -162,7 +161,8 @@ class AssemblyModes:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the modes side by side as bars between joints into a picture file; returns its path."""
-        return draw_modes(self.motion, list(self.names), self.assembled, Path(path))
+        titles = [f"{name}, as assembled" if self.assembled and name == "mode 1" else name for name in self.names]
+        return draw_modes(self.motion, titles, Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
@@ -271,7 +271,7 @@ def _combined(
     status = np.full(len(which), Status.JUMPED.value, np.int32)
     if assembled:
         status[:1] = Status.CLOSED.value
-    _wrap(mechanism, rows, set(given), int(assembled))
+    wrap_angles(mechanism, rows, set(given), int(assembled))
     motion = Motion(
         mechanism,
         {name: jnp.full(len(which), value, float) for name, value in given.items()},
@@ -288,17 +288,3 @@ def _combined(
         else []
     )
     return AssemblyModes(given, motion, tuple(signs), tuple(lists), complete, 0 if complete else starts.tries)
-
-
-def _wrap(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Container[str], first: int) -> None:
-    """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
-    tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
-    for joint, row in zip(mechanism.all_joints, rows, strict=True):
-        elements, start = [], 0
-        for movement in joint.movements:
-            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements]
-            start += len(MOVEMENTS[movement].coordinates)
-        for kind, k in elements:
-            name = f"{joint.name}.{joint.coordinates[k]}"
-            if kind == "rotate" and name not in driven and name not in tied:
-                row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)

@@ -25,15 +25,14 @@ MAX_BARS = 4
 """Joints of a part that are linked pair by pair at most; those of other parts are linked to their middle."""
 
 
-def draw_modes(motion: Motion, names: Sequence[str], assembled: bool, path: Path) -> Path:
+def draw_modes(motion: Motion, titles: Sequence[str], path: Path) -> Path:
     """Draw the poses of a motion into a picture file, all at one scale; returns its path.
 
-    Planar mechanisms are seen along their axes, others in perspective. The first pose is marked where it is that of the
-    `assembled` branch.
+    Planar mechanisms are seen along their axes, others in perspective.
     """
     from matplotlib.figure import Figure
 
-    count = min(len(names), MAX_PANELS)
+    count = min(len(titles), MAX_PANELS)
     columns = min(max(count, 1), COLUMNS if count > 12 else 4)
     rows = -(-max(count, 1) // columns)
     plane = common_plane(motion.mechanism)
@@ -57,11 +56,11 @@ def draw_modes(motion: Motion, names: Sequence[str], assembled: bool, path: Path
             getattr(axes, limits)(at - reach, at + reach)
         _shape_panel(axes, plane is None)
         axes.set_axis_off()
-        axes.set_title(f"{names[number]}{', as assembled' if number == 0 and assembled else ''}", fontsize="small")
+        axes.set_title(titles[number], fontsize="small")
     if not count:
         figure.suptitle("no assembly mode")
-    elif len(names) > count:
-        figure.supxlabel(f"and {len(names) - count} more", fontsize="small")
+    elif len(titles) > count:
+        figure.supxlabel(f"and {len(titles) - count} more", fontsize="small")
     with whole(path) as draft:
         figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
     return path

@@ -6,15 +6,17 @@ are all poses. Elsewhere damped least-norm steps (`levenberg_marquardt`) go from
 
 from __future__ import annotations
 
+from collections.abc import Container, Sequence
 from functools import partial
 from itertools import product
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.mechanism.drive_plan import DrivenElement
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
@@ -31,6 +33,9 @@ from jaxkin.solve.status import rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, drive
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_FORMULAS = 12
 """Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""
@@ -252,3 +257,17 @@ def _unwrapped(
     return np.concatenate(
         [np.cos(poses[:, ~lengths]), np.sin(poses[:, ~lengths]), poses[:, lengths] / units[lengths]], axis=1
     )
+
+
+def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Container[str], first: int) -> None:
+    """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
+    tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
+    for joint, row in zip(mechanism.all_joints, rows, strict=True):
+        elements, start = [], 0
+        for movement in joint.movements:
+            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements]
+            start += len(MOVEMENTS[movement].coordinates)
+        for kind, k in elements:
+            name = f"{joint.name}.{joint.coordinates[k]}"
+            if kind == "rotate" and name not in driven and name not in tied:
+                row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)

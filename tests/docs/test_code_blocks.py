@@ -29,6 +29,7 @@ LONG = {
         "how-to/sweep",
         "how-to/time",
         "how-to/modes",
+        "how-to/range",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
