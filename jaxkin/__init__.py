@@ -18,6 +18,9 @@ from jaxkin.design.optimize import optimize as optimize
 from jaxkin.design.result import Optimum as Optimum
 from jaxkin.effects.accuracy import WorkPrecision as WorkPrecision
 from jaxkin.effects.accuracy import work_precision as work_precision
+from jaxkin.effects.assembly_modes import AssemblyMode as AssemblyMode
+from jaxkin.effects.assembly_modes import AssemblyModes as AssemblyModes
+from jaxkin.effects.assembly_modes import assembly_modes as assembly_modes
 from jaxkin.effects.calibrate import calibrate as calibrate
 from jaxkin.effects.calibration_result import Calibration as Calibration
 from jaxkin.effects.clashes import Clashes as Clashes
@@ -38,6 +41,10 @@ from jaxkin.effects.forces.masses import Masses as Masses
 from jaxkin.effects.forces.masses import masses as masses
 from jaxkin.effects.forces.reactions import Reactions as Reactions
 from jaxkin.effects.forces.reactions import reactions as reactions
+from jaxkin.effects.limit_search import LimitKind as LimitKind
+from jaxkin.effects.limits import Limit as Limit
+from jaxkin.effects.limits import Limits as Limits
+from jaxkin.effects.limits import limits as limits
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw
 from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates

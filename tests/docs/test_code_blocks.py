@@ -31,6 +31,8 @@ LONG = {
         "how-to/tolerances",
         "how-to/calibration",
         "how-to/forces",
+        "how-to/modes",
+        "how-to/range",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
