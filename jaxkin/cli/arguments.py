@@ -76,7 +76,8 @@ Effects = Annotated[
         "--effects",
         metavar="NAME,NAME",
         help="What to compute beside the motion: rates (velocities and accelerations), clashes (parts that cut each "
-        "other, and clearances), contacts (those that end). Each is printed, and written as a table and a picture.",
+        "other, and clearances), contacts (those that end), forces (of the drive and in joints; a study says the "
+        "density). Each is printed, and written as a table and a picture.",
     ),
 ]
 Out = Annotated[Path, typer.Option("--out", metavar="DIR", file_okay=False, help="Folder for the files written.")]

@@ -36,6 +36,11 @@ def lengths(linkage: Linkage) -> dict[Key, float | jax.Array]:
     return {key: _number(_measured(xp, linkage, length)) for key, length in table.items()}
 
 
+def length_now(linkage: Linkage, key: object) -> float | jax.Array:
+    """Measure one length by any name that `with_lengths` takes; ValueError where there is none."""
+    return _number(_measured(jnp if traced(linkage) else np, linkage, find_length(linkage, key)))
+
+
 def _number(quantity):
     """Turn a numpy scalar into a float; JAX arrays stay as they are."""
     return quantity if isinstance(quantity, jax.Array) else float(quantity)

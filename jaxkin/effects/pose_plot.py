@@ -1,4 +1,4 @@
-"""Draw and save lengths that belong to the poses of a motion, one row each."""
+"""Draw and save numbers that belong to the poses of a motion, one row each."""
 
 from __future__ import annotations
 
@@ -11,15 +11,31 @@ from jaxtyping import Float
 from jaxkin._files import whole
 
 
-def draw_lines(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], label: str, title: str, path: Path) -> Path:
-    """Draw one line a row over the poses into a picture file; returns its path. `label` says what the lengths are."""
+def draw_lines(
+    names: Sequence[str],
+    rows: Float[np.ndarray, "rows poses"],
+    label: str,
+    title: str,
+    path: Path,
+    *,
+    at: Float[np.ndarray, " poses"] | None = None,
+    along: str = "pose",
+    marks: Sequence[tuple[float, str]] = (),
+) -> Path:
+    """Draw one line a row over the poses into a picture file; returns its path. `label` says what the numbers are.
+
+    With `at` they are drawn over these numbers instead, which `along` names. `marks` are places on the line of zero,
+    each with a marker of matplotlib.
+    """
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(7.5, 4.8), layout="constrained")
     axes = figure.add_subplot()
     for name, row in zip(names, rows, strict=True):
-        axes.plot(np.where(np.isfinite(row), row, np.nan), label=name)
-    axes.set(xlabel="pose", ylabel=label)
+        axes.plot(np.arange(len(row)) if at is None else at, np.where(np.isfinite(row), row, np.nan), label=name)
+    for place, marker in marks:
+        axes.plot(place, 0.0, marker, color="black")
+    axes.set(xlabel=along, ylabel=label)
     axes.set_title(title, fontsize="medium")
     axes.grid(alpha=0.3)
     if names:

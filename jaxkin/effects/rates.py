@@ -130,8 +130,8 @@ def velocities(motion: Motion, rates: Mapping[str, Any], *, options: SolverOptio
     motion. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a name that is not driven and for arrays of
     another length.
     """
-    tangents = _tangents(motion, rates)
-    place = _placing(motion, options)
+    tangents = tangents_of(motion, rates)
+    place = placing(motion, options)
     found = jax.jvp(place, (motion.inputs,), (tangents,))[1]
     return Rates(motion, tangents, *_nan_where_nonfinite(motion, found, tangents))
 
@@ -147,9 +147,9 @@ def accelerations(
 
     As `velocities`; second derivatives with respect to time.
     """
-    first = _tangents(motion, rates)
-    second = _tangents(motion, accelerations or {})
-    place = _placing(motion, options)
+    first = tangents_of(motion, rates)
+    second = tangents_of(motion, accelerations or {})
+    place = placing(motion, options)
 
     def velocity(inputs: Inputs, tangents: Inputs):
         return jax.jvp(place, (inputs,), (tangents,))[1]
@@ -170,8 +170,8 @@ def jerks(
 
     As `velocities`; third derivatives with respect to time.
     """
-    first, second, third = (_tangents(motion, given or {}) for given in (rates, accelerations, jerks))
-    place = _placing(motion, options)
+    first, second, third = (tangents_of(motion, given or {}) for given in (rates, accelerations, jerks))
+    place = placing(motion, options)
 
     def velocity(inputs: Inputs, tangents: Inputs):
         return jax.jvp(place, (inputs,), (tangents,))[1]
@@ -185,7 +185,7 @@ def jerks(
     return Rates(motion, third, displacements, matrices, _nan_where_nonfinite(motion, lower, first, second), order=3)
 
 
-def _placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
+def placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
     """The function from inputs to displacements of all joints and transforms of all parts, which is differentiated."""
     options = options_with(options if options is not None else motion.options)
 
@@ -204,7 +204,7 @@ def _nan_where_nonfinite(motion: Motion, found, *given: Inputs):
     return nan_where_not_finite(found, finite)
 
 
-def _tangents(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
+def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
     """Rates of all driven displacements, one a pose, from those that were given by name."""
     if not isinstance(motion, Motion):
         raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")

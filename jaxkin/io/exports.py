@@ -15,9 +15,9 @@ from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part, moved, scaled
 from jaxkin.geometry.pose import Pose
+from jaxkin.geometry.units import METRES
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate, ExportedPart, read_export
-from jaxkin.io.units import METRES
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.mates import Feature, mate

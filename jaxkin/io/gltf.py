@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.part import Part
-from jaxkin.io.units import METRES
+from jaxkin.geometry.units import METRES
 from jaxkin.view.drawing import drawn_parts
 
 if TYPE_CHECKING:

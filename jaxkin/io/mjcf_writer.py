@@ -20,9 +20,9 @@ from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import WORLD
-from jaxkin.io.units import METRES
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind

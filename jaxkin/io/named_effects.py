@@ -6,7 +6,7 @@ To give an effect a name: a row of `EFFECTS`. A function of a motion whose other
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import signature
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,6 +16,9 @@ import numpy as np
 from jaxkin._names import closest, nearest
 from jaxkin.effects.clashes import clashes
 from jaxkin.effects.contact_validity import contact_validity
+from jaxkin.effects.forces.drive import drive_forces
+from jaxkin.effects.forces.masses import masses
+from jaxkin.effects.forces.reactions import reactions
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.mechanism.motion import Motion
@@ -36,18 +39,47 @@ def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
             f"rates needs the speeds of the driven coordinates, of which there are {len(motion.inputs)}: write in a "
             f"study [effects.rates] with {' and '.join(f'{name!r} = 10' for name in motion.inputs)}"
         )
-    given = {
-        name: speed if is_length(_coordinate_name(motion, name)) else np.radians(speed)
-        for name, speed in speeds.items()
-    } or dict.fromkeys(motion.inputs, 1.0)
+    given = _in_radians(motion, "rates", speeds) or dict.fromkeys(motion.inputs, 1.0)
     return {"velocities": velocities(motion, given), "accelerations": accelerations(motion, given)}
 
 
-def _coordinate_name(motion: Motion, name: str) -> str:
+def _forces(
+    motion: Motion,
+    *,
+    density: Any = None,
+    gravity: Sequence[float | int] = (0.0, 0.0, -9.81),
+    speeds: Mapping[str, float | int] | None = None,
+) -> dict[str, Result]:
+    """Compute drive forces and reactions under weight, at rest or for constant `speeds`, degrees and lengths a second.
+
+    `density` is that of `jk.masses`: kg/m^3, the name of a material, or either by part.
+    """
+    if density is None:
+        raise ValueError(
+            "forces needs the density of the parts, in kg/m^3 or the name of a material: write in a study "
+            '[effects.forces] with density = "steel", or density = { crank = 2700, "*" = 7850 }'
+        )
+    weights = masses(motion.mechanism, density)
+    rates = None if speeds is None else _in_radians(motion, "forces", speeds)
+    return {
+        "drive_forces": drive_forces(motion, weights, gravity=gravity, rates=rates),
+        "reactions": reactions(motion, weights, gravity=gravity, rates=rates),
+    }
+
+
+def _in_radians(motion: Motion, effect: str, speeds: Mapping[str, float | int]) -> dict[str, float]:
+    """Convert speeds of driven coordinates in degrees into radians; those of lengths stay."""
+    return {
+        name: float(speed) if is_length(_coordinate_name(motion, effect, name)) else float(np.radians(speed))
+        for name, speed in speeds.items()
+    }
+
+
+def _coordinate_name(motion: Motion, effect: str, name: str) -> str:
     """Find the driven coordinate, such as "phi", that "joint" or "joint.coordinate" means; ValueError for others."""
     found = [each for each in motion.inputs if each == name or each.rpartition(".")[0] == name]
     if not found:
-        raise ValueError(f"rates: {name!r} is not driven{nearest(name, motion.inputs)}")
+        raise ValueError(f"{effect}: {name!r} is not driven{nearest(name, motion.inputs)}")
     return found[0].rpartition(".")[2]
 
 
@@ -55,6 +87,7 @@ EFFECTS: dict[str, Callable[..., Result | Mapping[str, Result]]] = {
     "rates": _rates,
     "clashes": clashes,
     "contacts": contact_validity,
+    "forces": _forces,
 }
 """Name of an effect -> a function of a motion and of settings (keyword arguments). The function returns one result,
 whose files have the name of the effect, or several results by the names of their files."""

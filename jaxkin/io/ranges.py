@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import is_length
-from jaxkin.io.units import METRES
+from jaxkin.geometry.units import METRES
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism

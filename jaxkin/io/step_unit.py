@@ -6,7 +6,7 @@ import re
 import warnings
 from collections.abc import Mapping
 
-from jaxkin.io.units import METRES
+from jaxkin.geometry.units import METRES
 
 _PREFIXES = {"MICRO": 1e-6, "MILLI": 1e-3, "CENTI": 1e-2, "DECI": 1e-1, "DECA": 1e1, "HECTO": 1e2, "KILO": 1e3}
 

@@ -13,12 +13,12 @@ from pydantic import BaseModel, BeforeValidator, Field, ValidationError, model_v
 
 from jaxkin._files import check_file
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.units import METRES
 from jaxkin.io.named_effects import Settings, known
 from jaxkin.io.ranges import FORM, MAX_POSES, RADIANS, Range, read_range
 from jaxkin.io.study_couplings import CouplingTable
 from jaxkin.io.study_errors import messages
 from jaxkin.io.study_tables import STRICT, Number, one_of
-from jaxkin.io.units import METRES
 from jaxkin.joints import pairs
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint

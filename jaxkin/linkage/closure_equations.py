@@ -69,14 +69,15 @@ def _equations(
     structure: Structure, joints: tuple[Joint, ...], coordinates: Float[Array, " coordinates"]
 ) -> tuple[Float[Array, " equations"], Float[Array, "equations coordinates"]]:
     def residual(q: Float[Array, " coordinates"]) -> Float[Array, " equations"]:
-        return _residual(structure, joints, q)
+        return closure_residual(structure, joints, q)
 
     return residual(coordinates), jax.jacfwd(residual)(coordinates)
 
 
-def _residual(
+def closure_residual(
     structure: Structure, joints: tuple[Joint, ...], q: Float[Array, " coordinates"]
 ) -> Float[Array, " equations"]:
+    """Evaluate the twelve closure equations of each loop (see `ClosureEquations`) at the coordinates of all joints."""
     motions, first = [], 0
     for joint in joints:
         motions.append(joint_motion(joint, q[None, first : first + joint.freedoms]))

@@ -10,6 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
@@ -19,10 +20,27 @@ from jaxkin.topology.structure import Structure
 Displacements = tuple[Float[Array | np.ndarray, "poses _"], ...]
 """For each joint of `Linkage.joints` its coordinates: radians, and lengths in the unit of the mechanism."""
 
+MAX_PADDED_POSES = 8192
+"""Poses of a range that is padded at most: of longer ones a copy takes as long as what is computed."""
+
 
 def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world."""
-    return _transforms(linkage.structure, linkage.joints, displacements)
+    """Compute the displacements of all parts from the assembled pose, in the order of `linkage.parts`, in the world.
+
+    Ranges of known numbers are padded to a few lengths, so that those of similar length share a compiled program.
+    """
+    poses = displacements[0].shape[0]
+    if not 0 < poses <= MAX_PADDED_POSES or traced((linkage, displacements)) or _on_several_devices(displacements):
+        return _transforms(linkage.structure, linkage.joints, displacements)
+    length = 2 ** max(5, (poses - 1).bit_length())
+    # on the host: there it costs a copy, not a program for every length
+    padded = tuple(np.pad(np.asarray(q), ((0, length - poses), (0, 0)), mode="edge") for q in displacements)
+    found = _transforms(linkage.structure, linkage.joints, padded)
+    return tuple(jnp.asarray(np.asarray(each)[:poses]) for each in found)
+
+
+def _on_several_devices(displacements: Displacements) -> bool:
+    return any(isinstance(q, jax.Array) and len(q.devices()) > 1 for q in displacements)
 
 
 @partial(jax.jit, static_argnums=0)

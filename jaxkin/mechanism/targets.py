@@ -92,7 +92,7 @@ def with_targets(mechanism: Mechanism, drive: Mapping[Any, Any]) -> tuple[Mechan
     result: dict[str, Any] = {}
     for key, values in drive.items():
         if isinstance(key, Target):
-            result |= _coordinates(found.joints[key.joint], key, values, _size(mechanism))
+            result |= _coordinates(found.joints[key.joint], key, values, extent(mechanism))
         else:
             result[key] = values
     return found, result
@@ -152,15 +152,19 @@ def _joint(mechanism: Mechanism, target: Target) -> Joint:
     if target.part in linkage.fixed:
         raise ValueError(f"{target.joint}: the part {target.part!r} is fixed, and no target moves it")
     held = [joint for joint in linkage.joints if target.part in joint.parts]
-    at = target.at
-    if at is None:
-        xp = jnp if traced(held) else np
-        at = xp.mean(xp.stack([xp.asarray(joint.frames_1, float)[0, :3, 3] for joint in held]), axis=0)
+    at = middle_of_joints(linkage, target.part) if target.at is None else target.at
     normal = _normal(linkage, held)
     parts = (linkage.fixed[0], target.part)
     name = target.joint
     made = free(name, *parts, point=at) if normal is None else planar(name, *parts, point=at, normal=normal)
     return replace(made, evidence=Evidence(EvidenceKind.TARGET))
+
+
+def middle_of_joints(linkage: Linkage, part: str) -> Any:
+    """Average the origins of the frames of all joints of a part (3,)."""
+    held = [joint for joint in linkage.joints if part in joint.parts]
+    xp = jnp if traced(held) else np
+    return xp.mean(xp.stack([xp.asarray(joint.frames_1, float)[0, :3, 3] for joint in held]), axis=0)
 
 
 def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:
@@ -177,8 +181,8 @@ def _normal(linkage: Linkage, joints: Iterable[Joint]) -> Any:
     return None
 
 
-def _size(mechanism: Mechanism) -> float:
-    """Measure the largest extent of the joints; 1 where JAX traces them."""
+def extent(mechanism: Mechanism) -> float:
+    """Find the largest extent of the joints of a mechanism; 1 where JAX traces them."""
     if traced(mechanism.linkage):
         return 1.0
     origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in mechanism.all_joints])
@@ -212,7 +216,7 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
     eye = xp.broadcast_to(xp.eye(3), (len(given), 3, 3))
     turned = {"pose": given[:, :3, :3], "point": eye, "orientation": given}[target.kind] if given.ndim == 3 else eye
     if xp is np and np.isfinite(turned).all():
-        _check_rigid(target, turned, given)
+        check_rigid(target, turned, given)
     moved = xp.zeros((len(given), 3))
     if target.kind == "pose":
         moved = given[:, :3, :3] @ at + given[:, :3, 3] - at
@@ -225,7 +229,7 @@ def _coordinates(joint: Joint, target: Target, values: Any, size: float) -> dict
     return {f"{joint.name}.{joint.coordinates[k]}": rows[k] for k in _driven(joint, target)}
 
 
-def _check_rigid(target: Target, turned: Any, given: Any) -> None:
+def check_rigid(target: Target, turned: Any, given: Any) -> None:
     """Raise ValueError where a pose is not rigid to nine digits."""
     off = np.abs(turned @ turned.swapaxes(1, 2) - np.eye(3)).max(initial=0.0)
     mirrored = (np.linalg.det(turned) < 0).any()

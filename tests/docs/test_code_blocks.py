@@ -28,6 +28,11 @@ LONG = {
         "how-to/derivatives",
         "how-to/sweep",
         "how-to/time",
+        "how-to/tolerances",
+        "how-to/calibration",
+        "how-to/forces",
+        "how-to/modes",
+        "how-to/range",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""

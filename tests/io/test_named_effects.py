@@ -52,13 +52,16 @@ def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
     made = study(tmp_path, rates="false")
     assert list(made.effects) == ["contacts", "clashes"]
     assert list(compute(made.sweep(), {"contacts": {}})) == ["contacts"]
-    assert missing(["rates", "contacts"]) == "Not computed: clashes (--effects clashes)."
+    assert missing(["rates", "contacts", "forces"]) == "Not computed: clashes (--effects clashes)."
     assert missing(EFFECTS) == ""
 
 
 @pytest.mark.parametrize(
     ("effects", "message"),
     [
+        ({"forces": {}}, r"needs the density.*\[effects.forces\]"),
+        ({"forces": {"density": "stel"}}, "steel"),
+        ({"forces": {"density": "steel", "speeds": {"ground-rocker": 1}}}, "forces: 'ground-rocker' is not driven"),
         ({"clahses": {}}, "no effect 'clahses'.*'clashes'"),
         ({"clashes": {"winthin": 1}}, "no setting 'winthin'; it has within, tolerance, ignore"),
         ({"contacts": {"within": 1}}, "no setting 'within'; it has none"),
@@ -88,6 +91,18 @@ def test_several_drives_need_speeds():
 
 
 @pytest.mark.long
+def test_forces_by_name(tmp_path):
+    motion = study(tmp_path).sweep()
+    found = compute(motion, {"forces": {"density": {"*": 7850}, "speeds": {"ground-crank": 180}}})
+    masses = jk.masses(motion.mechanism, "steel")
+    direct = jk.drive_forces(motion, masses, gravity=(0, 0, -9.81), rates={"ground-crank": np.pi})
+    np.testing.assert_allclose(
+        found["drive_forces"].forces["ground-crank.phi"], direct.forces["ground-crank.phi"], rtol=1e-12
+    )
+    assert list(found) == ["drive_forces", "reactions"]
+
+
+@pytest.mark.long
 def test_the_command_line_writes_them(tmp_path):
     study(tmp_path, rates="true")
     said = CliRunner().invoke(app, ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")])
@@ -95,7 +110,7 @@ def test_the_command_line_writes_them(tmp_path):
     for name in ("contacts", "clashes", "velocities", "accelerations"):
         for suffix in ("csv", "png"):
             assert (tmp_path / "out" / f"{name}.{suffix}").stat().st_size
-    assert "0 clash" in said.output and "Not computed" not in said.output
+    assert "0 clash" in said.output and "Not computed: forces" in said.output
     table = np.genfromtxt(tmp_path / "out" / "velocities.csv", delimiter=",", names=True)
     np.testing.assert_allclose(table["groundcrankphi_radtime"], 1.0)
     other = CliRunner().invoke(app, ["sweep", str(path("fourbar")), "--out", "x", "--effects", "clashes,forcs"])

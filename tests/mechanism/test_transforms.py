@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.linkage import joint_motion
 from jaxkin.linkage.joint_motion import part_transforms
 
 POINTS = {"A": (0.0, 0.0, 0.0), "B": (31.0, 7.0, -2.0), "C": (52.0, 43.0, 5.0)}  # mm
@@ -104,3 +105,15 @@ def test_a_name_that_is_not_there_is_answered_with_those_that_are(arm):
         leaves, tree = jax.tree.flatten(named)
         again = jax.tree.unflatten(tree, leaves)
         assert (type(again), again.what, list(again)) == (type(named), named.what, list(named))
+
+
+def test_ranges_of_similar_length_share_a_program(arm):
+    """And give what the same poses give in one range: rounding apart, since XLA may fuse products otherwise."""
+    angles = np.random.default_rng(1).uniform(-3, 3, (3, 100))
+    whole = transforms(arm, angles)
+    before = joint_motion._transforms._cache_size()
+    for count in (65, 80, 99):
+        for part, found in transforms(arm, angles[:, :count]).items():
+            assert found.shape == (count, 4, 4)
+            np.testing.assert_allclose(found, whole[part][:count], rtol=0, atol=ROUNDING)
+    assert joint_motion._transforms._cache_size() == before

@@ -167,8 +167,13 @@ def hexapod() -> Mechanism:
     at = parallel.hexapod()
     turn = np.array([[0.98, -0.17, 0.1], [0.18, 0.97, -0.12], [-0.08, 0.13, 0.99]])
     platform = at.platform @ np.linalg.qr(turn)[0].T * [1, 1, 1] + [5.0, -8.0, 220.0]
+    return hexapod_between(at.base, platform)
+
+
+def hexapod_between(bases, platform) -> Mechanism:
+    """Six legs from balls of the base to balls of the platform, each (6, 3)."""
     joints = []
-    for i, (base, top) in enumerate(zip(at.base, platform, strict=True)):
+    for i, (base, top) in enumerate(zip(bases, platform, strict=True)):
         joints += [
             spherical(f"base {i}", GROUND, f"tube {i}", point=base),
             prismatic(f"leg {i}", f"tube {i}", f"rod {i}", axis=top - base, point=base),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from reference.spatial import half_turns
@@ -30,6 +31,52 @@ def hexapod(base_radius=200.0, platform_radius=120.0, base_gap=0.25, platform_ga
     base = (thirds + base_gap * np.array([-1, 1])).ravel()
     platform = (thirds + (np.pi / 3 - platform_gap) * np.array([-1, 1])).ravel()
     return Hexapod(_ring(base_radius, base), _ring(platform_radius, platform))
+
+
+class Dietmaier(NamedTuple):
+    """P. Dietmaier, The Stewart-Gough platform of general geometry can have 40 real postures (Advances in Robot
+    Kinematics, 1998): the lengths of its legs, six decimals each, with which all 40 poses are real."""
+
+    base: Array = np.array(
+        [
+            [0, 0, 0],
+            [1.107915, 0, 0],
+            [0.549094, 0.756063, 0],
+            [0.735077, -0.223935, 0.525991],
+            [0.514188, -0.526063, -0.368418],
+            [0.590473, 0.094733, -0.205018],
+        ]
+    )
+    platform: Array = np.array(
+        [
+            [0, 0, 0],
+            [0.542805, 0, 0],
+            [0.956919, -0.528915, 0],
+            [0.665885, -0.353482, 1.402538],
+            [0.478359, 1.158742, 0.107672],
+            [-0.137087, -0.235121, 0.353913],
+        ]
+    )
+    legs: Array = np.array([1.0, 0.645275, 1.086284, 1.503439, 1.281933, 0.771071])
+
+    def misfit(self, rotations: Array, positions: Array) -> Array:
+        """Lengths of the legs less those given (poses, 6)."""
+        return Hexapod(self.base, self.platform).legs(rotations, positions) - self.legs
+
+    def a_pose(self) -> Array:
+        """The balls of the platform (6, 3) in one of the poses, found by Gauss-Newton steps from a random one."""
+        rng = np.random.default_rng(0)
+        for _ in range(100):
+            found = least_squares(
+                lambda x: self.misfit(Rotation.from_rotvec(x[:3]).as_matrix(), x[3:]),
+                rng.normal(size=6),
+                xtol=1e-15,
+                ftol=1e-15,
+                gtol=1e-15,
+            )
+            if np.abs(found.fun).max() < 1e-14:
+                return self.platform @ Rotation.from_rotvec(found.x[:3]).as_matrix().T + found.x[3:]
+        raise ValueError("no start led to a closed pose")
 
 
 class Curve(NamedTuple):

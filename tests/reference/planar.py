@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
 Array = np.ndarray
 
@@ -198,3 +199,33 @@ def oldham(theta: Array, offset=10.0) -> Array:
     Both shafts turn by theta; the slot of the first lies along theta, that of the second across it.
     """
     return polar(offset * np.cos(theta), theta)
+
+
+def platform_poses(base: Array, platform: Array, legs: Array) -> Array:
+    """All poses (x, y, angle) of a triangle whose corners are at the distances `legs` from three points (3-RPR).
+
+    For a given angle the differences of the three circles are linear in x and y, and the first circle is left: a
+    polynomial of degree 6 in the tangent of half the angle, of which the changes of sign are bracketed (Hunt, 1983).
+    """
+
+    def place(angle: Array) -> Array:
+        c, s = np.cos(angle), np.sin(angle)
+        corners = np.einsum("ijp,kj->pki", np.array([[c, -s], [s, c]]), platform) - base  # at (x, y) = 0
+        rows = 2 * (corners[:, 1:] - corners[:, :1])
+        right = (legs[1:] ** 2 - legs[0] ** 2) - (np.sum(corners[:, 1:] ** 2, -1) - np.sum(corners[:, :1] ** 2, -1))
+        return np.linalg.solve(rows, right[..., None])[..., 0]
+
+    def circle(angle: Array) -> Array:
+        c, s = np.cos(angle), np.sin(angle)
+        corners = np.einsum("ijp,kj->pki", np.array([[c, -s], [s, c]]), platform) - base
+        rows = 2 * (corners[:, 1:] - corners[:, :1])
+        at = place(angle)
+        return (np.sum((corners[:, 0] + at) ** 2, -1) - legs[0] ** 2) * np.linalg.det(rows) ** 2
+
+    angles = np.linspace(-np.pi, np.pi, 20001) + 1e-5
+    values = circle(angles)
+    found = []
+    for k in np.flatnonzero(values[:-1] * values[1:] < 0):
+        root = brentq(lambda angle: circle(np.array([angle]))[0], angles[k], angles[k + 1], xtol=1e-15)
+        found.append([*place(np.array([root]))[0], root])
+    return np.array(found)

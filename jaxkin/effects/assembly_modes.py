@@ -1,0 +1,290 @@
+"""All assembly modes of a mechanism for given inputs: the closed poses, whether or not a motion connects them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import jax.numpy as jnp
+import numpy as np
+from jax import dtypes
+from jaxtyping import Array, Float
+
+from jaxkin._names import by_name, listed
+from jaxkin._traced import traced
+from jaxkin.effects.mode_plot import draw_modes
+from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
+from jaxkin.effects.pose_plot import save_rows
+from jaxkin.linkage.coordinates import coordinate, resolve
+from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mobility.host_closure import ClosedLoops
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
+from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.mobility.open_loops import check_closed
+from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.solve.status import Status, default_tolerance
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+MAX_MODES = 4096
+"""Most modes that are listed: structure elements that do not depend on each other multiply theirs."""
+MAX_ROWS = 40
+"""Modes that a printed result lists at most: as many as a general hexapod has."""
+
+
+@dataclass(frozen=True)
+class AssemblyMode:
+    """One closed pose of a mechanism for the inputs of its `AssemblyModes`."""
+
+    modes: AssemblyModes
+    index: int
+    """Its number in `modes`, from 0."""
+
+    @property
+    def name(self) -> str:
+        """ "mode 1" and so on."""
+        return self.modes.names[self.index]
+
+    @property
+    def signs(self) -> str:
+        """A plus or minus for each group of loops with a formula, in the order of the plan: the sides of its dyads."""
+        return self.modes.signs[self.index]
+
+    @property
+    def coordinates(self) -> Mapping[str, Float[Array, " _"]]:
+        """Displacements of each joint from the assembled pose: radians, and lengths of the mechanism."""
+        return {joint: rows[self.index] for joint, rows in self.modes.motion.coordinates.items()}
+
+    @property
+    def residual(self) -> float:
+        """Square root of Eq. 12, lengths over the characteristic length of the loops."""
+        return float(self.modes.motion.residual[self.index])
+
+    def mechanism(self) -> Mechanism:
+        """The mechanism assembled in this mode: displacements, those of the drive too, count from there."""
+        return self.modes.motion.mechanism.at(self.modes.motion, self.index)
+
+
+@dataclass(frozen=True, eq=False)
+class AssemblyModes:
+    """The assembly modes of a mechanism for given inputs. Prints, draws and saves itself; `modes[0]` is the first."""
+
+    inputs: Mapping[str, float]
+    """The given displacements by "joint.coordinate", radians and lengths of the mechanism."""
+    motion: Motion
+    """One pose a mode: the first is CLOSED where it is that of the assembled pose, all others are JUMPED."""
+    signs: tuple[str, ...]
+    """For each mode a plus or minus for each group of loops with a formula."""
+    found: tuple[int, ...]
+    """How many of the starts led to each mode; empty where `complete`. The motion from the assembled pose, which is no
+    start, may find a mode that no start did: 0."""
+    complete: bool
+    """Whether all modes are there: all groups of loops have formulas, which give all their poses."""
+    starts: int
+    """How many starts were tried; 0 where `complete`."""
+
+    def __len__(self) -> int:
+        return len(self.motion)
+
+    def __getitem__(self, index: int) -> AssemblyMode:
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"there are {len(self)} modes, numbered from 0, got {index}")
+        return AssemblyMode(self, index % len(self))
+
+    def __iter__(self) -> Iterator[AssemblyMode]:
+        return (self[index] for index in range(len(self)))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """ "mode 1" and so on."""
+        return tuple(f"mode {number}" for number in range(1, len(self) + 1))
+
+    @property
+    def assembled(self) -> bool:
+        """Whether "mode 1" is the one to which the drive moves the mechanism from its assembled pose."""
+        return len(self) > 0 and int(self.motion.status[0]) == Status.CLOSED.value
+
+    @property
+    def chance_of_more(self) -> float:
+        """An estimate of the chance that one more start that closes leads to a mode that is not here (Good, 1953).
+
+        It is the number of modes that were found once over that of all starts that closed: 0 where `complete`.
+        """
+        if self.complete:
+            return 0.0
+        closed = sum(self.found)
+        return self.found.count(1) / closed if closed else 1.0
+
+    def __str__(self) -> str:
+        inputs = listed([f"{name} = {value:.6g}" for name, value in self.inputs.items()])
+        head = f"{len(self)} assembly mode{'' if len(self) == 1 else 's'} for {inputs}: "
+        if self.complete:
+            head += "all there are, by formulas"
+        else:
+            head += f"from {self.starts} starts, of which {sum(self.found)} closed"
+        lines = [head]
+        if not len(self):
+            return f"{head}; the loops cannot close there" if self.complete else head
+        rows = [("", "signs", "found", "residual", "")]
+        for number, (name, signs) in enumerate(zip(self.names, self.signs, strict=True)):
+            said = "of the assembled pose" if number == 0 and self.assembled else ""
+            found = str(self.found[number]) if self.found else ""
+            rows.append((name, signs, found, f"{float(self.motion.residual[number]):.1e}", said))
+        columns = [column for column in zip(*rows[: MAX_ROWS + 1], strict=True) if any(column[1:])]
+        widths = [max(map(len, column)) for column in columns]
+        for row in zip(*columns, strict=True):
+            lines.append("  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
+        if len(self) > MAX_ROWS:
+            lines.append(f"  and {len(self) - MAX_ROWS} more: see .motion")
+        if not self.complete:
+            lines.append(f"  {self._doubt()}")
+        return "\n".join(lines)
+
+    def _doubt(self) -> str:
+        """Say how sure it is that the modes from starts are all there are."""
+        closed, once = sum(self.found), self.found.count(1)
+        if not closed:
+            return "no start closed: give more tries"
+        if once:
+            return (
+                f"{once} of them found once: there may be more; one more start that closes leads to another with a "
+                f"chance of about {self.chance_of_more:.2g}"
+            )
+        return f"each was found by two starts or more, of {closed}: it is likely that there are no others"
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the modes side by side as bars between joints into a picture file; returns its path."""
+        titles = [f"{name}, as assembled" if self.assembled and name == "mode 1" else name for name in self.names]
+        return draw_modes(self.motion, titles, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write the displacements of all joints as comma-separated values, a row a mode; returns the path."""
+        joints = self.motion.mechanism.all_joints
+        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
+        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
+        return save_rows(names, rows.T, Path(path))
+
+
+def assembly_modes(
+    mechanism: Mechanism,
+    drive: Mapping[str, float],
+    *,
+    tries: int = 512,
+    seed: int = 0,
+    options: SolverOptions | None = None,
+) -> AssemblyModes:
+    """Find the assembly modes of a mechanism: all closed poses for one displacement of each driven coordinate.
+
+    `drive` maps "joint" or "joint.coordinate" to a number, radians or lengths of the mechanism from the assembled pose.
+    Where each group of loops has a formula (see `mechanism.plan`), both of its poses are computed: the modes are
+    complete. Elsewhere the loops are closed from `tries` random starts, the same ones for the same `seed`, and the
+    result tells how many led to each mode: one that was found once suggests that there are more. Poses that differ by
+    idle freedoms, such as the spin of a rod between two balls, are one mode. Loops that the drive does not move stay.
+
+    Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot
+    follow, for loops that are open in the assembled pose or agree only nearly, and inside `jit`, `vmap` and `grad`.
+    """
+    if traced((mechanism, drive)):
+        raise ValueError("modes are searched on the host: call assembly_modes outside of jit, vmap and grad")
+    for name, number in {"tries": tries, "seed": seed}.items():
+        if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < (name == "tries"):
+            raise ValueError(f"{name} must be a whole number, {int(name == 'tries')} or more, got {number!r}")
+    options, linkage = options_with(options), mechanism.linkage
+    ranges = _ranges(drive)
+    driven = resolve(linkage, ranges)
+    places = [(entry.joint, entry.coordinate) for entry in driven.values()]
+    check_closed(linkage, mechanism.unit, "assembly modes", f"assembly_modes({dict(drive)})")
+    if linkage.ideal:
+        raise ValueError(f"assembly modes need loops that close: {'; '.join(mechanism.alignment)}")
+    plan = plan_drive(linkage, tuple(ranges))
+    if plan.infeasible:
+        raise ValueError(why_infeasible(mechanism, plan.infeasible))
+    if free := undriven_freedoms(linkage, places):
+        raise ValueError(
+            f"the drive leaves freedoms, so that there are infinitely many closed poses: give {listed(free)} too"
+        )
+    given = {name: float(np.asarray(entry.values)[0]) for name, entry in driven.items()}
+    # the pose itself needs no solver, which takes seconds to compile
+    reached = mechanism.sweep(ranges, options=options) if any(given.values()) else None
+    is_reached = reached is None or bool(reached.closed[0])
+    max_residual = options.tolerance or default_tolerance(dtypes.canonicalize_dtype(float))
+    starts, searched = Starts(int(tries), int(seed), options), []
+    for element in plan.elements:
+        number = linkage.structure.loop_groups.index(element.loop_group)
+        loops = ClosedLoops(linkage.joints, linkage.structure, element.loop_group, linkage.couplings)
+        features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(element.inputs))
+        if reached is None:
+            home = np.zeros(len(element.columns)), loops.travel(np.zeros(len(loops.columns))).gap
+        else:
+            there = [float(reached.displacements[joint][0, k]) for joint, k in element.columns]
+            home = np.array(there), float(reached.residual[0])
+        inputs = np.array([list(given.values())[k] for k in element.inputs])
+        searched.append(find_modes(element, features, inputs, home if is_reached else None, starts, max_residual))
+    return _combined(mechanism, given, plan.elements, searched, starts, is_reached)
+
+
+def _ranges(drive: Mapping[str, float]) -> dict[str, np.ndarray]:
+    """Make ranges of one pose of the numbers of a drive."""
+    ranges = {}
+    for name, value in by_name(drive, "inputs", "{'A': 0.3}").items():
+        if not isinstance(name, str) or np.shape(value) != ():
+            raise ValueError(f"inputs are one number for each coordinate, as in {{'A': 0.3}}, got {name!r}: {value!r}")
+        ranges[name] = np.reshape(value, 1)
+    return ranges
+
+
+def _combined(
+    mechanism: Mechanism,
+    given: Mapping[str, float],
+    elements: Sequence[DrivenElement],
+    searched: Sequence[FoundPoses],
+    starts: Starts,
+    assembled: bool,
+) -> AssemblyModes:
+    """Combine the poses of all structure elements, which do not depend on each other, each with each.
+
+    The first is on the branch of the assembled pose if `assembled`.
+    """
+    count = math.prod(len(found.displacements) for found in searched)
+    if count > MAX_MODES:
+        raise ValueError(f"{count} assembly modes are more than the {MAX_MODES} that are listed")
+    which = list(product(*(range(len(found.displacements)) for found in searched)))
+    joints = mechanism.all_joints
+    rows = [np.zeros((len(which), joint.freedoms)) for joint in joints]
+    for name, value in given.items():
+        joint, k = coordinate(mechanism.linkage, name)
+        rows[joint][:, k] = value
+    residual, signs = np.zeros(len(which)), [""] * len(which)
+    for number, (element, found) in enumerate(zip(elements, searched, strict=True)):
+        chosen = [choice[number] for choice in which]
+        for column, (joint, k) in enumerate(element.columns):
+            rows[joint][:, k] = found.displacements[chosen, column]
+        residual = np.hypot(residual, found.residual[chosen])
+        signs = [one + found.signs[k] for one, k in zip(signs, chosen, strict=True)]
+    status = np.full(len(which), Status.JUMPED.value, np.int32)
+    if assembled:
+        status[:1] = Status.CLOSED.value
+    wrap_angles(mechanism, rows, set(given), int(assembled))
+    motion = Motion(
+        mechanism,
+        {name: jnp.full(len(which), value, float) for name, value in given.items()},
+        tuple(jnp.asarray(row, float) for row in rows),
+        jnp.asarray(status),
+        jnp.asarray(residual, float),
+        options=starts.options,
+    )
+    complete = all(found.by_formulas for found in searched)
+    counts = [found.counts if not found.by_formulas else None for found in searched]
+    lists = (
+        [min(int(own[k]) for own, k in zip(counts, choice, strict=True) if own is not None) for choice in which]
+        if not complete
+        else []
+    )
+    return AssemblyModes(given, motion, tuple(signs), tuple(lists), complete, 0 if complete else starts.tries)

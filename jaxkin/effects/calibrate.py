@@ -1,0 +1,192 @@
+"""Calibration: lengths and places of joints from measured poses, by least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float
+
+from jaxkin._names import by_name
+from jaxkin._traced import traced
+from jaxkin.effects.calibration_data import Data, Kind, data_of
+from jaxkin.effects.calibration_result import Calibration
+from jaxkin.effects.calibration_unknowns import Unknowns, nominal_values, unknowns_of
+from jaxkin.effects.rank_deficient_fit import Fit, fit, readable, told
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.solve.options import SolverOptions, options_with
+
+SMALL = 1e-6
+"""Change of each unknown alone, over the size of the mechanism or in radians, to see whether the loops still close."""
+PART_OF = 1e-6
+"""An unknown takes part in a direction that the data do not tell where its share of it is larger than this."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """What is fitted to what: static to JAX."""
+
+    unknowns: Unknowns
+    kinds: tuple[Kind, ...]
+    driven: tuple[Any, ...]
+    """Keys of the drive."""
+    options: SolverOptions
+
+
+def calibrate(
+    mechanism: Mechanism,
+    drive: Mapping[Any, object],
+    measured: Mapping[Any, Any],
+    *,
+    lengths: Sequence[Any] = (),
+    frames: Sequence[Any] | Mapping[Any, Any] = (),
+    markers: Sequence[Any] = (),
+    sigma: Any = None,
+    iterations: int = 50,
+    options: SolverOptions | None = None,
+) -> Calibration:
+    """Fit lengths and places of joints to measured poses, and tell how sure they are and what the data do not tell.
+
+    `drive` gives the displacements of the inputs in the measured poses, as in `mechanism.sweep`; they are taken as
+    exact. `measured` maps to values, one a pose and NaN where there is none: "joint" or "joint.coordinate" to
+    displacements from the assembled pose; `jk.point(part, at)` to places (poses, 3); `jk.pose(part)` to displacements
+    (poses, 4, 4) and `jk.orientation(part)` to rotations (poses, 3, 3) from the assembled pose; in world coordinates.
+
+    Unknown are `lengths`, keys of `mechanism.lengths`; `frames`, joints or (part, joint), as in `with_frames`; and
+    `markers`, those of the measured points whose place on the part is unknown too. A frame changes by x, y, z and
+    the rotation vector rx, ry, rz along the axes of the world, in a planar mechanism by x, y, rz only (where its normal
+    is not the z axis of the world, along two axes in the plane); a mapping says which: `{("crank", "A"): ("rz",)}` is
+    the zero of the joint.
+
+    `sigma` is the standard deviation of the measured numbers, one for all, or one for each key (of a pose two: lengths,
+    angles). It weighs them and makes the covariance; without it, all numbers must be lengths or all angles, and their
+    deviation is estimated from the residuals. The covariance is of first order: (J^T J)^-1 with the weighted Jacobian.
+
+    The fit takes steps of least norm from the given mechanism, so that it finds the solution near it; one that does
+    not close at a measured pose is no step. Combinations of unknowns that change nothing measured stay as they are, and
+    are named. Raises ValueError for names and shapes that do not fit, a given mechanism that does not close at all
+    measured poses, unknowns that the loops have no room for, data that tell none of the unknowns, and for traced
+    numbers.
+    """
+    driven = by_name(drive, "driven displacements", "{'A': angles}")
+    if traced(mechanism, tuple(driven.values()), tuple(by_name(measured, "measurements", "{'D': angles}").values())):
+        raise ValueError("calibrate is for numbers: call it outside of jit, vmap and grad")
+    motion = mechanism.sweep(driven, options=options)
+    _check_start(motion.on_branch)
+    data = data_of(mechanism, measured, sigma, len(motion))
+    unknowns, axes = unknowns_of(mechanism, lengths, frames, markers, measured)
+    model = Model(unknowns, data.kinds, tuple(driven), options_with(options))
+    inputs = tuple(np.asarray(values, float) for values in driven.values())
+    nominal = nominal_values(mechanism, unknowns)
+    scales = np.where(unknowns.are_angles(mechanism.linkage), 1.0, _size(mechanism))
+
+    def evaluate(scaled: Float[np.ndarray, " unknowns"]):
+        changes = scales * scaled
+        rows, slopes, reached = jax.device_get(
+            _residuals(model, mechanism, inputs, data.values, data.weights, nominal, tuple(axes), changes)
+        )
+        valid = bool(np.all(reached) and np.isfinite(rows).all() and np.isfinite(slopes).all())
+        return rows, slopes * scales, valid
+
+    for number, name in enumerate(unknowns.names):
+        if not evaluate(SMALL * np.eye(len(nominal))[number])[2]:
+            raise ValueError(
+                f"the loops do not close where {name!r} changes a little: an overconstrained mechanism has no room for "
+                "it; leave it out, or give lengths that keep the mechanism what it is"
+            )
+    return _result(
+        mechanism, model, data, nominal, axes, scales, fit(evaluate, np.zeros(len(nominal)), iterations), sigma
+    )
+
+
+@partial(jax.jit, static_argnums=0)
+def _residuals(model: Model, mechanism: Mechanism, inputs, values, weights, nominal, axes, changes):
+    """Weighted residuals, their derivatives by the changes of the unknowns, and which poses are on the branch."""
+
+    def rows(numbers: Float[Array, " unknowns"]):
+        found, markers = model.unknowns.applied(mechanism, nominal, axes, numbers)
+        motion = found.sweep(dict(zip(model.driven, inputs, strict=True)), options=model.options)
+        off = [
+            (weight * kind.residual(motion, value, markers)).ravel()
+            for kind, value, weight in zip(model.kinds, values, weights, strict=True)
+        ]
+        return jnp.concatenate(off), motion.on_branch
+
+    def twice(numbers: Float[Array, " unknowns"]):
+        found, reached = rows(numbers)
+        return found, (found, reached)
+
+    slopes, (found, reached) = jax.jacfwd(twice, has_aux=True)(changes)
+    return found, slopes, reached
+
+
+def _result(
+    mechanism: Mechanism,
+    model: Model,
+    data: Data,
+    nominal: Float[np.ndarray, " unknowns"],
+    axes: Sequence[Any],
+    scales: Float[np.ndarray, " unknowns"],
+    found: Fit,
+    sigma: Any,
+) -> Calibration:
+    """Covariance and directions that are not told, from the Jacobian at the end of the fit."""
+    singular, directions, rest = told(found.jacobian)
+    if not len(singular):
+        raise ValueError("the measured values do not depend on any of the unknowns: they tell nothing about them")
+    changes = scales * found.unknowns
+    fitted, _ = model.unknowns.applied(mechanism, nominal, axes, changes)
+    freedom = data.count - len(singular)
+    square = float(found.residuals @ found.residuals)
+    deviation = float(np.sqrt(square / freedom)) if freedom > 0 else np.nan
+    scaled = (directions / singular[:, None]).T
+    covariance = scales[:, None] * (scaled @ scaled.T) * scales * (deviation**2 if sigma is None else 1.0)
+    lost = np.linalg.norm(rest, axis=0) > PART_OF
+    covariance[lost] = covariance[:, lost] = np.nan
+    names = model.unknowns.names
+    residuals, first = {}, 0
+    for kind, weights in zip(data.kinds, data.weights, strict=True):
+        rows = found.residuals[first : first + weights.size].reshape(weights.shape)
+        first += weights.size
+        residuals[kind.name] = np.where(weights > 0, rows / np.where(weights > 0, weights, 1.0), np.nan)
+    return Calibration(
+        mechanism=fitted,
+        names=names,
+        given=nominal,
+        values=np.where(lost, np.nan, nominal + changes),
+        covariance=covariance,
+        undetermined=tuple(_named(names, row) for row in readable(rest * scales)),
+        residuals=residuals,
+        deviation=deviation,
+        degrees_of_freedom=freedom,
+        condition=float(singular[0] / singular[-1]),
+        iterations=found.iterations,
+        converged=found.converged,
+        unit=mechanism.unit,
+    )
+
+
+def _named(names: Sequence[str], row: Float[np.ndarray, " unknowns"]) -> dict[str, float]:
+    """The unknowns that take part in a direction, and by how much."""
+    most = np.abs(row).max()
+    return {name: float(each) for name, each in zip(names, row, strict=True) if abs(each) > PART_OF * most}
+
+
+def _check_start(reached: Bool[Array, " poses"]) -> None:
+    lost = np.flatnonzero(~np.asarray(reached))
+    if len(lost):
+        raise ValueError(
+            f"the given mechanism does not close at {len(lost)} of {len(reached)} measured poses, first at pose "
+            f"{lost[0]}: start from lengths with which it does, or leave these poses out"
+        )
+
+
+def _size(mechanism: Mechanism) -> float:
+    """Largest extent of the joints, in the unit of the mechanism."""
+    origins = np.concatenate([np.asarray(joint.frames_1, float)[:, :3, 3] for joint in mechanism.all_joints])
+    return float(np.ptp(origins, axis=0).max()) or 1.0

@@ -1,0 +1,171 @@
+"""Measurements of a mechanism, and how far a motion is from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin._names import by_name, nearest
+from jaxkin.geometry.movements import is_length
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.targets import Target
+
+SHAPES = {"pose": (4, 4), "point": (3,), "orientation": (3, 3)}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """One measured quantity. Static to JAX."""
+
+    key: Any
+    """As it was given: "joint", "joint.coordinate", or a target."""
+    name: str
+    lengths: tuple[bool, ...]
+    """For each number of its residual whether it is a length; it is an angle otherwise."""
+    column: int = -1
+    """Of a coordinate: the joint."""
+    index: int = -1
+    """Of a coordinate: which of its joint."""
+
+    def residual(self, motion: Motion, measured: Array, markers: Mapping[Target, Any]) -> Float[Array, "poses _"]:
+        """How far the motion is from the measured values: computed less measured, radians and lengths.
+
+        Angles differ by less than half a turn. Of rotations it is the rotation vector, sin(angle) long; the translation
+        of a pose is that of the middle of the joints of its part.
+        """
+        if not isinstance(self.key, Target):
+            off = motion.displacements[self.column][:, self.index] - measured
+            return (off if self.lengths[0] else off - 2 * jnp.pi * jnp.round(off / (2 * jnp.pi)))[:, None]
+        if self.key.kind == "point":
+            return motion.points(self.key.part, markers.get(self.key, self.key.at)) - measured
+        place = motion.transforms[self.key.part]
+        error = place[:, :3, :3] @ jnp.swapaxes(measured[:, :3, :3], 1, 2)
+        turn = 0.5 * jnp.stack(
+            [error[:, 2, 1] - error[:, 1, 2], error[:, 0, 2] - error[:, 2, 0], error[:, 1, 0] - error[:, 0, 1]], axis=1
+        )
+        if self.key.kind == "orientation":
+            return turn
+        held = [joint for joint in motion.mechanism.all_joints if self.key.part in joint.parts]
+        middle = jnp.mean(jnp.stack([jnp.asarray(joint.frames_1)[0, :3, 3] for joint in held]), axis=0)
+        off = place - measured
+        return jnp.concatenate([off[:, :3, :3] @ middle + off[:, :3, 3], turn], axis=1)
+
+
+@dataclass(frozen=True)
+class Data:
+    """All measurements as numbers."""
+
+    kinds: tuple[Kind, ...]
+    values: tuple[Float[np.ndarray, "poses *shape"], ...]
+    """Measured values, NaN replaced."""
+    weights: tuple[Float[np.ndarray, "poses _"], ...]
+    """One over the standard deviation of each number of the residuals; zero where nothing was measured."""
+
+    @property
+    def count(self) -> int:
+        """How many numbers were measured."""
+        return sum(int(np.count_nonzero(weights)) for weights in self.weights)
+
+
+def data_of(mechanism: Mechanism, measured: Any, sigma: Any, poses: int) -> Data:
+    """Check measurements and their standard deviations; ValueError for what does not fit the mechanism or the drive."""
+    given = by_name(measured, "measurements", "{'D': angles, jk.point('coupler', (1, 0, 0)): places}")
+    if not given:
+        raise ValueError("nothing was measured: give coordinates of joints, jk.point, jk.pose or jk.orientation")
+    kinds, values, weights = [], [], []
+    for key, numbers in given.items():
+        kind = _kind(mechanism, key)
+        array = _array(kind, numbers, poses)
+        known = np.asarray(np.isfinite(array))
+        if isinstance(key, Target) and key.kind != "point":
+            known = np.asarray(known.all(axis=(1, 2)))
+            _check_rigid(kind, array[known])
+            array = np.where(known[:, None, None], array, np.eye(array.shape[-1]))
+        else:
+            array = np.where(known, array, 0.0)
+        kinds.append(kind)
+        values.append(array)
+        weights.append(np.broadcast_to(known.reshape(poses, -1), (poses, len(kind.lengths))).astype(float))
+    deviations = _deviations(kinds, sigma)
+    scaled = tuple(known / row for known, row in zip(weights, deviations, strict=True))
+    return Data(tuple(kinds), tuple(values), scaled)
+
+
+def _kind(mechanism: Mechanism, key: Any) -> Kind:
+    if not isinstance(key, Target):
+        column, index = coordinate(mechanism.linkage, key)
+        return Kind(key, key, (is_length(mechanism.all_joints[column].coordinates[index]),), column, index)
+    if key.part not in mechanism.parts:
+        raise ValueError(f"{key.joint}: there is no part {key.part!r}{nearest(key.part, mechanism.parts)}")
+    if key.part in mechanism.fixed:
+        raise ValueError(f"{key.joint}: the part {key.part!r} is fixed, and tells nothing")
+    return Kind(key, key.joint, {"pose": (True,) * 3 + (False,) * 3, "point": (True,) * 3}.get(key.kind, (False,) * 3))
+
+
+def _array(kind: Kind, numbers: Any, poses: int) -> np.ndarray:
+    shape = (poses, *SHAPES[kind.key.kind]) if isinstance(kind.key, Target) else (poses,)
+    try:
+        array = np.asarray(numbers, float)
+    except (TypeError, ValueError):
+        raise ValueError(f"{kind.name}: the measured values must be real numbers, got {numbers!r}") from None
+    if array.shape != shape:
+        raise ValueError(
+            f"{kind.name}: expected measured values of shape {shape}, one a pose of the drive (NaN where there is "
+            f"none), got shape {array.shape}"
+        )
+    return array
+
+
+def _check_rigid(kind: Kind, array: np.ndarray) -> None:
+    """Raise ValueError for rotations that are none to three digits: measured ones are rounded."""
+    turn = array[:, :3, :3]
+    off = np.abs(turn @ turn.swapaxes(1, 2) - np.eye(3)).max(initial=0.0)
+    if off > 1e-3 or (np.linalg.det(turn) < 0).any():
+        raise ValueError(f"{kind.name}: the measured rotations must be orthonormal and right-handed, off by {off:.2g}")
+
+
+def _deviations(kinds: list[Kind], sigma: Any) -> list[np.ndarray]:
+    """The standard deviation of each number of the residuals; ones where they are not given, and all of one unit."""
+    alike = len({length for kind in kinds for length in kind.lengths}) == 1
+    if sigma is None or not isinstance(sigma, Mapping):
+        if not alike:
+            raise ValueError(
+                "lengths and angles were measured: say how exact either is, as sigma={jk.pose('platform'): (0.01, "
+                "1e-4), 'D': 1e-4}, a standard deviation for each key, of poses one of lengths and one of angles"
+            )
+        return [np.full(len(kind.lengths), 1.0 if sigma is None else _positive("sigma", sigma)) for kind in kinds]
+    for key in sigma:
+        if key not in [kind.key for kind in kinds]:
+            raise ValueError(
+                f"sigma names {key!r}, which was not measured{nearest(str(key), [kind.name for kind in kinds])}"
+            )
+    found = []
+    for kind in kinds:
+        if kind.key not in sigma:
+            raise ValueError(f"sigma has no standard deviation of {kind.name}")
+        given = sigma[kind.key]
+        if len(set(kind.lengths)) > 1:
+            if not isinstance(given, tuple | list) or len(given) != 2:
+                raise ValueError(f"sigma of {kind.name} must be two numbers (length, angle), got {given!r}")
+            each = [_positive(f"sigma of {kind.name}", number) for number in given]
+            found.append(np.where(kind.lengths, *each))
+        else:
+            found.append(np.full(len(kind.lengths), _positive(f"sigma of {kind.name}", given)))
+    return found
+
+
+def _positive(what: str, given: Any) -> float:
+    try:
+        number = float(given)
+        if not (np.isfinite(number) and number > 0):
+            raise ValueError
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} must be a positive number, a standard deviation, got {given!r}") from None
+    return number

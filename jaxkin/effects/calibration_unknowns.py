@@ -1,0 +1,201 @@
+"""What a calibration may change: lengths, places of joint frames, and places of measured points on their parts.
+
+An unknown is counted from what was given: its change is zero there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin._names import nearest
+from jaxkin._traced import traced
+from jaxkin.dimensions.frames import locate
+from jaxkin.dimensions.lengths import find_length, length_now
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import frame
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.targets import Target
+
+COMPONENTS = ("x", "y", "z", "rx", "ry", "rz")
+"""Changes of a frame: translations along, and turns about, three axes."""
+IN_PLANE = ("x", "y", "rz")
+"""Those that leave a planar mechanism planar, the z axis along the normal."""
+WORLD_AXIS = 1e-9
+"""Sine of the angle within which the normal of a plane counts as an axis of the world."""
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """The unknowns, one after another: lengths, components of frames, points. Static to JAX."""
+
+    lengths: tuple[Any, ...]
+    frames: tuple[tuple[Any, int, tuple[str, ...], tuple[int, ...]], ...]
+    """For each place of a frame the column of the joint, the sides and the components that may change."""
+    markers: tuple[Target, ...]
+    """Measured points whose place on the part is unknown: three numbers each."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """A name for each unknown."""
+        found = [written(key) for key in self.lengths]
+        found += [f"{COMPONENTS[k]} of {written(place)}" for place, _, _, parts in self.frames for k in parts]
+        return (*found, *(f"{axis} of {marker.joint}" for marker in self.markers for axis in "xyz"))
+
+    def are_angles(self, linkage: Linkage) -> tuple[bool, ...]:
+        """Tell which unknowns are angles; all others are lengths."""
+        found = [find_length(linkage, key).quantity == "angle" for key in self.lengths]
+        found += [k > 2 for *_, parts in self.frames for k in parts]
+        return (*found, *[False] * (3 * len(self.markers)))
+
+    def applied(
+        self, mechanism: Mechanism, nominal: Any, axes: Sequence[Any], changes: Any
+    ) -> tuple[Mechanism, dict[Target, Any]]:
+        """Change a mechanism, and say where the markers are on their parts then.
+
+        `nominal` are the lengths as given, `axes` (3, 3) the directions of x, y, z of each frame, as rows.
+        """
+        count = len(self.lengths)
+        if count:
+            new = {
+                key: now + change
+                for key, now, change in zip(self.lengths, nominal[:count], changes[:count], strict=True)
+            }
+            mechanism = mechanism.with_lengths(new)
+        xp = jnp if traced(mechanism, changes) else np
+        joints: list[Joint] = list(mechanism.all_joints)
+        for (_, column, sides, parts), rows in zip(self.frames, axes, strict=True):
+            here = [xp.zeros(())] * 6
+            for number, part in enumerate(parts):
+                here[part] = changes[count + number]
+            count += len(parts)
+            shift, turn = (xp.stack(each) @ xp.asarray(rows) for each in (here[:3], here[3:]))
+            for side in sides:
+                frames = list(getattr(joints[column], side))
+                end = 0 if side == "frames_1" else -1
+                frames[end] = _moved(xp, xp.asarray(frames[end]), shift, turn)
+                stacked = xp.stack(frames)
+                given = joints[column]
+                joints[column] = (
+                    replace(given, frames_1=stacked) if side == "frames_1" else replace(given, frames_2=stacked)
+                )
+        if self.frames:
+            mechanism = mechanism.with_linkage(mechanism.linkage.with_joints(joints))
+        markers = {}
+        for marker in self.markers:
+            markers[marker] = xp.asarray(marker.at) + changes[count : count + 3]
+            count += 3
+        return mechanism, markers
+
+
+def unknowns_of(
+    mechanism: Mechanism, lengths: Any, frames: Any, markers: Any, measured: Mapping[Any, Any]
+) -> tuple[Unknowns, list[Float[np.ndarray, "3 3"]]]:
+    """Check the unknowns that were asked for, and find the axes of each frame; ValueError for what is not there."""
+    if isinstance(lengths, str) or (isinstance(lengths, tuple) and lengths and isinstance(lengths[0], str)):
+        raise ValueError(f"lengths must be a list of keys of mechanism.lengths, as [{lengths!r}], got {lengths!r}")
+    keys = list(lengths)
+    for key in keys:
+        find_length(mechanism.linkage, key)
+    if len(set(keys)) < len(keys):
+        raise ValueError("lengths names one of them twice")
+    if isinstance(frames, str):
+        raise ValueError(f"frames must be a list of joints and (part, joint), as [{frames!r}], got {frames!r}")
+    places = frames if isinstance(frames, Mapping) else dict.fromkeys(frames)
+    found, axes = [], []
+    for place, components in places.items():
+        column, side = locate(mechanism.linkage, place)
+        joint = mechanism.all_joints[column]
+        if side is None and len(joint.movements) > 1:
+            raise ValueError(f"frames: {place!r} has several frames: say on which part, as {(joint.parts[0], place)!r}")
+        normal = _normal(mechanism.linkage, column)
+        known = COMPONENTS if normal is None else IN_PLANE
+        rows = np.eye(3) if normal is None or _is_z(normal) else frame(np.zeros(3), normal)[:3, :3].T
+        found.append(
+            (
+                place,
+                column,
+                ("frames_1", "frames_2") if side is None else (side,),
+                _components(place, components, known),
+            )
+        )
+        axes.append(rows)
+    if isinstance(markers, Target):
+        raise ValueError(f"markers must be a list of measured points, as [{markers!r}], got {markers!r}")
+    for marker in markers:
+        if not isinstance(marker, Target) or marker.kind != "point" or marker not in measured:
+            points = ", ".join(key.joint for key in measured if isinstance(key, Target) and key.kind == "point")
+            raise ValueError(f"markers must be points that were measured ({points or 'there is none'}), got {marker!r}")
+    unknowns = Unknowns(tuple(keys), tuple(found), tuple(markers))
+    if not unknowns.names:
+        raise ValueError("nothing to calibrate: name lengths, frames or markers")
+    return unknowns, axes
+
+
+def nominal_values(mechanism: Mechanism, unknowns: Unknowns) -> Float[np.ndarray, " unknowns"]:
+    """What the unknowns are counted from: lengths and markers as given, zeros for frames."""
+    lengths = [float(length_now(mechanism.linkage, key)) for key in unknowns.lengths]
+    zeros = [0.0 for *_, parts in unknowns.frames for _ in parts]
+    return np.array([*lengths, *zeros, *(x for marker in unknowns.markers for x in marker.at or ())])
+
+
+def written(key: Any) -> str:
+    """Write a key without quotation marks."""
+    return key if isinstance(key, str) else " ".join(map(str, key))
+
+
+def _components(place: Any, asked: Any, known: Sequence[str]) -> tuple[int, ...]:
+    chosen = known if asked is None else asked
+    if isinstance(chosen, str):
+        chosen = (chosen,)
+    for name in chosen:
+        if name not in known:
+            planar = " (it moves in a plane, z along its normal)" if tuple(known) == IN_PLANE else ""
+            raise ValueError(
+                f"frames: {place!r} can change by {', '.join(known)}{planar}, got {name!r}{nearest(str(name), known)}"
+            )
+    return tuple(COMPONENTS.index(name) for name in dict.fromkeys(chosen))
+
+
+def _normal(linkage: Linkage, column: int) -> Float[np.ndarray, "3"] | None:
+    """The normal of the plane in which the loops of a joint move; None where it is in no loop, or none is planar."""
+    for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
+        if column not in group.joints or found.plane is None:
+            continue
+        for number in group.joints:
+            joint = linkage.solved_joints[number]
+            for place, name in enumerate(joint.movements):
+                for element in MOVEMENTS[name].elements:
+                    if element.kind == "rotate":
+                        return np.asarray(joint.frames_1, float)[place][:3, element.axis]
+    return None
+
+
+def _is_z(normal: Float[np.ndarray, "3"]) -> bool:
+    return bool(np.hypot(normal[0], normal[1]) < WORLD_AXIS)
+
+
+def _moved(xp: Any, pose: Any, shift: Any, turn: Any) -> Any:
+    """Shift a frame, and turn it about its origin by a rotation vector (Rodrigues), in world axes."""
+    square = turn @ turn
+    small = square < 1e-12  # series there: the root has no derivative at zero
+    angle = xp.sqrt(xp.where(small, 1.0, square))
+    first = xp.where(small, 1.0 - square / 6.0, xp.sin(angle) / angle)
+    second = xp.where(small, 0.5 - square / 24.0, (1.0 - xp.cos(angle)) / angle**2)
+    x, y, z = turn
+    zero = xp.zeros(())
+    cross = xp.stack([xp.stack([zero, -z, y]), xp.stack([z, zero, -x]), xp.stack([-y, x, zero])])
+    rotation = (xp.eye(3) + first * cross + second * (cross @ cross)) @ pose[:3, :3]
+    origin = pose[:3, 3] + shift
+    return xp.concatenate([xp.concatenate([rotation, origin[:, None]], axis=1), pose[3:]])
+
+
+Numbers = Float[Array, " unknowns"] | Float[np.ndarray, " unknowns"]
+"""Changes of the unknowns: radians, and lengths in the unit of the mechanism."""

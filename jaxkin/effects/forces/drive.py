@@ -1,0 +1,132 @@
+"""Forces and torques that a drive needs, by virtual work along the derivatives of the sweep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin.effects.forces.changes import Changes, changes
+from jaxkin.effects.forces.given import Applied
+from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed, units_of
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.mechanism.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class DriveForces:
+    """The force or torque of each driven coordinate in each pose. A pytree; NaN at poses that are not CLOSED.
+
+    Positive along the coordinate: it acts on part 2 of the joint, and its opposite on part 1.
+    """
+
+    motion: Motion
+    forces: dict[str, Float[Array, " poses"]]
+    """By "joint.coordinate": newton metres of an angle, newtons of a length."""
+    powers: dict[str, Float[Array, " poses"]]
+    """Power that each drive delivers, watts; zero at rest."""
+
+    @property
+    def power(self) -> Float[Array, " poses"]:
+        """Power that all drives deliver together, watts."""
+        return sum(self.powers.values(), jnp.zeros(len(self.motion)))
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of the force of each coordinate."""
+        return {name: units_of(self.motion, name)[0] for name in self.forces}
+
+    def __str__(self) -> str:
+        closed = int(np.sum(self.motion.closed))
+        lines = [f"Drive forces in {closed} closed poses of {len(self.motion)}"]
+        width = max(map(len, self.forces))
+        for name, values in self.forces.items():
+            lines.append(f"  {name:<{width}}  {_range(np.asarray(values), self.units[name])}")
+        power = np.asarray(self.power)
+        if np.any(np.nan_to_num(power)):
+            lines.append(f"  {'power':<{width}}  {_range(power, 'W')}")
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the forces over the poses into a picture file; returns its path."""
+        names = [f"{name} ({self.units[name]})" for name in self.forces]
+        label = " or ".join(
+            {"N m": "torque (N m)", "N": "force (N)"}[unit] for unit in dict.fromkeys(self.units.values())
+        )
+        return draw_lines(names, self._rows(), label, "drive forces", Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write forces and power as comma-separated values, one row a pose; returns the path."""
+        names = [f"{name} [{self.units[name]}]" for name in self.forces]
+        return save_rows([*names, "power [W]"], np.vstack([self._rows(), np.asarray(self.power)]), Path(path))
+
+    def _rows(self) -> np.ndarray:
+        return np.stack([np.asarray(values, float) for values in self.forces.values()])
+
+
+jax.tree_util.register_dataclass(DriveForces, data_fields=["motion", "forces", "powers"], meta_fields=[])
+
+
+def _range(values: np.ndarray, unit: str) -> str:
+    """Least, largest and root mean square of the numbers among values."""
+    if not np.isfinite(values).any():
+        return "unknown"
+    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    mean = np.sqrt(np.nanmean(values**2))
+    return (
+        f"from {values[low]:.4g} {unit} at pose {low} to {values[high]:.4g} {unit} at pose {high}, "
+        f"root mean square {mean:.4g} {unit}"
+    )
+
+
+def drive_forces(
+    motion: Motion,
+    masses: Masses | None = None,
+    *,
+    gravity: Any = STANDARD_GRAVITY,
+    applied: Sequence[Applied] | Applied = (),
+    rates: Mapping[str, Any] | None = None,
+    accelerations: Mapping[str, Any] | None = None,
+) -> DriveForces:
+    """Find the force or torque in each driven coordinate that holds a mechanism, or moves it as prescribed.
+
+    At rest without `rates`: along a small change of a driven coordinate its force does the work that all that acts does
+    not, Q_i = -sum over parts of C . dT/du_i. With `rates` and `accelerations` of the driven displacements (none: zero)
+    as in `jk.accelerations`, the inertia of the parts and dampers act too.
+
+    `masses` are those of `jk.masses`, None for parts without mass; `gravity` is in m/s^2, world axes; `applied` are
+    made by `jk.force`, `jk.torque`, `jk.spring`, `jk.joint_spring` and `jk.joint_load`. Joints are without friction.
+    Freedoms without a drive move as the sweep moves them: the forces are right where nothing does work along them.
+
+    Works inside `jit`, `vmap` and `grad`. Poses that are not CLOSED are NaN. Raises ValueError where nothing acts, for
+    parts and coordinates that are not there, and for masses of another mechanism.
+    """
+    acting = Acting(masses, gravity, applied, rates, accelerations)
+    check(motion, acting)
+    moving = changes(motion, rates, accelerations)
+    found = loads(motion, acting, moving)
+    forces, powers = {}, {}
+    for name in motion.inputs:
+        force = -_work_along(motion, found, moving, name)
+        power = force * moving.inputs[name] if moving.inputs else jnp.zeros_like(force)
+        forces[name] = nan_unless_closed(motion, force / units_of(motion, name)[1])
+        powers[name] = nan_unless_closed(motion, power)
+    return DriveForces(motion, forces, powers)
+
+
+def _work_along(motion: Motion, found: Loads, moving: Changes, name: str) -> Float[Array, " poses"]:
+    """The work of all loads along a driven coordinate: joules per radian, or per unit of the mechanism."""
+    change = moving.along[name]
+    work = jnp.sum(found.works * change.transforms, axis=(1, 2, 3))
+    for (joint, index), load in found.joints.items():
+        own = motion.mechanism.all_joints[joint]
+        metre = units_of(motion, f"{own.name}.{own.coordinates[index]}")[1]
+        work = work + metre * load * change.displacements[joint][:, index]
+    return work

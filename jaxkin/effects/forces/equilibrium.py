@@ -1,0 +1,149 @@
+"""Poses in which a mechanism stands without a drive: where the drive force vanishes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin._traced import traced
+from jaxkin.effects.forces.drive import drive_forces
+from jaxkin.effects.forces.given import Applied
+from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, units_of
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
+
+Inputs = Float[np.ndarray, " poses"]
+
+MAX_STEPS = 60
+"""Steps that refine a sign change: halving alone gains a digit in three."""
+WITHIN = 1e-12
+"""Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough."""
+POLE = 1e-6
+"""Drive force at a refined sign change over the larger one beside it, above which it is no equilibrium but a pole: at a
+dead point the force changes its sign through infinity."""
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibrium:
+    """Where a drive is not needed within its range. Prints, draws and saves itself."""
+
+    name: str
+    """The driven coordinate."""
+    values: Float[np.ndarray, " equilibria"]
+    """Its displacements in equilibrium, rising: radians, or the unit of the mechanism."""
+    stable: Bool[np.ndarray, " equilibria"]
+    """Whether the mechanism comes back from beside it: the drive force grows with the displacement."""
+    motion: Motion
+    """The poses in equilibrium."""
+    inputs: Inputs
+    """The range that was searched, rising."""
+    forces: Float[np.ndarray, " poses"]
+    """Drive forces there, newton metres or newtons; NaN at poses that are not CLOSED."""
+
+    def __str__(self) -> str:
+        poses = f"{self.inputs[0]:.4g} to {self.inputs[-1]:.4g}"
+        if not len(self.values):
+            return f"No equilibrium of {self.name} from {poses}"
+        lines = [f"{len(self.values)} equilibria of {self.name} from {poses}"]
+        lines += [
+            f"  {value:.9g}, {'stable' if stable else 'unstable'}"
+            for value, stable in zip(self.values, self.stable, strict=True)
+        ]
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the drive force over the displacement, with the equilibria, into a picture file; returns its path."""
+        label = f"drive force ({units_of(self.motion, self.name)[0]})"
+        marks = [(float(value), "o" if stable else "x") for value, stable in zip(self.values, self.stable, strict=True)]
+        title = "equilibria: o stable, x unstable" if marks else "no equilibrium"
+        return draw_lines(
+            [self.name], self.forces[None], label, title, Path(path), at=self.inputs, along=self.name, marks=marks
+        )
+
+    def save(self, path: str | Path) -> Path:
+        """Write the equilibria as comma-separated values, one row each; returns the path."""
+        return save_rows([self.name, "stable"], np.stack([self.values, self.stable.astype(float)]), Path(path))
+
+
+def equilibrium(
+    mechanism: Mechanism,
+    drive: Mapping[Any, Any],
+    masses: Masses | None = None,
+    *,
+    gravity: Any = STANDARD_GRAVITY,
+    applied: Sequence[Applied] | Applied = (),
+) -> Equilibrium:
+    """Find the displacements of one driven coordinate at which its force vanishes at rest.
+
+    `drive` gives the range to search, `{"A": np.linspace(0, 2 * np.pi, 73)}`: equilibria are told apart by its steps,
+    and refined to 1e-12 of it. Other arguments are those of `jk.drive_forces`, for all poses alike. Poses must follow
+    each other on the branch of the assembled pose; no equilibrium is found between poses that are not CLOSED.
+
+    Raises ValueError for drives of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
+    as `jk.drive_forces`.
+    """
+    if traced(mechanism, dict(drive), masses, applied):
+        raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
+    if len(drive) != 1:
+        raise ValueError(f"an equilibrium is found along one driven coordinate, got {len(drive)}; hold the others")
+    ((key, given),) = drive.items()
+    inputs = np.unique(np.asarray(given, float).ravel())
+    if len(inputs) < 2 or not np.isfinite(inputs).all():
+        raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
+
+    def force(values: Inputs) -> Float[np.ndarray, " poses"]:
+        # all of one length, so that they share a compiled program
+        padded = np.pad(values, (0, max(0, len(inputs) - len(values))), mode="edge")
+        found = drive_forces(mechanism.sweep({key: padded}), masses, gravity=gravity, applied=applied)
+        return np.asarray(next(iter(found.forces.values())), float)[: len(values)]
+
+    forces = force(inputs)
+    at_zero = np.flatnonzero(forces == 0)
+    changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
+    low, high = inputs[changing], inputs[changing + 1]
+    largest = np.maximum(np.abs(forces[changing]), np.abs(forces[changing + 1]))
+    refined, left = _refined(force, low, high, forces[changing], forces[changing + 1], np.ptp(inputs))
+    kept = np.abs(left) <= POLE * largest
+    values = np.concatenate([inputs[at_zero], refined[kept]])
+    step = 1e-6 * np.ptp(inputs)
+    beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
+    growing = beside[len(values) :] > beside[: len(values)]
+    order = np.argsort(values)
+    motion = mechanism.sweep({key: values[order]})
+    name = next(iter(motion.inputs))
+    return Equilibrium(name, values[order], growing[order], motion, inputs, forces)
+
+
+def _refined(
+    force: Callable[[Inputs], Inputs], low: Inputs, high: Inputs, at_low: Inputs, at_high: Inputs, width: float
+) -> tuple[Inputs, Inputs]:
+    """Refine sign changes, all at once: false position with halved ends (Illinois), halving where that is slow.
+
+    Returns the displacements, and the forces there.
+    """
+    low, high, at_low, at_high = (each.copy() for each in (low, high, at_low, at_high))
+    best, left = np.where(np.abs(at_low) < np.abs(at_high), low, high), np.minimum(np.abs(at_low), np.abs(at_high))
+    weights = np.ones((2, len(low)))
+    for step in range(MAX_STEPS):
+        if not len(low) or np.all((high - low <= WITHIN * width) | (left == 0)):
+            break
+        one, other = weights[0] * at_low, weights[1] * at_high
+        middle = (low * other - high * one) / (other - one)
+        middle = np.where((step % 3 == 2) | ~((middle > low) & (middle < high)), (low + high) / 2, middle)
+        if step % 3 != 2 and np.all(np.abs(middle - best) <= WITHIN * width):
+            break
+        here = force(middle)
+        better = np.abs(here) < left
+        best, left = np.where(better, middle, best), np.where(better, np.abs(here), left)
+        below = here * at_low > 0
+        weights = np.where(below, [np.ones_like(low), weights[1] / 2], [weights[0] / 2, np.ones_like(low)])
+        low, at_low = np.where(below, middle, low), np.where(below, here, at_low)
+        high, at_high = np.where(below, high, middle), np.where(below, at_high, here)
+    return best, left

@@ -1,0 +1,274 @@
+"""Mass, centre and inertia of the parts of a mechanism: from their solids, or as they are given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin._names import by_name, closest, match_parts, nearest
+from jaxkin._traced import traced
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.units import METRES
+from jaxkin.mechanism.mechanism import Mechanism
+
+Number = float | int | np.ndarray | Array
+
+DENSITIES = {
+    "steel": 7850.0,
+    "stainless steel": 7900.0,
+    "cast iron": 7200.0,
+    "aluminium": 2700.0,
+    "titanium": 4500.0,
+    "brass": 8500.0,
+    "bronze": 8800.0,
+    "copper": 8960.0,
+    "magnesium": 1800.0,
+    "nylon": 1140.0,
+    "pom": 1410.0,
+    "abs": 1050.0,
+    "pla": 1240.0,
+    "wood": 600.0,
+}
+"""Material -> usual density, kg/m^3, as handbooks round it; a certain alloy may be a few percent off."""
+
+OPEN = 1e-6
+"""Vector sum of the areas of a closed surface over their sum, up to which it counts as closed: rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mass:
+    """The mass of one part, as a user gives it: `jk.Mass(0.3, centre=(10, 0, 0))`.
+
+    What is None is taken from the solid of the part, scaled to this mass; without a solid, a part of no inertia is a
+    point mass.
+    """
+
+    mass: Number
+    """Kilograms."""
+    centre: Sequence[float | int] | np.ndarray | Array | None = None
+    """Centre of mass in the assembled pose, world coordinates, unit of the mechanism."""
+    inertia: Any = None
+    """Inertia about the centre of mass, kg m^2: (3, 3) in world axes of the assembled pose, or one number for all axes
+    (a planar mechanism needs no more)."""
+
+
+jax.tree_util.register_dataclass(Mass, data_fields=["mass", "centre", "inertia"], meta_fields=[])
+
+
+@dataclass(frozen=True, eq=False)
+class Masses:
+    """Mass, centre and inertia of all parts of a mechanism, in their assembled pose. A pytree."""
+
+    parts: tuple[str, ...]
+    """Names of the parts, in the order of `mechanism.parts`; fixed parts have none unless they were given."""
+    mass: Float[Array, " parts"]
+    """Kilograms."""
+    centre: Float[Array, "parts 3"]
+    """Centres of mass, world coordinates, unit of the mechanism."""
+    inertia: Float[Array, "parts 3 3"]
+    """About the centres of mass, world axes, kg m^2."""
+    unit: str = ""
+    """Unit of the lengths."""
+
+    @property
+    def total(self) -> Float[Array, ""]:
+        """Sum of all masses, kilograms."""
+        return jnp.sum(self.mass)
+
+    def second_moments(self) -> Float[Array, "parts 4 4"]:
+        """Compute the integral of p p^T over the mass of each part, p = (x, y, z, 1): kilograms and the unit.
+
+        With it the kinetic energy of a part whose displacement T changes is 1/2 tr(T' J T'^T).
+        """
+        metre = METRES[self.unit]
+        spread = 0.5 * jnp.trace(self.inertia, axis1=1, axis2=2)[:, None, None] * jnp.eye(3) - self.inertia
+        centre = jnp.concatenate([self.centre, jnp.ones((len(self.parts), 1), self.centre.dtype)], axis=1)
+        about = jnp.pad(spread / metre**2, ((0, 0), (0, 1), (0, 1)))
+        return about + self.mass[:, None, None] * centre[:, :, None] * centre[:, None, :]
+
+    def __str__(self) -> str:
+        width = max(map(len, self.parts), default=0)
+        lines = [f"Masses of {len(self.parts)} parts, {float(self.total):.6g} kg in all, centres in {self.unit or 'm'}"]
+        for part, mass, centre, inertia in zip(self.parts, self.mass, self.centre, self.inertia, strict=True):
+            if mass == 0 and not np.any(inertia):
+                lines.append(f"  {part:<{width}}  none")
+                continue
+            at = ", ".join(f"{x:.6g}" for x in np.asarray(centre))
+            own = ", ".join(f"{x:.3g}" for x in np.linalg.eigvalsh(np.asarray(inertia)))
+            lines.append(f"  {part:<{width}}  {float(mass):<9.4g} kg at ({at}), principal inertias {own} kg m^2")
+        return "\n".join(lines)
+
+
+jax.tree_util.register_dataclass(Masses, data_fields=["mass", "centre", "inertia"], meta_fields=["parts", "unit"])
+
+
+def masses(
+    mechanism: Mechanism,
+    density: float | int | str | Array | Mapping[str, Any] | None = None,
+    *,
+    given: Mapping[str, Mass | Number] | None = None,
+) -> Masses:
+    """Find mass, centre and inertia of each part of a mechanism, from its solids or as they are given.
+
+    `density` is in kg/m^3, or the name of a material in `jaxkin.effects.forces.masses.DENSITIES`; a dictionary has one
+    for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its `jk.Mass`, or
+    only its kilograms: it needs no density, and on mechanisms by hand no solid. Fixed parts need no mass.
+
+    Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
+    mass can be found, with what to write; for solids that are open, and for unknown parts and materials.
+    """
+    if not isinstance(mechanism, Mechanism):
+        raise ValueError(f"masses are those of a mechanism, got {type(mechanism).__name__}")
+    known = dict(by_name(given or {}, "given masses", "{'rod': jk.Mass(0.3, centre=(10, 0, 0))}"))
+    for name in known:
+        if name not in mechanism.parts:
+            raise ValueError(f"there is no part {name!r} to give a mass{nearest(str(name), mechanism.parts)}")
+    solids = {part.name: part for part in mechanism.solids}
+    densities = _densities(density, mechanism, tuple(solids.values()))
+    rows, missing = [], []
+    for name in mechanism.parts:
+        if name in known:
+            rows.append(_given(name, known[name], solids.get(name), METRES[mechanism.unit]))
+        elif name in mechanism.fixed:
+            rows.append((0.0, np.zeros(3), np.zeros((3, 3))))
+        elif name in solids and name in densities:
+            rows.append(_of_solid(solids[name], densities[name], METRES[mechanism.unit]))
+        else:
+            missing.append(name)
+    if missing:
+        raise ValueError(_what_is_missing(missing, solids, density))
+    mass, centre, inertia = (
+        jnp.stack([jnp.asarray(each, float) for each in column]) for column in zip(*rows, strict=True)
+    )
+    return Masses(mechanism.parts, mass, centre, inertia, mechanism.unit)
+
+
+def _what_is_missing(missing: Sequence[str], solids: Mapping[str, Part], density: Any) -> str:
+    """Say which parts have no mass, and what to write for the first of them."""
+    names = ", ".join(map(repr, missing))
+    first = missing[0]
+    if first in solids and density is None:
+        return f"no density of {names}: write jk.masses(mechanism, 7850) or jk.masses(mechanism, 'steel')"
+    if first in solids:
+        return f"no density of {names}: write {{{first!r}: 7850}}, or {{'*': 7850}} for all others"
+    return (
+        f"no mass of {names}: a part without a solid needs given={{{first!r}: jk.Mass(0.3, centre=(x, y, z))}}, or "
+        f"given={{{first!r}: 0}} for none"
+    )
+
+
+def _densities(density: Any, mechanism: Mechanism, solids: Sequence[Part]) -> dict[str, Any]:
+    """Density of each part that has one, kg/m^3."""
+    if density is None:
+        return {}
+    if not isinstance(density, Mapping):
+        return dict.fromkeys((part.name for part in solids), _density(density))
+    found: dict[str, Any] = {}
+    # a pattern with "*" gives way to names, and "*" alone to all others
+    for key in sorted(density, key=lambda key: ("*" not in str(key), len(str(key)))):
+        for name in match_parts(key, solids, "density"):
+            found[name] = _density(density[key])
+    return found
+
+
+def _density(given: Any) -> Any:
+    if isinstance(given, str):
+        if given.lower() not in DENSITIES:
+            known = ", ".join(DENSITIES)
+            raise ValueError(f"there is no material {given!r} among {known}{closest(given.lower(), DENSITIES)}")
+        return DENSITIES[given.lower()]
+    if traced(given):
+        return given
+    number = np.asarray(given)
+    if number.shape != () or number.dtype.kind not in "iuf" or not (np.isfinite(number) and number >= 0):
+        raise ValueError(f"a density must be one number, kg/m^3, or the name of a material, got {given!r}")
+    return float(number)
+
+
+def _of_solid(part: Part, density: Any, metre: float) -> tuple[Any, Any, Any]:
+    """Mass, centre and inertia of a solid of some density."""
+    volume, centre, inertia = _volume(part)
+    return density * volume * metre**3, centre, density * inertia * metre**5
+
+
+def _volume(part: Part) -> tuple[float, np.ndarray, np.ndarray]:
+    """Volume, centre and inertia for a density of one, all in the unit of the part; ValueError for open surfaces."""
+    import trimesh
+
+    middle = part.box.mean(axis=0)  # far from the origin of the world the digits would be lost
+    triangles = part.triangles - middle
+    areas = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    found = trimesh.triangles.mass_properties(triangles, density=1.0, center_mass=None, skip_inertia=False)
+    volume = float(found["volume"])
+    if np.linalg.norm(areas.sum(axis=0)) > OPEN * np.linalg.norm(areas, axis=1).sum() or volume == 0.0:
+        raise ValueError(
+            f"the surface of {part.name!r} is not closed, so that its volume is unknown: give its mass, "
+            f"given={{{part.name!r}: jk.Mass(0.3, centre=(x, y, z), inertia=...)}}"
+        )
+    return abs(volume), np.asarray(found["center_mass"]) + middle, np.sign(volume) * np.asarray(found["inertia"])
+
+
+def _given(name: str, given: Any, part: Part | None, metre: float) -> tuple[Any, Any, Any]:
+    """Mass, centre and inertia of a part as given, completed from its solid."""
+    given = given if isinstance(given, Mass) else Mass(given)
+    if (
+        isinstance(given.mass, str)
+        or np.shape(given.mass) != ()
+        or (not traced(given.mass) and not (np.isfinite(given.mass) and given.mass >= 0))
+    ):
+        raise ValueError(f"the mass of {name!r} must be one number of kilograms, got {given.mass!r}")
+    none = not traced(given.mass) and given.mass == 0
+    shape = None
+    if part is not None and not none and (given.centre is None or given.inertia is None):
+        shape = _volume(part)
+    if given.centre is not None:
+        centre = _shaped(name, "centre", given.centre, (3,))
+    elif shape is not None:
+        centre = shape[1]
+    elif none:
+        centre = np.zeros(3)
+    else:
+        raise ValueError(
+            f"the mass of {name!r} needs a centre, as it has no solid: jk.Mass({given.mass!r}, centre=(x, y, z))"
+        )
+    if given.inertia is not None:
+        single = np.shape(given.inertia) == ()
+        xp = jnp if traced(given.inertia) else np
+        inertia = _shaped(
+            name, "inertia", xp.asarray(given.inertia, float) * xp.eye(3) if single else given.inertia, (3, 3)
+        )
+        _check_inertia(name, inertia)
+    elif shape is not None:
+        inertia = given.mass / shape[0] * shape[2] * metre**2
+    else:
+        inertia = np.zeros((3, 3))
+    return given.mass, centre, inertia
+
+
+def _check_inertia(name: str, inertia: Any) -> None:
+    """Raise ValueError for known numbers that no distribution of mass has."""
+    if traced(inertia):
+        return
+    size = np.abs(inertia).max()
+    if np.abs(inertia - inertia.T).max() > 1e-9 * size or np.linalg.eigvalsh(inertia).min() < -1e-9 * size:
+        raise ValueError(
+            f"the inertia of {name!r} is no inertia of a part: its matrix must be symmetric, without negative "
+            f"eigenvalues, got {np.asarray(inertia).tolist()}"
+        )
+
+
+def _shaped(name: str, what: str, value: Any, shape: tuple[int, ...]) -> Any:
+    """Numbers of one shape; ValueError for others."""
+    try:
+        found = (jnp if traced(value) else np).asarray(value, float)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.shape != shape or (not traced(found) and not np.isfinite(found).all()):
+        raise ValueError(f"the {what} of {name!r} must be finite numbers of shape {shape}, got {value!r}")
+    return found

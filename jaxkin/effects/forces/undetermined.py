@@ -1,0 +1,103 @@
+"""Name the reactions that the balance of the parts leaves open: those of an overconstrained mechanism (host code)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import jax
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._traced import traced
+from jaxkin.effects.forces.balance import balance
+from jaxkin.mechanism.motion import Motion
+
+COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
+MAX_POSES = 3
+"""Poses at which the balance is looked at: a singular one leaves more reactions open than its neighbours."""
+RANK = 1e-9
+"""Singular value of the balance over its largest one, at which equations count as dependent: the closure of the pose,
+1e-12, over the sines of the angles between its axes."""
+SHARE = 1e-6
+"""Share in the open reactions, from which a component counts as open: above rounding over `RANK`."""
+
+
+@dataclass(frozen=True)
+class Undetermined:
+    """A joint in which some reactions do not follow from the balance of the parts."""
+
+    joint: str
+    parts: tuple[str, str]
+    components: tuple[str, ...]
+    """Which ones, in the axes of the joint's last frame, whose z axis is that of a hinge or a slide: "force z"."""
+
+    def __str__(self) -> str:
+        return f"not determined in {self.joint} ({' - '.join(self.parts)}): {', '.join(self.components)}"
+
+
+def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
+    """Find the joints whose reactions are not determined: see `Reactions.undetermined`."""
+    if traced(motion):
+        raise ValueError("which reactions are determined is found on the host: ask outside of jit, vmap and grad")
+    closed = np.flatnonzero(np.asarray(motion.closed))
+    if not len(closed):
+        return ()
+    chosen = closed[np.unique(np.linspace(0, len(closed) - 1, MAX_POSES + 2)[1:-1].astype(int))]
+    some = replace(
+        motion,
+        inputs={name: values[chosen] for name, values in motion.inputs.items()},
+        displacements=tuple(values[chosen] for values in motion.displacements),
+        status=motion.status[chosen],
+        residual=motion.residual[chosen],
+    )
+    system = jax.tree.map(np.asarray, jax.jit(balance)(some))
+    found = [_at(some, system, pose) for pose in range(len(chosen))]
+    return min(found, key=lambda each: each[0])[1]
+
+
+def _at(motion: Motion, system: Any, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
+    """Number of open reactions at a pose of a `Balance`, and where they are."""
+    linkage = motion.mechanism.linkage
+    moving = [part for part in linkage.parts if part not in linkage.fixed]
+    columns, owner, bases = [], [], []
+    for number, joint in enumerate(linkage.joints):
+        values, vectors = np.linalg.eigh(system.projectors[number][pose])
+        basis = vectors[:, values > 0.5]
+        columns.append(_on_parts(joint.parts, moving, system.levers[number][pose] @ basis))
+        owner += [number] * basis.shape[1]
+        bases.append(basis)
+    for tie in system.ties:
+        column = np.zeros((6 * len(moving), 1))
+        for number, wrench in tie.items():
+            lever = system.levers[number][pose]
+            column += _on_parts(linkage.joints[number].parts, moving, lever @ wrench[pose][:, None])
+        columns.append(column)
+        owner.append(-1)
+    matrix = np.concatenate([np.zeros((6 * len(moving), 0)), *columns], axis=1)
+    _, values, directions = np.linalg.svd(matrix, full_matrices=True)
+    open_ones = directions[int((values > RANK * values.max(initial=0.0)).sum()) :]
+    found = []
+    for number, joint in enumerate(linkage.joints):
+        wrench = bases[number] @ open_ones[:, np.array(owner, int) == number].T
+        axes = (
+            np.asarray(motion.transforms[joint.parts[1]][pose], float)[:3, :3] @ np.asarray(joint.frames_2[-1])[:3, :3]
+        )
+        own = np.concatenate([axes.T @ wrench[:3], axes.T @ wrench[3:]])
+        which = np.linalg.norm(own, axis=1) > SHARE
+        if which.any():
+            names = tuple(name for name, chosen in zip(COMPONENTS, which, strict=True) if chosen)
+            found.append(Undetermined(joint.name, joint.parts, names))
+    return len(open_ones), tuple(found)
+
+
+def _on_parts(
+    parts: tuple[str, str], moving: list[str], wrenches: Float[np.ndarray, "6 _"]
+) -> Float[np.ndarray, "rows _"]:
+    """Rows of the balance of all moving parts for wrenches of a joint about the middle."""
+    rows = np.zeros((6 * len(moving), wrenches.shape[1]))
+    for part, sign in zip(parts, (-1.0, 1.0), strict=True):
+        if part in moving:
+            first = 6 * moving.index(part)
+            rows[first : first + 6] += sign * wrenches
+    return rows

@@ -1,0 +1,149 @@
+"""Follow a drive from the assembled pose until the mechanism locks, a joint range ends, or the motion repeats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin._names import listed
+from jaxkin.effects.mode_search import SAME, PoseFeatures
+from jaxkin.effects.motion_curve import FIRST_STEP, Curve, Here
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.trig import TURN
+from jaxkin.joints.joint import Joint
+
+MAX_STEPS = 20_000
+"""Most steps in one direction: some 4000 radians and characteristic lengths of all coordinates together."""
+MAX_TURNS = 64
+"""Full turns of a drive after which no limit is expected."""
+FARTHEST = 100.0
+"""Displacement of a slide after which no limit is expected, characteristic lengths."""
+_AT_REST = 1e-6
+"""Part of the fastest coordinate, at a lock, below which a coordinate is at rest: rounding over the length of a step is
+some 1e-10."""
+
+
+class LimitKind(StrEnum):
+    """What ends the range of a drive on one side."""
+
+    LOCKS = "locks"
+    """The drive can go no farther: its rate is zero while other joints still move (a dead point of the drive)."""
+    RANGE = "range"
+    """A coordinate is at an end of its range."""
+    NONE = "none"
+    """There is no limit: the motion repeats after full turns, or goes on for as long as it was followed."""
+    LOST = "lost"
+    """The motion could not be followed farther: a singular pose that is neither a lock nor passed."""
+
+
+class CoordinateRange(NamedTuple):
+    """The range of a column of the loops, scaled coordinates from the assembled pose."""
+
+    column: int
+    low: float
+    high: float
+
+
+class Found(NamedTuple):
+    """Where a drive ends."""
+
+    kind: LimitKind
+    here: Here
+    column: int | None
+    """The column whose range ends."""
+    repeats: bool
+    """Whether the mechanism is in its assembled pose again, after full turns of the drive."""
+
+
+def find_limit(
+    curve: Curve, begun: Here, direction: float, ranges: Sequence[CoordinateRange], turns: bool, features: PoseFeatures
+) -> Found:
+    """Follow the drive in a direction, 1 or -1, from the assembled pose to its first limit.
+
+    `turns` says whether the drive is an angle, so that the motion may repeat after full turns.
+    """
+    here, length, number = begun, FIRST_STEP, 1
+    for _ in range(MAX_STEPS):
+        taken = curve.step(here, length)
+        if taken is None:
+            return Found(LimitKind.LOST, here, None, False)
+        there, length = taken
+        crossed = _crossed(curve, there, direction, ranges, number if turns else None)
+        located = [(*curve.locate(here, length, event.value), event) for event in crossed]
+        if located:
+            _, at, first = min(located, key=lambda each: each[0])
+            repeats = first.kind is LimitKind.NONE and _is_home(curve, at, features)
+            if first.kind is not LimitKind.NONE or repeats or number == MAX_TURNS:
+                return Found(first.kind, at, first.column, repeats)
+            number += 1
+        if not turns and abs(there.q[curve.drive]) > FARTHEST:
+            break
+        here, length = there, curve.next_length(here, there, length)
+    return Found(LimitKind.NONE, here, None, False)
+
+
+class _Event(NamedTuple):
+    """A function of the pose that is positive before a limit, and not behind it."""
+
+    kind: LimitKind
+    value: Callable[[Here], float]
+    column: int | None = None
+
+
+def _crossed(
+    curve: Curve, there: Here, direction: float, ranges: Sequence[CoordinateRange], number: int | None
+) -> list[_Event]:
+    """The limits that a step has crossed; `number` is that of the full turn of the drive that comes next."""
+    drive = curve.drive
+    events = [_Event(LimitKind.LOCKS, lambda here: direction * float(here.tangent[drive]))]
+    for column, low, high in ranges:
+        events.append(_Event(LimitKind.RANGE, lambda here, c=column, end=low: float(here.q[c]) - end, column))
+        events.append(_Event(LimitKind.RANGE, lambda here, c=column, end=high: end - float(here.q[c]), column))
+    if number is not None:
+        events.append(_Event(LimitKind.NONE, lambda here: number * TURN - direction * float(here.q[drive])))
+    return [event for event in events if event.value(there) < 0]
+
+
+def _is_home(curve: Curve, at: Here, features: PoseFeatures) -> bool:
+    """Tell whether all parts are where they are in the assembled pose, apart from idle freedoms."""
+    home, there = features.of(np.stack([np.zeros(len(at.q)), at.q]), curve.free)
+    return bool(np.abs(home - there).max(initial=0.0) <= SAME)
+
+
+def why_locked(joints: Mapping[int, Joint], curve: Curve, here: Here) -> tuple[tuple[str, ...], str]:
+    """Name the joints that still move where the drive locks, and say how they stand.
+
+    `joints` are those of the loops, by their numbers.
+    """
+    rates = np.abs(here.tangent)
+    moving = [k for k, rate in enumerate(rates) if rate > _AT_REST * rates.max() and k != curve.drive]
+    names = tuple(dict.fromkeys(joints[curve.loops.columns[k][0]].name for k in moving))
+    screws = curve.loops.travel(here.q).screws[:, moving]
+    kinds = [_kind(joints[joint], k) for joint, k in (curve.loops.columns[column] for column in moving)]
+    if len(names) == len(moving) == 3 and kinds.count("rotate") == 3:
+        return names, f"the axes of {_and(names)} lie in one plane"
+    slides = [name for name, kind in zip(names, kinds, strict=False) if kind == "translate"]
+    if len(names) == len(moving) == 3 and kinds.count("rotate") == 2 and len(slides) == 1:
+        one, other = (screws[:3, k] for k, kind in enumerate(kinds) if kind == "rotate")
+        turning = [name for name in names if name not in slides]
+        if np.linalg.norm(np.cross(one, other)) < _AT_REST:
+            return names, f"the plane of the axes of {_and(turning)} is square to the slide {slides[0]}"
+    return names, f"{_and(names)} can move while it is at rest"
+
+
+def _kind(joint: Joint, coordinate: int) -> str:
+    """ "rotate", "translate" or "screw" of a coordinate of a joint."""
+    first = 0
+    for name in joint.movements:
+        for element in MOVEMENTS[name].elements:
+            if first + element.coordinate == coordinate:
+                return element.kind
+        first += len(MOVEMENTS[name].coordinates)
+    raise ValueError(f"joint {joint.name!r} has no coordinate {coordinate}")
+
+
+def _and(names: Sequence[str]) -> str:
+    return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)

@@ -1,0 +1,269 @@
+"""The reachable range of a drive about the assembled pose: where the mechanism locks, or a joint range ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._names import by_name, listed
+from jaxkin._traced import traced
+from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked
+from jaxkin.effects.mode_plot import draw_modes
+from jaxkin.effects.mode_search import PoseFeatures
+from jaxkin.effects.motion_curve import Curve
+from jaxkin.effects.pose_plot import save_rows
+from jaxkin.geometry.movements import is_length
+from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mobility.host_closure import ClosedLoops
+from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
+from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.mobility.open_loops import check_closed
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+Place = tuple[int, int]
+"""(joint, coordinate)."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One end of the range of a drive."""
+
+    value: float
+    """Displacement of the drive, radians or lengths from the assembled pose; -inf or inf where there is no limit."""
+    kind: LimitKind
+    """What ends the range there."""
+    joints: tuple[str, ...]
+    """Where it locks: the joints that can move while the drive is at rest. Where a range ends: the joint."""
+    reason: str
+    """What ends the range, in words."""
+    coordinates: Mapping[str, Float[np.ndarray, " _"]]
+    """Displacements of each joint at the limit; empty where there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Limits:
+    """The reachable range of a drive. Prints, draws and saves itself."""
+
+    drive: str
+    """"joint.coordinate"."""
+    lower: Limit
+    upper: Limit
+    full_turn: bool
+    """Whether the drive makes full turns, after which the mechanism is in its assembled pose again."""
+    motion: Motion
+    """The poses at the lower limit, as assembled, and at the upper limit; those of limits that there are."""
+    unit: str
+    """Unit of the limits: "rad", or that of lengths."""
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Lowest and highest displacement of the drive, -inf and inf where there is no limit."""
+        return self.lower.value, self.upper.value
+
+    def __str__(self) -> str:
+        if self.full_turn:
+            return f"{self.drive} makes full turns: no limit"
+        lines = [f"{self.drive} from {self._value(self.lower.value)} to {self._value(self.upper.value)}"]
+        for name, limit in (("lower", self.lower), ("upper", self.upper)):
+            lines.append(f"  {name}: {limit.reason}")
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the mechanism at its limits and as assembled, as bars between joints, into a picture file."""
+        return draw_modes(self.motion, [f"{name}: {value}" for name, value in self._poses()], Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write the displacements of all joints at the limits and as assembled as comma-separated values."""
+        joints = self.motion.mechanism.all_joints
+        names = [f"{joint.name}.{name}" for joint in joints for name in joint.coordinates]
+        rows = np.concatenate([np.asarray(rows) for rows in self.motion.displacements], axis=1)
+        return save_rows(names, rows.T, Path(path))
+
+    def _value(self, value: float) -> str:
+        return f"{value:.9g} {self.unit}".rstrip() if np.isfinite(value) else f"{value}"
+
+    def _poses(self) -> list[tuple[str, str]]:
+        ends = [("lower", self.lower.value), ("as assembled", 0.0), ("upper", self.upper.value)]
+        return [(name, f"{value:.4g} {self.unit}".rstrip()) for name, value in ends if np.isfinite(value)]
+
+
+def limits(
+    mechanism: Mechanism,
+    drive: str,
+    *,
+    ranges: Mapping[str, Sequence[float]] | None = None,
+    hold: Iterable[str] = (),
+) -> Limits:
+    """Find the range of a drive that a motion from the assembled pose can reach.
+
+    `drive` is a "joint" or "joint.coordinate". Its range ends where the mechanism locks: where the rate of the drive
+    is zero while other joints still move; or where a coordinate is at the end of its range: that of `ranges`, a pair of
+    displacements from the assembled pose a coordinate, in radians or lengths (-inf and inf for none), or of the
+    `limits` of its joint. Of a mechanism with several freedoms, the coordinates in `hold` stay as assembled.
+
+    The motion is followed by its arc length, and limits are found to rounding: some 1e-13 radians, or lengths over the
+    size; 1e-10 beside poses in which branches nearly cross, and 1e-6 where they cross in the limit itself, as where a
+    rhombus folds up. Other poses in which branches cross, or come nearer than 1e-3, are passed straight on.
+
+    Raises ValueError for unknown names, for ranges that do not hold the assembled pose, where freedoms are left, where
+    the loops are open or singular in the assembled pose, and inside `jit`, `vmap` and `grad`.
+    """
+    if traced(mechanism):
+        raise ValueError("limits are searched on the host: call limits outside of jit, vmap and grad")
+    linkage = mechanism.linkage
+    if not isinstance(drive, str):
+        raise ValueError(f"limits are those of one coordinate, such as {mechanism.all_joints[0].name!r}, got {drive!r}")
+    if isinstance(hold, str):
+        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
+    hold = [drive, *hold]
+    driven = coordinates(linkage, hold)
+    name, place = next(iter(driven.items()))
+    check_closed(linkage, mechanism.unit, "limits", f"limits({drive!r})")
+    if linkage.ideal:
+        raise ValueError(f"limits need loops that close: {'; '.join(mechanism.alignment)}")
+    if (infeasible := infeasible_drive(linkage, list(driven.values()))) is not None:
+        raise ValueError(why_infeasible(mechanism, infeasible))
+    if free := undriven_freedoms(linkage, list(driven.values())):
+        raise ValueError(
+            f"{name} alone does not determine the motion: hold {listed(free)} too, as in hold=[{free[0]!r}]"
+        )
+    given = _ranges(mechanism, ranges or {})
+    group = next((each for each in linkage.structure.loop_groups if place[0] in each.joints), None)
+    if group is None:
+        return _alone(mechanism, name, place, given)
+    loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
+    freedoms = loop_freedoms(linkage)[linkage.structure.loop_groups.index(group)]
+    held = [loops.columns.index(each) for each in list(driven.values())[1:] if each in loops.columns]
+    idle = len(freedoms.motions) - 1 - len(held)
+    curve = Curve(loops, loops.columns.index(place), held, idle)
+    own = [
+        CoordinateRange(k, low / loops.units[k], high / loops.units[k])
+        for k, (low, high) in (
+            (loops.columns.index(each), ends) for each, ends in given.items() if each in loops.columns
+        )
+    ]
+    found: list[Found] = []
+    for direction in (1.0, -1.0):
+        begun = curve.begin(direction)
+        if begun is None:
+            raise ValueError(
+                f"the assembled pose is singular: {name} is at a limit there, or branches cross; assemble the "
+                "mechanism beside it, as mechanism.at(motion, index) does"
+            )
+        features = PoseFeatures(loops, idle)
+        found.append(find_limit(curve, begun, direction, own, not _is_length(mechanism, place), features))
+        if found[-1].repeats:
+            break
+    upper, lower = found[0], found[-1]
+    return _told(mechanism, name, place, curve, lower, upper)
+
+
+def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[Place, tuple[float, float]]:
+    """Ranges of coordinates: those of joints, replaced by those given.
+
+    Raises ValueError where they exclude the assembled pose.
+    """
+    found = {
+        (number, k): (float(low), float(high))
+        for number, joint in enumerate(mechanism.all_joints)
+        for k, (low, high) in enumerate(joint.limits)
+    }
+    for key, ends in by_name(given, "ranges", "{'A': (-1.0, 1.0)}").items():
+        place = coordinate(mechanism.linkage, key)
+        try:
+            low, high = (float(end) for end in ends)
+        except (TypeError, ValueError):
+            raise ValueError(f"the range of {key!r} must be two numbers, as in (-1.0, 1.0), got {ends!r}") from None
+        found[place] = low, high
+    for (number, k), (low, high) in found.items():
+        if not low <= 0.0 <= high:
+            joint = mechanism.all_joints[number]
+            raise ValueError(
+                f"the assembled pose, 0, is not in the range {low:g} to {high:g} of "
+                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; give another with ranges="
+            )
+    return found
+
+
+def _is_length(mechanism: Mechanism, place: Place) -> bool:
+    joint, k = place
+    return is_length(mechanism.all_joints[joint].coordinates[k])
+
+
+def _alone(mechanism: Mechanism, name: str, place: Place, given: Mapping[Place, tuple[float, float]]) -> Limits:
+    """The range of a drive that is in no loop: that of its joint."""
+    joint, k = place
+    ends = []
+    for value in given.get(place, (-np.inf, np.inf)):
+        rows = [np.zeros(each.freedoms) for each in mechanism.all_joints]
+        if not np.isfinite(value):
+            ends.append(Limit(value, LimitKind.NONE, (), "no limit: it is in no loop", {}))
+            continue
+        rows[joint][k] = value
+        shown = dict(zip(mechanism.joints, rows, strict=True))
+        ends.append(
+            Limit(value, LimitKind.RANGE, (mechanism.all_joints[joint].name,), f"the range of {name} ends", shown)
+        )
+    length = _is_length(mechanism, place)
+    return _limits(mechanism, name, place, ends[0], ends[1], not length and not any(end.coordinates for end in ends))
+
+
+def _told(mechanism: Mechanism, name: str, place: Place, curve: Curve, lower: Found, upper: Found) -> Limits:
+    """Put limits into words and into the coordinates of all joints."""
+    ends = [_limit(mechanism, name, curve, end, side) for end, side in ((lower, -np.inf), (upper, np.inf))]
+    return _limits(mechanism, name, place, ends[0], ends[1], upper.repeats or lower.repeats)
+
+
+def _limit(mechanism: Mechanism, name: str, curve: Curve, end: Found, side: float) -> Limit:
+    loops, joints = curve.loops, mechanism.all_joints
+    q = end.here.q * loops.units
+    at = float(q[curve.drive])
+    if end.kind is LimitKind.NONE:
+        reason = "the motion repeats" if end.repeats else f"no limit up to {at:.4g}, where the search ended"
+        return Limit(side, end.kind, (), reason, {})
+    shown = {joint.name: np.zeros(joint.freedoms) for joint in joints}
+    for (joint, k), value in zip(loops.columns, q, strict=True):
+        shown[joints[joint].name][k] = value
+    if end.kind is LimitKind.LOST:
+        return Limit(at, end.kind, (), "the motion was lost at a singular pose", shown)
+    if end.kind is LimitKind.RANGE and end.column is not None:
+        joint, k = loops.columns[end.column]
+        owner = joints[joint]
+        of = f"{owner.name}.{owner.coordinates[k]}"
+        return Limit(at, end.kind, (owner.name,), f"the range of {of} ends, at {q[end.column]:.6g}", shown)
+    moving, why = why_locked({index: joints[index] for index in loops.loop_group.joints}, curve, end.here)
+    return Limit(at, end.kind, moving, f"{name} locks: {why}", shown)
+
+
+def _limits(mechanism: Mechanism, name: str, place: Place, lower: Limit, upper: Limit, full_turn: bool) -> Limits:
+    """Make the motion of the limits that there are, with the assembled pose between them."""
+    home = {joint.name: np.zeros(joint.freedoms) for joint in mechanism.all_joints}
+    poses = [*([lower.coordinates] if lower.coordinates else []), home]
+    poses += [upper.coordinates] if upper.coordinates else []
+    joint, k = place
+    rows = tuple(jnp.asarray(np.stack([pose[each] for pose in poses]), float) for each in mechanism.joints)
+    residual = jnp.asarray([_residual(mechanism, pose) for pose in poses], float)
+    inputs = {name: rows[joint][:, k]}
+    motion = Motion(mechanism, inputs, rows, jnp.zeros(len(poses), jnp.int32), residual)
+    unit = mechanism.unit if _is_length(mechanism, place) else "rad"
+    return Limits(name, lower, upper, full_turn, motion, unit)
+
+
+def _residual(mechanism: Mechanism, pose: Mapping[str, Float[np.ndarray, " _"]]) -> float:
+    """Square root of Eq. 12 of all loops in a pose."""
+    linkage, squares = mechanism.linkage, 0.0
+    for group in linkage.structure.loop_groups:
+        loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
+        q = np.array([pose[mechanism.all_joints[joint].name][k] for joint, k in loops.columns])
+        squares += loops.travel(q / loops.units).gap ** 2
+    return squares**0.5

@@ -1,0 +1,273 @@
+"""Search the closed poses of the loops of one structure element for given inputs: by formulas, or from many starts.
+
+Where each group of loops has a formula (`jaxkin.solve.closed_form`), its two signs are tried in all combinations: these
+are all poses. Elsewhere damped least-norm steps (`levenberg_marquardt`) go from random coordinates to closed poses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from functools import partial
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float, Int
+
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.mechanism.drive_plan import DrivenElement
+from jaxkin.mobility.host_closure import ClosedLoops, Row
+from jaxkin.solve.closed_form.assembled_axes import assembled_axes
+from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
+from jaxkin.solve.closed_form.range_by_formula import joint_displacements
+from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
+from jaxkin.solve.closure.closure import scaled_geometry
+from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates
+from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
+from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.range.poses import CLOSED_ROUNDINGS
+from jaxkin.solve.status import rounding_residual
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import State, drive
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+MAX_FORMULAS = 12
+"""Most groups whose signs are tried in all combinations, 4096 of them; of more, poses are searched from many starts."""
+FARTHEST_SLIDE = 2.0
+"""Largest displacement of a slide at a start, characteristic lengths: a mechanism is some two of them wide to either
+side of its middle."""
+STARTS_AT_ONCE = 1024
+"""Starts that are followed together: the Jacobians of so many stay within some megabytes."""
+SAME = 1e-6
+"""Largest difference of two poses that are one mode, radians or characteristic lengths: closed poses are right to 1e-9
+where their Jacobian has singular values down to 1e-5."""
+SAME_SINGLE = 1e-3
+"""The same in float32, in which closed poses are right to 1e-6."""
+_SPIN = 1e-4
+"""Displacement along idle freedoms, radians, that shows what they move: their curvature shows as its square."""
+
+
+class FoundPoses(NamedTuple):
+    """Closed poses of the loops of a structure element, each once: that of the assembled branch first, nearest next."""
+
+    displacements: Float[np.ndarray, "poses columns"]
+    """Radians and lengths of the mechanism."""
+    residual: Float[np.ndarray, " poses"]
+    signs: tuple[str, ...]
+    """A plus or minus for each group of loops that has a formula; empty for poses from starts."""
+    counts: Int[np.ndarray, " poses"]
+    """How many starts led to each pose; one for poses by formulas."""
+    by_formulas: bool
+    """Whether these are all poses, by formulas."""
+
+
+class Starts(NamedTuple):
+    """From where closed poses are searched."""
+
+    tries: int
+    """How many random starts."""
+    seed: int
+    """Of their random numbers."""
+    options: SolverOptions
+    """With the largest number of steps from a start, `rescue_steps`."""
+
+
+class PoseFeatures:
+    """Where the joint frames of a loop group are on both of their parts: points and directions that tell poses apart.
+
+    What an idle freedom moves, such as the directions on a rod that may spin between two balls, is left out.
+    """
+
+    def __init__(self, loops: ClosedLoops, idle: int) -> None:
+        """Take the loops, with how many idle freedoms they have."""
+        self.loops, self.idle = loops, idle
+
+    def at(self, q: Row) -> Float[np.ndarray, " entries"]:
+        """Compute the entries of all frames, lengths over the characteristic length, at scaled coordinates."""
+        places, rows = self.loops.travel(q).places, []
+        for index, (_, before, after, _) in self.loops.chains.items():
+            for part, frame in zip(self.loops.ends[index], (before[0], after[-1]), strict=True):
+                rows.append((places[part] @ frame)[:3].ravel())
+        return np.concatenate(rows)
+
+    def of(self, poses: Float[np.ndarray, "poses columns"], free: list[int]) -> Float[np.ndarray, "poses entries"]:
+        """Compute the features of poses, zero where an idle freedom moves them; `free` columns are not driven."""
+        rows = [self.at(q) for q in poses]
+        if not rows or not self.idle:
+            return np.array(rows).reshape(len(poses), -1)
+        moved = np.zeros(len(rows[0]), bool)
+        for q in poses:
+            jacobian = self.loops.travel(q).jacobian[:, free]
+            for direction in np.linalg.svd(jacobian)[2][len(free) - self.idle :]:
+                step = np.zeros(len(q))
+                step[free] = _SPIN * direction
+                moved |= np.abs(self.at(q + step) - self.at(q - step)) > 0.01 * _SPIN
+        return np.where(moved, 0.0, rows)
+
+
+def find_modes(
+    element: DrivenElement,
+    features: PoseFeatures,
+    inputs: Float[np.ndarray, " driven"],
+    reached: tuple[Row, float] | None,
+    starts: Starts,
+    max_residual: float,
+) -> FoundPoses:
+    """Find the closed poses of a structure element for one displacement of each of its driven columns.
+
+    Complete where all groups of loops have formulas; elsewhere from random starts. `reached` is the pose to which the
+    motion leads from the assembled pose, with its residual: None where it does not close.
+    """
+    system, loops = element.system, features.loops
+    by_formulas = _has_formulas(system)
+    if by_formulas:
+        poses, residual, names = _by_formulas(element, inputs)
+    else:
+        poses, residual = _from_starts(element, inputs, starts)
+        names = [""] * len(poses)
+    (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
+    poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
+    weights = np.ones(len(poses), int)
+    if reached is not None:
+        poses, residual = np.vstack([reached[0], poses]), np.append(reached[1], residual)
+        weights, names = np.append(0, weights), ["", *names]
+    if not len(poses):
+        return FoundPoses(poses, residual, (), weights, by_formulas)
+
+    same = SAME if poses.dtype == np.float64 else SAME_SINGLE
+    labels = group_rows(_unwrapped(element, loops, poses), same)
+    rows = _scaled_rows(element, loops, poses[_first_of(labels)])
+    home = rows[:1] if reached is not None else np.zeros((1, rows.shape[1]))
+    free = [loops.columns.index(element.columns[column]) for column in system.free]
+    entries = features.of(np.vstack([home, rows]), free)
+    labels = group_rows(entries[1:], same)[labels]
+    order = np.argsort([np.linalg.norm(entries[1:][k] - entries[0]) for k in _first_of(group_rows(entries[1:], same))])
+    representatives = _first_of(labels)[order]
+    return FoundPoses(
+        poses[representatives],
+        residual[representatives],
+        tuple(max(name for name, one in zip(names, labels, strict=True) if one == label) for label in order),
+        np.bincount(labels, weights).astype(int)[order],
+        by_formulas,
+    )
+
+
+def group_rows(rows: Float[np.ndarray, "rows entries"], same: float) -> Int[np.ndarray, " rows"]:
+    """Number the sets of rows that are the same, from 0 in the order of their first rows, and give each row's."""
+    first: list[int] = []
+    labels = np.zeros(len(rows), int)
+    for number, row in enumerate(rows):
+        near = np.flatnonzero(np.abs(rows[first] - row).max(axis=1, initial=0.0) <= same)
+        labels[number] = near[0] if len(near) else len(first)
+        if not len(near):
+            first.append(number)
+    return labels
+
+
+def _first_of(labels: Int[np.ndarray, " rows"]) -> Int[np.ndarray, " found"]:
+    return np.unique(labels, return_index=True)[1]
+
+
+def _scaled_rows(
+    element: DrivenElement, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
+) -> Float[np.ndarray, "poses every"]:
+    """Put displacements of the columns of an element among all coordinates of its loops, scaled; others rest."""
+    rows = np.zeros((len(poses), len(loops.columns)))
+    rows[:, [loops.columns.index(place) for place in element.columns]] = poses
+    return rows / loops.units
+
+
+def _has_formulas(system: LoopSystem) -> bool:
+    formulas = group_formulas(system)
+    known = all(isinstance(formula, GroupFormula) for formula in formulas)
+    return known and 0 < len(formulas) <= MAX_FORMULAS and not system.turned_balls
+
+
+def _by_formulas(
+    element: DrivenElement, inputs: Float[np.ndarray, " driven"]
+) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"], list[str]]:
+    """Solve the groups in order with all combinations of signs; a group of two slides has one pose and no sign."""
+    found = [formula for formula in group_formulas(element.system) if isinstance(formula, GroupFormula)]
+    choices = list(product(*[(1.0,) if formula.letters.count("P") == 2 else (1.0, -1.0) for formula in found]))
+    signs = jnp.asarray(choices, float).T
+    given = jnp.asarray(np.repeat(inputs[:, None], len(choices), axis=1), float)
+    rows, residual = _formula_poses(element.system, element.joints, signs, given)
+    names = ["".join("+" if sign > 0 else "-" for sign in choice) for choice in choices]
+    return np.asarray(rows).T, np.broadcast_to(residual, len(choices)), names
+
+
+@partial(jax.jit, static_argnums=0)
+def _formula_poses(
+    system: LoopSystem, joints: Joints, signs: Float[Array, "groups poses"], inputs: Float[Array, "driven poses"]
+) -> tuple[Float[Array, "columns poses"], Float[Array, " poses"]]:
+    """Compute displacements and residual norms by formulas, for inputs in radians and lengths of the mechanism."""
+    axes = assembled_axes(system, joints)
+    lengths = jnp.where(jnp.array([system.is_length[column] for column in system.driven]), axes.length, 1.0)
+    x = solve_groups(system, axes, list(signs), inputs / lengths[:, None]).x
+    return joint_displacements(system, joints, axes, x), residual_norm(system, axes, x)
+
+
+def _from_starts(
+    element: DrivenElement, inputs: Float[np.ndarray, " driven"], starts: Starts
+) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
+    """Close the loops from random starts."""
+    system, rows, residuals, rng = element.system, [], [], np.random.default_rng(starts.seed)
+    size = min(starts.tries, STARTS_AT_ONCE)
+    for _ in range(-(-starts.tries // size)):
+        angles, slides = rng.uniform(-1.0, 1.0, (2, system.columns, size))
+        x = np.where(np.array(system.is_length)[:, None], FARTHEST_SLIDE * slides, np.pi * angles)
+        turns = rng.normal(size=(len(system.turned_balls), 4, size))
+        turns /= np.linalg.norm(turns, axis=1, keepdims=True)
+        begun = State(jnp.asarray(x, float), jnp.asarray(turns, float))
+        given = jnp.asarray(np.repeat(inputs[:, None], size, axis=1), float)
+        found = _closed(system, starts.options.of_program, element.joints, begun, given)
+        rows.append(np.asarray(found[0]).T)
+        residuals.append(np.asarray(found[1]))
+    return np.concatenate(rows)[: starts.tries], np.concatenate(residuals)[: starts.tries]
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def _closed(
+    system: LoopSystem, options: SolverOptions, joints: Joints, state: State, inputs: Float[Array, "driven starts"]
+) -> tuple[Float[Array, "columns starts"], Float[Array, " starts"]]:
+    """Close the loops from states whose driven columns are replaced by inputs, lengths of the mechanism."""
+    geometry, lengths = scaled_geometry(system, joints)
+    given = lengths[jnp.array(system.driven, int)]
+    problem = ClosureProblem(system, geometry, options)
+    target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
+    begun = drive(system, state, inputs / given)
+    found = levenberg_marquardt(problem, begun, options.rescue_steps, target)
+    turns = ball_turns(system, geometry, found.state)
+    x = joint_coordinates(system, joints.frames_1, joints.frames_2, found.state.x * lengths, turns)
+    return x, found.residual_norm
+
+
+def _unwrapped(
+    element: DrivenElement, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
+) -> Float[np.ndarray, "poses entries"]:
+    """Cosines and sines of angles, and scaled lengths: equal where coordinates are, up to full turns."""
+    lengths = np.array(element.system.is_length)
+    units = loops.units[[loops.columns.index(place) for place in element.columns]]
+    return np.concatenate(
+        [np.cos(poses[:, ~lengths]), np.sin(poses[:, ~lengths]), poses[:, lengths] / units[lengths]], axis=1
+    )
+
+
+def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Container[str], first: int) -> None:
+    """Bring the angles of modes from `first` on into (-pi, pi], where a full turn is no displacement."""
+    tied = {name for coupling in mechanism.linkage.couplings for name in coupling.coordinates}
+    for joint, row in zip(mechanism.all_joints, rows, strict=True):
+        elements, start = [], 0
+        for movement in joint.movements:
+            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements]
+            start += len(MOVEMENTS[movement].coordinates)
+        for kind, k in elements:
+            name = f"{joint.name}.{joint.coordinates[k]}"
+            if kind == "rotate" and name not in driven and name not in tied:
+                row[first:, k] -= 2 * np.pi * np.ceil(row[first:, k] / (2 * np.pi) - 0.5)

@@ -1,0 +1,131 @@
+"""Trace the motion of loops with one freedom as a curve, past the poses in which its drive locks (host code, float64).
+
+The curve is followed by its arc length in the space of all coordinates, in which it is regular where the drive turns
+back: `q(s)` is the closed pose nearest to `q + s t`, with the tangent `t` at `q`. Events are brackets in `s` whose ends
+differ in sign, and are refined by Brent's method. At a lock the rate of the drive dq_d/ds is zero, so that an error of
+`s` changes the drive by its square only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+from scipy.optimize import root_scalar
+
+from jaxkin.mobility.host_closure import ClosedLoops, Row
+from jaxkin.solve.continuation.step import CROSSING
+
+LONGEST_STEP = 0.2
+"""Longest step, radians and characteristic lengths of all coordinates together."""
+FIRST_STEP = 0.02
+"""First step, and the longest one where the drive is slow: a dwell may lock twice within a longer one."""
+SHORTEST_STEP = 1e-8
+"""Step below which the curve counts as lost."""
+SLOW = 0.1
+"""Part of the drive in the unit tangent below which it is slow."""
+LARGEST_BEND = 0.97
+"""Least cosine of the angle between the tangents at the ends of a step: 14 degrees."""
+LARGEST_CORRECTION = 0.25
+"""Largest ratio of the correction to the length of a step."""
+ACCURACY = 1e-13
+"""To which arc length events are refined: below the rounding of the poses."""
+RELATIVE = 1e-15
+"""The same over the length of the step: four roundings, the least that Brent's method takes."""
+
+
+class Here(NamedTuple):
+    """A point of the curve."""
+
+    q: Row
+    """Scaled coordinates of a closed pose."""
+    tangent: Row
+    """Unit tangent."""
+    sigma: float
+    """Smallest singular value of the closure Jacobian that is not always zero: zero where branches cross."""
+
+
+class Curve:
+    """The closed poses of loops that have one freedom beside idle ones, with some coordinates at rest."""
+
+    def __init__(self, loops: ClosedLoops, drive: int, held: Sequence[int], idle: int) -> None:
+        """Take the loops with the column of the drive, the columns at rest, and the number of idle freedoms."""
+        self.loops, self.drive, self.held, self.idle = loops, drive, list(held), idle
+        self.free = [k for k in range(len(loops.columns)) if k not in self.held]
+
+    def _freedoms(self, q: Row) -> tuple[Float[np.ndarray, "freedoms columns"], float]:
+        """Compute a basis of the rates that keep the loops closed, idle ones too: one more where branches cross.
+
+        Also returns the singular value of `Here.sigma`.
+        """
+        jacobian = self.loops.travel(q).jacobian[:, self.free]
+        rank = len(self.free) - 1 - self.idle
+        values, directions = np.linalg.svd(jacobian, full_matrices=True)[1:]
+        least = self.loops.thresholds.rank * values.max(initial=0.0)
+        basis = directions[min(rank, int((values > least).sum())) :]
+        found = np.zeros((len(basis), len(q)))
+        found[:, self.free] = basis
+        return found, float(values[rank - 1]) if rank else np.inf
+
+    def begin(self, direction: float) -> Here | None:
+        """The assembled pose, with the tangent along which the drive moves in a direction, 1 or -1.
+
+        None where the pose is singular: where the drive does not move to first order, or branches cross.
+        """
+        home = np.zeros(len(self.loops.columns))
+        basis, sigma = self._freedoms(home)
+        if len(basis) != 1 + self.idle:
+            return None
+        # the motion of least norm, orthogonal to the idle ones, of which the drive has no part
+        tangent = basis.T @ basis[:, self.drive]
+        size = float(np.linalg.norm(tangent))
+        return None if size < 1e-6 else Here(home, direction * tangent / size, sigma)
+
+    def at(self, here: Here, s: float) -> Here | None:
+        """The closed pose nearest to where the tangent leads after the length `s`; None where the loops do not close.
+
+        Its tangent is, of all rates that keep the loops closed, the one nearest to that before.
+        """
+        q, found = self.loops.closed(here.q + s * here.tangent, self.held)
+        if not found.gap <= self.loops.thresholds.residual:
+            return None
+        basis, sigma = self._freedoms(q)
+        tangent = basis.T @ (basis @ here.tangent)
+        size = float(np.linalg.norm(tangent))
+        return None if size < 0.5 else Here(q, tangent / size, sigma)
+
+    def step(self, here: Here, length: float) -> tuple[Here, float] | None:
+        """Take a step of at most this length, shortened until it stays on the curve; None where that fails."""
+        while length >= SHORTEST_STEP:
+            there = self.at(here, length)
+            if there is not None:
+                apart = float(np.linalg.norm(there.q - here.q - length * here.tangent))
+                if apart <= LARGEST_CORRECTION * length and float(there.tangent @ here.tangent) >= LARGEST_BEND:
+                    return there, length
+            length *= 0.5
+        return None
+
+    def next_length(self, before: Here, here: Here, length: float) -> float:
+        """The length to try after a step of `length`: at most half of what is left to a pose in which branches cross.
+
+        Beside such a pose the curve may turn back sharply, which a long step would not see.
+        """
+        longest = FIRST_STEP if abs(here.tangent[self.drive]) < SLOW else LONGEST_STEP
+        if (fall := before.sigma - here.sigma) > 0:
+            longest = min(longest, max(0.5 * length * here.sigma / fall, CROSSING))
+        return min(2.0 * length, longest)
+
+    def locate(self, here: Here, length: float, event: Callable[[Here], float]) -> tuple[float, Here]:
+        """Find the arc length within a step at which a function of the pose is zero, and the pose there."""
+
+        def value(s: float) -> float:
+            there = self.at(here, s)
+            return np.nan if there is None else event(there)
+
+        if event(here) == 0.0:
+            return 0.0, here
+        s = float(root_scalar(value, bracket=(0.0, length), method="brentq", xtol=ACCURACY, rtol=RELATIVE).root)
+        there = self.at(here, s)
+        return s, here if there is None else there

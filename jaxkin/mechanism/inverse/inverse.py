@@ -1,0 +1,175 @@
+"""Solve inverse problems: joints for targets that are more, or fewer, than the freedoms, within limits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin._names import by_name
+from jaxkin._traced import traced
+from jaxkin.linkage.coordinates import coordinates
+from jaxkin.mechanism.inverse.aims import aims_of
+from jaxkin.mechanism.inverse.problem import CLOSED, REACHED, Problem, Solution
+from jaxkin.mechanism.inverse.step import Bounds
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mobility.open_loops import opening
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+SAME = 1e-6
+"""Difference of all coordinates, in radians and sizes, up to which two solutions are one."""
+
+
+@dataclass(frozen=True, eq=False)
+class Inverse:
+    """Poses whose joints fit targets as well as they can."""
+
+    motion: Motion
+    """The poses: of each the solution that was found from the assembled pose, unless another one fits better."""
+    errors: Float[np.ndarray, " poses"]
+    """Root of the sum of squared errors of all targets with their weights: radians, and lengths over `size`."""
+    at_limits: Mapping[str, Bool[np.ndarray, " poses"]]
+    """At which poses a coordinate is at one of its limits, for those that are at some pose."""
+    solutions: tuple[Float[np.ndarray, "solutions columns"], ...]
+    """Of each pose all solutions that fit as well as the best one, displacements of `columns`; those of the motion
+    come first."""
+    columns: tuple[str, ...]
+    """All coordinates of the mechanism, "joint.coordinate"."""
+    size: float
+    """Length that counts as much as a radian: the extent of the joints."""
+
+    @property
+    def reached(self) -> Bool[np.ndarray, " poses"]:
+        """At which poses all targets are met."""
+        return (self.errors <= REACHED) & np.asarray(self.motion.closed)
+
+    def __str__(self) -> str:
+        reached, poses = int(self.reached.sum()), len(self.errors)
+        lines = [f"{reached} of {poses} poses reach their targets"]
+        if reached < poses:
+            worst = int(np.nanargmax(self.errors))
+            lines.append(
+                f"  largest error {self.errors[worst]:.3g} (radians, and lengths over {self.size:.4g}), pose {worst}"
+            )
+        lines += [f"  {name} is at a limit at {np.sum(which)} poses" for name, which in self.at_limits.items()]
+        if (several := max((len(found) for found in self.solutions), default=0)) > 1:
+            lines.append(f"  up to {several} solutions a pose")
+        if (lost := poses - int(np.asarray(self.motion.closed).sum())) > 0:
+            lines.append(f"  the loops do not close at {lost} poses")
+        return "\n".join(lines)
+
+
+def inverse(
+    mechanism: Mechanism,
+    targets: Mapping[Any, object],
+    *,
+    weights: Mapping[Any, float | int | Sequence[float | int]] | None = None,
+    inputs: Iterable[str] | None = None,
+    rest: Mapping[str, float | int] | None = None,
+    limits: bool = True,
+    starts: int = 1,
+    seed: int = 0,
+    iterations: int = 100,
+) -> Inverse:
+    """Find poses whose parts and joints are where targets ask for, as nearly as the loops and limits let them.
+
+    `targets` are those of `sweep`: `jk.pose`, `jk.point`, `jk.orientation` of parts, and joints by name. Where they are
+    as many as the freedoms, and can be met, `sweep` finds the same poses, with derivatives. Where they are more, or out
+    of reach, the sum of squared errors is least, lengths over the extent of the joints; where they are fewer, the
+    inputs move as little as they can.
+
+    - `weights`: factors of the errors of targets, 1 where none is given; `(place, orientation)` for a pose. A weight of
+      zero leaves an error out.
+    - `inputs`: the coordinates whose movement is least; by default the motors of the mechanism, else those that can
+      drive it.
+    - `rest`: displacements of inputs from which their movement is measured, by default those of the assembled pose.
+    - `limits`: whether coordinates stay within the limits of their joints.
+    - `starts`: how many starts there are: the assembled pose, and others at random (`seed`) from which other branches
+      are found, so other working modes too.
+    - `iterations`: of each start, at most.
+
+    Loops are closed at every pose; its status is UNREACHABLE where they are not. Runs on the host; the balls have
+    their three angles, which are singular a quarter turn of phi from the assembled pose. Raises ValueError for names
+    that are not there, values of another shape, and inside `jit`, `vmap` and `grad`.
+    """
+    if not isinstance(targets, Mapping) or not targets:
+        raise ValueError(f"targets map jk.pose, jk.point, jk.orientation or joints to values, got {targets!r}")
+    if traced((mechanism, [*targets.values()])):
+        raise ValueError("inverse is for numbers: inside jit, vmap and grad sweep over targets instead")
+    for name, count in (("starts", starts), ("iterations", iterations)):
+        if not isinstance(count, int) or count < 1:
+            raise ValueError(f"{name} is a whole number, at least 1, got {count!r}")
+    problem = Problem(mechanism, aims_of(mechanism, targets, weights or {}))
+    chosen = coordinates(mechanism.linkage, [*(inputs or mechanism.motors or _drivable(mechanism))])
+    for name in chosen:
+        problem.inputs[problem.column(name)] = True
+    for name, value in by_name(rest or {}, "places of rest", "{'A': 0.1}").items():
+        column = problem.column(name)
+        problem.rest[column] = float(value) / problem.units[column]
+    bounds = problem.limits if limits else Bounds(*np.full((2, len(problem.units)), [[-np.inf], [np.inf]]))
+    found = [problem.from_assembled(bounds, iterations), *problem.from_random(bounds, iterations, starts - 1, seed)]
+    every = Solution(*(np.stack(each) for each in zip(*found, strict=True)))
+    errors = np.where(every.closure <= CLOSED, every.error, np.inf)
+    least = errors.min(axis=0)
+    best = np.where(errors[0] <= least + REACHED, 0, errors.argmin(axis=0))
+    poses = np.arange(problem.poses)
+    x = every.x[best, poses]
+    at = (x <= bounds.low + REACHED) | (x >= bounds.high - REACHED)
+    return Inverse(
+        _motion(mechanism, problem, x, every.closure[best, poses], [*chosen]),
+        every.error[best, poses],
+        {name: at[:, column] for column, name in enumerate(problem.names) if at[:, column].any()},
+        tuple(_distinct(every.x[:, pose], errors[:, pose], int(best[pose]), problem) * problem.units for pose in poses),
+        problem.names,
+        problem.size,
+    )
+
+
+def _drivable(mechanism: Mechanism) -> Sequence[str]:
+    """The coordinates that determine the motion together, or all where the assembled pose is open."""
+    if opening(mechanism.linkage, mechanism.unit) is None:
+        return mechanism.mobility().drivable
+    return [f"{joint.name}.{name}" for joint in mechanism.all_joints for name in joint.coordinates]
+
+
+def _motion(
+    mechanism: Mechanism, problem: Problem, x: np.ndarray, closure: np.ndarray, inputs: Sequence[str]
+) -> Motion:
+    """The motion whose poses were found, with the displacements of the inputs as its own."""
+    q = jnp.asarray(x * problem.units)
+    split = np.cumsum([joint.freedoms for joint in mechanism.all_joints])[:-1]
+    status = np.where(closure <= CLOSED, Status.CLOSED.value, Status.UNREACHABLE.value)
+    return Motion(
+        mechanism,
+        {name: q[:, problem.names.index(name)] for name in inputs},
+        tuple(jnp.split(q, split, axis=1)),
+        jnp.asarray(status),
+        jnp.asarray(closure),
+        SolverOptions(),
+    )
+
+
+def _distinct(x: np.ndarray, errors: np.ndarray, first: int, problem: Problem) -> np.ndarray:
+    """The solutions (solutions, columns) that fit as well as the first one, which comes first; turns are wrapped."""
+    kept: list[np.ndarray] = []
+    for number in [first, *np.argsort(errors)]:
+        if errors[number] > errors[first] + REACHED or not np.isfinite(errors[number]):
+            continue
+        turn = np.where(problem.units == 1.0, np.round(x[number] / (2 * np.pi)) * 2 * np.pi, 0.0)
+        one = x[number] if number == first else x[number] - turn
+        off = [np.where(problem.units == 1.0, _wrapped(one - other), one - other) for other in kept]
+        if all(np.abs(each).max(initial=0.0) > SAME for each in off):
+            kept.append(one)
+    return np.stack(kept) if kept else np.zeros((0, x.shape[1]))
+
+
+def _wrapped(angles: np.ndarray) -> np.ndarray:
+    return (angles + np.pi) % (2 * np.pi) - np.pi

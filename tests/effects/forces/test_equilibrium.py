@@ -1,0 +1,82 @@
+"""Equilibria against closed forms, to 1e-9: 1e-12 of the range is refined, and the force is exact to rounding."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import jaxkin as jk
+from reference.energies import FOURBAR_MASSES, fourbar
+from reference.mechanisms import Z, planar_fourbar
+from reference.planar import fourbar as fourbar_angles
+
+
+def pendulum() -> jk.Mechanism:
+    hinge = jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z)
+    return jk.Mechanism.build(fixed=["base"], joints=[hinge], unit="m")
+
+
+def test_a_pendulum_hangs_or_stands():
+    mechanism = pendulum()
+    own = jk.masses(mechanism, given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
+    found = jk.equilibrium(mechanism, {"A": np.linspace(-3.0, 3.0, 25)}, own, gravity=(0, -9.81, 0))
+    start = np.arctan2(0.4, 0.3)
+    np.testing.assert_allclose(found.values, [-np.pi / 2 - start, np.pi / 2 - start], atol=1e-9)
+    assert found.stable.tolist() == [True, False]
+    assert found.name == "A.phi" and "2 equilibria of A.phi from -3 to 3" in str(found) and "unstable" in str(found)
+    np.testing.assert_allclose(found.motion.inputs["A.phi"], found.values)
+
+
+@pytest.mark.long
+def test_a_spring_against_a_weight(tmp_path):
+    """k q = m g r cos(q), stable; and with a soft spring there may be none in the range."""
+    mechanism = pendulum()
+    own = jk.masses(mechanism, given={"arm": jk.Mass(2.0, (0.5, 0.0, 0.0))})
+    given = {"gravity": (0, -9.81, 0), "applied": jk.joint_spring("A", 4.0)}
+    found = jk.equilibrium(mechanism, {"A": np.linspace(-1.5, 1.0, 7)}, own, **given)
+    expected = brentq(lambda q: 4.0 * q + 2 * 9.81 * 0.5 * np.cos(q), -1.5, 0.0, xtol=1e-14)
+    np.testing.assert_allclose(found.values, [expected], atol=1e-9)
+    assert found.stable.tolist() == [True]
+    assert found.plot(tmp_path / "equilibrium.png").stat().st_size > 10_000
+    assert found.save(tmp_path / "equilibrium.csv").read_text().splitlines()[0] == 'pose,"A.phi","stable"'
+    none = jk.equilibrium(mechanism, {"A": np.linspace(0.0, 1.0, 7)}, own, **given)
+    assert len(none.values) == 0 and str(none) == "No equilibrium of A.phi from 0 to 1"
+    none.plot(tmp_path / "none.png")
+
+
+@pytest.mark.long
+def test_a_fourbar_stands_where_its_potential_is_extreme():
+    mechanism = fourbar()
+    own = jk.masses(mechanism, given=FOURBAR_MASSES)
+    found = jk.equilibrium(mechanism, {"A": np.linspace(0, 2 * np.pi, 73)}, own, gravity=(0, -9.81, 0))
+
+    def slope(q):
+        """Derivative of the height of all masses, by the turns of the three parts from the closed form."""
+        at, home = (fourbar_angles(np.array([angle])) for angle in (1.0 + q, 1.0))
+        speeds = {
+            "crank": 1.0,
+            "coupler": 40 * np.sin(1.0 + q - at.rocker[0]) / (120 * np.sin(at.rocker[0] - at.coupler[0])),
+            "rocker": 40 * np.sin(1.0 + q - at.coupler[0]) / (80 * np.sin(at.rocker[0] - at.coupler[0])),
+        }
+        turns = {"crank": q, "coupler": (at.coupler - home.coupler)[0], "rocker": (at.rocker - home.rocker)[0]}
+        pins = {"crank": np.zeros(2), "coupler": home.crank_pin[0], "rocker": np.array([100.0, 0.0])}
+        total = 0.0
+        for part, mass in FOURBAR_MASSES.items():
+            x, y = np.asarray(mass.centre)[:2] - pins[part]
+            across = x * np.cos(turns[part]) - y * np.sin(turns[part])
+            lifted = 40 * np.cos(1.0 + q) if part == "coupler" else 0.0
+            total += mass.mass * (lifted + across * speeds[part])
+        return total
+
+    expected = [brentq(slope, value - 0.01, value + 0.01, xtol=1e-13) for value in found.values]
+    assert len(expected) == 2 and found.stable.sum() == 1
+    np.testing.assert_allclose(found.values, expected, atol=1e-9)
+
+
+def test_bad_ranges_are_refused():
+    mechanism = planar_fourbar()
+    with pytest.raises(ValueError, match="along one driven coordinate, got 2"):
+        jk.equilibrium(mechanism, {"A": np.zeros(3), "D": np.zeros(3)})
+    with pytest.raises(ValueError, match="must be two displacements or more"):
+        jk.equilibrium(mechanism, {"A": np.zeros(1)})
+    with pytest.raises(ValueError, match="nothing acts"):
+        jk.equilibrium(pendulum(), {"A": np.linspace(0, 1, 3)})

@@ -1,0 +1,213 @@
+"""Reactions against the balance of each part, closed forms, and the drive forces of virtual work.
+
+Tolerance: 1e-8 of the largest force; the balance squares the condition of the constraints, about 1e3, and rounding.
+"""
+
+from dataclasses import replace
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+import jaxkin as jk
+from reference.energies import FOURBAR_MASSES, GRAVITY, by_time, fourbar, whole_turn
+from reference.mechanisms import Z, bennett_linkage, cardan_shafts, slider_crank
+from reference.planar import slider_crank as slider_crank_angles
+
+RATE = 7.0
+TURN = whole_turn()
+APPLIED = [
+    jk.spring("ground", (0, 150, 10), "coupler", (70, 60, 20), stiffness=400.0, length=60.0, damping=15.0),
+    jk.joint_spring("D", 3.0, rest=0.2, damping=0.4),
+    jk.force("coupler", (30.0, 60.0, 0.0), (5.0, -3.0, 2.0)),
+]
+
+
+@pytest.fixture(scope="module")
+def motion() -> jk.Motion:
+    return fourbar().sweep({"A": TURN})
+
+
+@pytest.fixture(scope="module")
+def masses(motion) -> jk.Masses:
+    return jk.masses(motion.mechanism, given=FOURBAR_MASSES)
+
+
+@pytest.fixture(scope="module")
+def found(motion, masses) -> jk.Reactions:
+    return jk.reactions(motion, masses, gravity=GRAVITY, applied=APPLIED, rates={"A": RATE})
+
+
+def test_every_part_is_in_balance(motion, found):
+    """Newton and Euler for each part, with accelerations of its centre and angle from a Fourier sum over the turn."""
+    ends = [np.array([0, 150, 10.0]), np.asarray(motion.points("coupler", (70, 60, 20)))]
+    apart = 1e-3 * (ends[0] - ends[1])
+    distance = np.linalg.norm(apart, axis=1, keepdims=True)
+    pull = (400.0 * (distance - 0.06) + 15.0 * by_time(distance, RATE)) * apart / distance
+    outer = {
+        "crank": [],
+        "rocker": [],
+        "coupler": [
+            (ends[1], pull),
+            (np.asarray(motion.points("coupler", (30.0, 60.0, 0.0))), np.array([5.0, -3.0, 2.0])),
+        ],
+    }
+    largest = max(float(jnp.abs(rows).max()) for rows in found.forces.values())
+    for part, mass in FOURBAR_MASSES.items():
+        inertia = np.asarray(mass.inertia) * np.eye(3)  # along the axes, all of them
+        centre = np.asarray(motion.points(part, mass.centre))
+        push = mass.mass * (by_time(1e-3 * centre, RATE, 2) - np.array(GRAVITY))
+        turned = np.asarray(motion.transforms[part][:, :3, :3])
+        omega = by_time(turned, RATE) @ turned.transpose(0, 2, 1)
+        omega = np.stack([omega[:, 2, 1], omega[:, 0, 2], omega[:, 1, 0]], axis=1)
+        spin = np.einsum("pij,jk,plk,pl->pi", turned, inertia, turned, omega)
+        forces, torques = -push, -by_time(spin, RATE)
+        for name, joint in motion.mechanism.joints.items():
+            if part in joint.parts:
+                sign = 1.0 if joint.parts[1] == part else -1.0
+                force = sign * np.asarray(found.forces[name])
+                arm = 1e-3 * (np.asarray(found.points[name]) - centre)
+                forces = forces + force
+                torques = torques + sign * np.asarray(found.torques[name]) + np.cross(arm, force)
+        for point, force in outer[part]:
+            forces, torques = forces + force, torques + np.cross(1e-3 * (point - centre), force)
+        np.testing.assert_allclose(forces, 0.0, atol=1e-8 * largest)
+        np.testing.assert_allclose(torques, 0.0, atol=1e-8 * largest)
+
+
+def test_hinges_transmit_no_torque_but_that_of_drive_and_spring(motion, masses, found):
+    drive = jk.drive_forces(motion, masses, gravity=GRAVITY, applied=APPLIED, rates={"A": RATE}).forces["A.phi"]
+    rocker, speed = motion.coordinates["D"][:, 0], by_time(np.asarray(motion.coordinates["D"][:, 0]), RATE)
+    scale = float(jnp.abs(drive).max())
+    np.testing.assert_allclose(found.drives["A.phi"], drive, atol=1e-8 * scale)
+    np.testing.assert_allclose(found.torques["A"][:, 2], drive, atol=1e-8 * scale)
+    np.testing.assert_allclose(found.torques["D"][:, 2], -3.0 * (rocker - 0.2) - 0.4 * speed, atol=1e-8 * scale)
+    for name in "BC":
+        np.testing.assert_allclose(found.torques[name][:, 2], 0.0, atol=1e-8 * scale)
+    assert float(found.imbalance.max()) < 1e-8 * scale
+
+
+def test_what_a_planar_linkage_leaves_open_is_named(found):
+    """Three of six times four unknowns, as mobility counts its redundant equations: along the axes and about them."""
+    assert [each.joint for each in found.undetermined] == list("ABCD")
+    assert {each.components for each in found.undetermined} == {("torque x", "torque y", "force z")}
+    assert "not determined in B (crank - coupler): torque x, torque y, force z" in str(found)
+
+
+@pytest.mark.long
+def test_a_slider_crank_under_its_piston_force():
+    """The rod is a two-force member: F / cos(rod) along it, and F tan(rod) on the rail; crank torque F dx/dtheta."""
+    mechanism = replace(slider_crank(), unit="mm")
+    pin = np.asarray(mechanism.joints["C"].frames_1[0][:3, 3])
+    motion = mechanism.sweep({"A": TURN})
+    found = jk.reactions(motion, applied=jk.force("slider", pin, (-800.0, 0.0, 0.0)))
+    rod = slider_crank_angles(1.0 + TURN).rod
+    np.testing.assert_allclose(
+        found.forces["C"], 800.0 * np.stack([1 + 0 * rod, np.tan(rod), 0 * rod], axis=1), atol=1e-7
+    )
+    np.testing.assert_allclose(found.forces["S"][:, 1], -800.0 * np.tan(rod), atol=1e-7)
+    arm = 1e-3 * np.asarray(motion.points("slider", pin) - found.points["S"])  # from the rail's point to the pin
+    np.testing.assert_allclose(found.torques["S"][:, 2], np.cross(arm, found.forces["S"])[:, 2], atol=1e-7)
+
+
+@pytest.mark.long
+def test_a_door_on_two_hinges_shares_its_weight():
+    """Two equal hinges on one axis, as a door has: the weight along the axis is not determined, and is shared."""
+    joints = [
+        jk.revolute("upper", "wall", "door", point=(0, 0, 0.5), axis=Z),
+        jk.revolute("lower", "wall", "door", point=(0, 0, -0.5), axis=Z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["wall"], joints=joints, unit="m")
+    own = jk.masses(mechanism, given={"door": jk.Mass(20.0, (0.4, 0.0, 0.0))})
+    found = jk.reactions(mechanism.sweep({"upper": np.array([0.0, 0.3])}), own, gravity=(0, 0, -10.0))
+    for name in ("upper", "lower"):
+        np.testing.assert_allclose(found.forces[name][:, 2], 100.0, rtol=1e-9)
+    # the couple of the weight, 200 N x 0.4 m about the axis across the door, is held by forces a metre apart, and
+    # torques
+    across = np.stack([-np.sin([0.0, 0.3]), np.cos([0.0, 0.3]), np.zeros(2)], axis=1)
+    held = found.torques["upper"] + found.torques["lower"]
+    held = held + np.cross([0, 0, 0.5], found.forces["upper"] - found.forces["lower"])
+    np.testing.assert_allclose(held, -80.0 * across, atol=1e-7)
+    assert {each.joint for each in found.undetermined} == {"upper", "lower"}
+    assert "force z" in found.undetermined[0].components
+
+
+@pytest.mark.long
+def test_gradients_by_masses_and_forces(motion):
+    def peak(x):
+        own = jk.masses(motion.mechanism, given=FOURBAR_MASSES | {"coupler": jk.Mass(x[0], (x[1], 50.0, 0.0), x[2])})
+        found = jk.reactions(motion, own, applied=jk.force("coupler", (x[1], 0, 0), (x[3], 1.0, 0)), rates={"A": RATE})
+        return jnp.sum(found.forces["B"] ** 2) + jnp.sum(found.drives["A.phi"] ** 2)
+
+    x = jnp.array([1.5, 60.0, 4e-3, 5.0])
+    steps = np.diag(1e-4 * np.asarray(x))
+    expected = [(peak(x + step) - peak(x - step)) / (2 * step.sum()) for step in steps]
+    np.testing.assert_allclose(jax.grad(peak)(x), expected, rtol=1e-6)
+
+
+@pytest.mark.long
+def test_it_prints_draws_and_saves_and_open_poses_are_nan(tmp_path):
+    motion = fourbar(ground=40.0, crank=20.0, coupler=25.0, rocker=30.0).sweep({"A": TURN})
+    found = jk.reactions(motion, applied=jk.torque("rocker", (0, 0, 1.0)))
+    closed = np.asarray(motion.closed)
+    for rows in (*found.forces.values(), *found.torques.values()):
+        assert np.array_equal(np.isfinite(rows).all(axis=1), closed)
+    assert f"Reactions of 4 joints in {closed.sum()} closed poses of 64" in str(found)
+    assert found.plot(tmp_path / "all.png").stat().st_size > 10_000
+    found.plot(tmp_path / "some.png", ["A", "D"])
+    with pytest.raises(ValueError, match="no joint 'E'"):
+        found.plot(tmp_path / "none.png", ["E"])
+    table = np.genfromtxt(found.save(tmp_path / "joints.csv"), delimiter=",", names=True)
+    np.testing.assert_allclose(table["A_force_y_N"], found.forces["A"][:, 1], rtol=1e-8)
+
+
+@pytest.mark.long
+def test_a_freedom_without_a_drive_is_told():
+    """Two hinges in a row, the second without a drive: what gravity asks of it nothing holds."""
+    joints = [
+        jk.revolute("A", "base", "arm", point=(0, 0, 0), axis=Z),
+        jk.revolute("B", "arm", "hand", point=(0.5, 0, 0), axis=Z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["base"], joints=joints, unit="m")
+    motion = mechanism.sweep({"A": np.array([0.0, 0.1])})
+    balanced = jk.masses(mechanism, given={"arm": 0, "hand": jk.Mass(1.0, (0.5, 0.0, 0.0))})
+    found = jk.reactions(motion, balanced, gravity=(0, -9.81, 0))
+    np.testing.assert_allclose(found.drives["A.phi"], 9.81 * 0.5 * np.cos([0.0, 0.1]), rtol=1e-9)
+    assert "out of balance" not in str(found)
+    loose = jk.masses(mechanism, given={"arm": 0, "hand": jk.Mass(1.0, (0.8, 0.0, 0.0))})
+    found = jk.reactions(motion, loose, gravity=(0, -9.81, 0))
+    assert "out of balance by up to" in str(found)
+
+
+@pytest.mark.long
+def test_spatial_linkages_agree_with_virtual_work():
+    for mechanism, drive, opened in ((bennett_linkage(), "A", 3), (cardan_shafts(), "in", None)):
+        motion = mechanism.sweep({drive: np.linspace(0.1, 1.5, 9)})
+        given = {part: jk.Mass(1.0, (10.0, 20.0, 30.0), 50.0) for part in mechanism.parts if part != "ground"}
+        own = jk.masses(mechanism, given=given)
+        balanced = jk.reactions(motion, own, rates={drive: 2.0})
+        forces = jk.drive_forces(motion, own, rates={drive: 2.0}).forces[f"{drive}.phi"]
+        np.testing.assert_allclose(balanced.drives[f"{drive}.phi"], forces, rtol=1e-8)
+        assert len(balanced.undetermined) in (len(mechanism.joints), opened)
+
+
+@pytest.mark.long
+def test_a_linkage_that_is_not_overconstrained_is_determined():
+    """With a ball and a pin that slides in place of two hinges the forces along the axes are those of the loads."""
+    planar = fourbar()
+    at = {name: joint.frames_1[0][:3, 3] for name, joint in planar.joints.items()}
+    joints = [
+        jk.revolute("A", "ground", "crank", point=at["A"], axis=Z),
+        jk.spherical("B", "crank", "coupler", point=at["B"]),
+        jk.cylindrical("C", "coupler", "rocker", point=at["C"], axis=Z),
+        jk.revolute("D", "ground", "rocker", point=at["D"], axis=Z),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints, unit="mm")
+    found = jk.reactions(mechanism.sweep({"A": TURN[:20]}), applied=jk.force("coupler", (30, 60, 0), (5, -3, 2)))
+    assert found.undetermined == ()
+    np.testing.assert_allclose(found.forces["B"][:, 2], -2.0, rtol=1e-8)  # the pin of C slides: B carries it all
+    np.testing.assert_allclose(found.forces["C"][:, 2], 0.0, atol=1e-8)
+    plain = jk.reactions(planar.sweep({"A": TURN[:20]}), applied=jk.force("coupler", (30, 60, 0), (5, -3, 2)))
+    for name in "ABCD":
+        np.testing.assert_allclose(found.forces[name][:, :2], plain.forces[name][:, :2], atol=1e-8)
