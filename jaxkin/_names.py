@@ -29,7 +29,7 @@ def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
 
 
 def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what: str = "parts") -> tuple[str, ...]:
-    """Names of the parts that some patterns stand for, in the order of the patterns, each once.
+    """List the parts that some patterns stand for, by name, in the order of the patterns, each once.
 
     A pattern is a name, a glob ("Base*"), or either with the sub-assemblies before it ("Arm/Base*", "Arm/*"): these may
     begin at any depth, and "*" goes through all that is below. Raises ValueError for a pattern without a match; `what`
@@ -49,7 +49,7 @@ def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what
 
 
 def _below(pattern: str, paths: Mapping[str, str]) -> list[str]:
-    """Names whose path ends in what the pattern stands for; without "/" in it, the name alone does."""
+    """List the names whose path ends in what the pattern stands for; without "/" in it, the name alone does."""
     form = _form(pattern)
     if "/" not in pattern:
         return [name for name in paths if form.fullmatch(name)]
@@ -74,7 +74,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
 
 def listed(words: Sequence[str]) -> str:
-    """Names with commas, the first few of many: "A, B, C and 40 more"."""
+    """Write names with commas, the first few of many: "A, B, C and 40 more"."""
     more = f" and {len(words) - _MAX_KNOWN} more" if len(words) > _MAX_KNOWN else ""
     return ", ".join(words[:_MAX_KNOWN]) + more
 

@@ -236,7 +236,7 @@ class Assembly:
 
 
 def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence[str]:
-    """Names in full for patterns with "*", "?" or "/"; other names are checked where they are used."""
+    """Replace patterns with "*", "?" or "/" by names in full; other names are checked where they are used."""
     if isinstance(names, str):
         return names
     known = {part.name for part in parts}

@@ -144,7 +144,7 @@ def _between(
 def _locked(
     assembly: Assembly, said: Said, groups: Sequence[Inference], constraints: Sequence[Constraint], noise: Noise
 ) -> list[Inference]:
-    """Pairs of bodies that several constraints leave no freedom together."""
+    """Find pairs of bodies that several constraints leave no freedom together."""
     result = []
     for several in _between(assembly, said, groups, constraints):
         pair = lower_pair([each.chain for each in several], noise) if len(several) > 1 else None

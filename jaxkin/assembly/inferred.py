@@ -114,7 +114,8 @@ def _with_seats(
 
 
 def _seats(mechanism: Mechanism) -> list[Inference]:
-    """Bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two cheeks.
+    """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
+    cheeks.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use.
     """

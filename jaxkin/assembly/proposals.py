@@ -126,6 +126,6 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
 
 
 def _moved(mechanism: Mechanism) -> int:
-    """Number of joints with freedoms that are not idle."""
+    """Count the joints with freedoms that are not idle."""
     idle = {*mechanism.mobility().idle}
     return sum(any(f"{joint.name}.{name}" not in idle for name in joint.coordinates) for joint in mechanism.all_joints)

@@ -23,5 +23,5 @@ def main() -> None:
 
 
 def cache_folder() -> Path:
-    """Where compiled programs are kept: `jaxkin` in $XDG_CACHE_HOME, which is `~/.cache` where it is not set."""
+    """Tell where compiled programs are kept: `jaxkin` in $XDG_CACHE_HOME, which is `~/.cache` where it is not set."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "jaxkin"

@@ -22,8 +22,10 @@ def one_line_errors() -> Iterator[None]:
 
 
 def _about_input(error: BaseException) -> bool:
-    """Files, missing extras, and what jaxkin itself refuses; an error out of numpy or JAX is a defect: it keeps its
-    traceback."""
+    """Tell whether an error is about the input: files, missing extras, and what jaxkin itself refuses.
+
+    An error out of numpy or JAX is a defect, and keeps its traceback.
+    """
     if isinstance(error, OSError):
         return error.__cause__ is None or _about_input(error.__cause__)
     if not isinstance(error, ValueError | KeyError | ImportError) or (trace := error.__traceback__) is None:

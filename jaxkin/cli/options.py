@@ -80,7 +80,7 @@ class Options:
 
 
 def parse_drives(options: Iterable[str]) -> dict[str, Range]:
-    """Displacements by name as they were written, one option each: "crank=0:360:361" or "crank=0,10,25".
+    """Read displacements by name as they were written, one option each: "crank=0:360:361" or "crank=0,10,25".
 
     Raises ValueError for an option that cannot be read, and for a name given twice.
     """

@@ -30,7 +30,7 @@ def say(text: str = "") -> None:
 
 
 def print_assembly(assembly: Assembly, contacts: Contacts | None, verbose: bool) -> None:
-    """Parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
+    """Print parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
     if contacts is None:
         say(f"{assembly.describe(verbose)}\n")
         return
@@ -40,7 +40,7 @@ def print_assembly(assembly: Assembly, contacts: Contacts | None, verbose: bool)
 
 
 def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:
-    """Joints, loops, mobility and notes, but for the notes that were told with the contacts."""
+    """Print joints, loops, mobility and notes, but for the notes that were told with the contacts."""
     said = {*map(str, contacts.near_misses), *contacts.notes}
     history, alignment = (
         tuple(note for note in notes if note not in said) for notes in (mechanism.history, mechanism.alignment)

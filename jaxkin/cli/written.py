@@ -36,7 +36,7 @@ def write_page(study: Study, tried: Sequence[Proposal], page: Path) -> None:
 
 
 def _drivable(study: Study) -> tuple[str, ...]:
-    """Coordinates that determine the motion together; none where nothing can move, or where loops are open."""
+    """Find coordinates that determine the motion together; none where nothing can move, or where loops are open."""
     from jaxkin.mobility.open_loops import opening
 
     mechanism = study.mechanism

@@ -98,7 +98,7 @@ def _largest(jacobian: Float[np.ndarray, "starts rows variables"]) -> Float[np.n
 
 
 def _proposed(state: _State) -> tuple[Float[np.ndarray, "starts variables"], Float[np.ndarray, " starts"]]:
-    """Where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
+    """Find where the next step leads, and the decrease of the loss that the linearised residuals foresee."""
     square = np.einsum("sri,srj->sij", state.jacobian, state.jacobian)
     slope = np.einsum("sri,sr->si", state.jacobian, state.residuals)
     at_lower, at_upper = state.units <= 0.0, state.units >= 1.0
@@ -116,7 +116,7 @@ def _proposed(state: _State) -> tuple[Float[np.ndarray, "starts variables"], Flo
 
 
 def _step(square, slope, damping, held: Bool[np.ndarray, "starts variables"]) -> Float[np.ndarray, "starts variables"]:
-    """Solution of (J^T J + damping) step = -J^T r for the variables that are not held; zero for the others."""
+    """Solve (J^T J + damping) step = -J^T r for the variables that are not held; zero for the others."""
     size = held.shape[1]
     matrix = np.where(held[:, :, None] | held[:, None, :], 0.0, square)
     matrix[:, range(size), range(size)] += np.where(held, 1.0, damping[:, None])

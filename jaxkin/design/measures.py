@@ -34,7 +34,7 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
 
 
 def stroke(motion: Motion, joint: str) -> Float[Array, ""]:
-    """Largest minus smallest displacement of a joint of one coordinate over the closed poses: radians or a length."""
+    """Measure the stroke of a joint of one coordinate, radians or a length: largest minus smallest of closed poses."""
     values = joint_coordinate(motion, joint)
     inside = motion.closed
     return jnp.max(jnp.where(inside, values, -jnp.inf)) - jnp.min(jnp.where(inside, values, jnp.inf))
@@ -49,13 +49,13 @@ def length_now(mechanism: Mechanism, key: tuple[str, ...]):
 
 
 def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:
-    """Where the origin of a joint is in every pose."""
+    """Find where the origin of a joint is in every pose."""
     joint = motion.mechanism.joints[known_joint(motion, name)]
     return motion.points(joint.parts[0], jnp.asarray(joint.frames_1)[0, :3, 3])
 
 
 def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:
-    """Displacement of a joint by "joint", where it has one coordinate, or "joint.coordinate"."""
+    """Find the displacement of a joint by "joint", where it has one coordinate, or "joint.coordinate"."""
     joints = motion.mechanism.joints
     if name in joints:
         if joints[name].freedoms != 1:
@@ -79,7 +79,7 @@ def known_joint(motion: Motion, name: str) -> str:
 
 
 def as_rows(values, what: str, width: int) -> np.ndarray:
-    """Numbers as an array (rows, width); ValueError naming what they are for."""
+    """Convert numbers to an array (rows, width); ValueError naming what they are for."""
     array = np.asarray(values, float)
     if array.ndim != 2 or array.shape[1] != width or not np.all(np.isfinite(array)):
         raise ValueError(f"{what} must be finite numbers of shape (poses, {width}), got shape {array.shape}")

@@ -214,7 +214,7 @@ def dwell(joint: str, poses: Any) -> Objective:
 
 
 def _point(point: Any, extras: Extras):
-    """Coordinates of a point that may be an extra variable; (x, y) is in the plane z = 0."""
+    """Find the coordinates of a point that may be an extra variable; (x, y) is in the plane z = 0."""
     found = jnp.asarray(extras[point] if isinstance(point, str) else point, float)
     return jnp.append(found, 0.0) if found.shape == (2,) else found
 

@@ -144,7 +144,7 @@ def optimize(
 
 
 def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
-    """Motion and extras of the design given; refused where the loss is no finite number there."""
+    """Compute motion and extras of the design given; refused where the loss is no finite number there."""
     motion, extras, _ = problem.motion(problem.variables.start)
     judged = jax.jit(problem.of_motion)(motion, extras)
     if not bool(jnp.all(jnp.isfinite(judged))):

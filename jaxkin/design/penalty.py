@@ -24,7 +24,8 @@ from jaxkin.solve.system.from_linkage import group_joints, group_system
 
 
 def closure_gaps(motion: Motion) -> Float[Array, " poses"]:
-    """Square root of Eq. 12 of the poses that did not close (zero for all others), rotation entries weighted by 1/2.
+    """Compute the square root of Eq. 12 of the poses that did not close (zero for all others), rotation entries
+    weighted by 1/2.
 
     Squares of the equations of couplings are added.
     Lengths are taken from the centroid of the joints of their loops and divided by their root-mean-square distance

@@ -63,7 +63,7 @@ class Problem:
         return motion, values.extras, misfits
 
     def judge(self, vector) -> Judged:
-        """Residuals and violations of a design, differentiable."""
+        """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
         rows = self.of_motion(motion, extras)
         lacking = [jnp.ravel(jnp.maximum(-constraint(motion, extras), 0.0)) for constraint in self.constraints]
@@ -71,7 +71,7 @@ class Problem:
         return Judged(rows, jnp.concatenate([closure_gaps(motion), *fits, *lacking]))
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
-        """Residuals of a sum of squares, or the loss alone."""
+        """Compute residuals of a sum of squares, or the loss alone."""
         if not self.squares:
             return jnp.reshape(self._call(motion, extras), (1,))
         return jnp.ravel(

@@ -201,7 +201,7 @@ def judged_range(motion: Motion) -> Moves:
 
 
 def _steepest(motion: Motion) -> float:
-    """Largest change of any joint from closed pose to closed pose over that of the drive."""
+    """Measure the largest change of any joint from closed pose to closed pose over that of the drive."""
     joints = motion.mechanism.all_joints
     pace = np.sqrt(sum(np.diff(np.asarray(values)) ** 2 for values in motion.inputs.values()))
     origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in joints])

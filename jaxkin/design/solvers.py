@@ -51,5 +51,5 @@ def in_groups(
 
 
 def unit_box(lower: np.ndarray, upper: np.ndarray) -> tuple[Array, Array]:
-    """Lower bounds and widths: vectors are lower + width * unit."""
+    """Return lower bounds and widths: vectors are lower + width * unit."""
     return jnp.asarray(lower), jnp.asarray(upper - lower)

@@ -169,7 +169,7 @@ def value(found: Between, quantity: Quantity):
 
 
 def _side(found: Between):
-    """+1 where the distance is positive or zero, -1 where it is negative."""
+    """Return +1 where the distance is positive or zero, -1 where it is negative."""
     return 1.0 - 2.0 * (found.distance < 0)
 
 

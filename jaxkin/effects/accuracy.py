@@ -144,7 +144,8 @@ def work_precision(
 def combinations(
     tolerances: Sequence[float] = TOLERANCES, methods: Sequence[str] = METHODS, by_formula: bool = True
 ) -> list[tuple[str, str, float | None]]:
-    """Method, precision and tolerance of every sweep; the continuation in both precisions, and down to rounding."""
+    """List method, precision and tolerance of every sweep; the continuation in both precisions, and down to
+    rounding."""
     found: list[tuple[str, str, float | None]] = [(FORMULA, "float64", None)] if by_formula else []
     for method in methods:
         found += [(method, "float64", tolerance) for tolerance in tolerances]
@@ -197,7 +198,7 @@ class _ExactPoses:
             )
 
     def error(self, motion: Motion) -> float:
-        """Largest error of the chosen poses that are closed, in radians and characteristic lengths."""
+        """Measure the largest error of the chosen poses that are closed, in radians and characteristic lengths."""
         closed, largest = np.asarray(motion.closed)[self.chosen], 0.0
         for joints, loops, poses, seen in self.loop_groups:
             for row, pose, kept, is_closed in zip(self._rows(motion, joints), poses, seen, closed, strict=True):
@@ -208,6 +209,6 @@ class _ExactPoses:
         return largest
 
     def _rows(self, motion: Motion, joints: Sequence[int]) -> np.ndarray:
-        """Displacements of the joints at the chosen poses (poses, columns), in float64."""
+        """List the displacements of the joints at the chosen poses (poses, columns), in float64."""
         parts = [np.asarray(motion.displacements[joint], np.float64)[self.chosen] for joint in joints]
         return np.concatenate(parts, axis=1)

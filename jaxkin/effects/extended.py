@@ -88,7 +88,8 @@ class Extended:
         return jacobian / self.loops.units
 
     def _misfit(self, q: list) -> list:
-        """Rotation and translation, the latter over the characteristic length, by which the loops do not close.
+        """Compute the rotation and translation, the latter over the characteristic length, by which the loops do not
+        close.
 
         What the couplings are off by comes last.
         """
@@ -116,7 +117,8 @@ class Extended:
         return found
 
     def _displacement(self, joint: Joint, q: list) -> Any:
-        """Displacement J of part 2 relative to part 1: the product of `frames_1 T frames_2^-1` (Table 2)."""
+        """Compute the displacement J of part 2 relative to part 1: the product of `frames_1 T frames_2^-1` (Table
+        2)."""
         pose, first = self.mp.eye(4), 0
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
@@ -140,5 +142,5 @@ class Extended:
         return self.mp.matrix(np.asarray(pose, float).tolist())
 
     def _inverse(self, pose) -> Any:
-        """Inverse of a pose, exactly: the pose is rigid to rounding only, so its transpose would not do."""
+        """Compute the inverse of a pose, exactly: the pose is rigid to rounding only, so its transpose would not do."""
         return pose**-1

@@ -115,7 +115,7 @@ class MotionLaw:
         return sum(segment.duration for segment in self.segments)
 
     def times(self, poses: int) -> Float[np.ndarray, " poses"]:
-        """Evenly spaced times from the beginning to the end."""
+        """Make evenly spaced times from the beginning to the end."""
         return np.linspace(0.0, self.duration, poses)
 
     def __call__(self, times: Any, order: int = 0) -> Float[Array, " poses"]:

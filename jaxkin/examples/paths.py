@@ -40,7 +40,7 @@ class PathProblem:
     """Lowest error among the published designs within these bounds, computed from the numbers as they are printed."""
 
     def arguments(self) -> dict[str, Any]:
-        """Arguments of `jk.optimize`: `jk.optimize(**PATHS["b"].arguments(), starts=64)`."""
+        """Return the arguments of `jk.optimize`: `jk.optimize(**PATHS["b"].arguments(), starts=64)`."""
         count, scale = len(self.targets), self.bars[1] / 10
         mechanism = fourbar(*(scale * bar for bar in (3.0, 1.0, 2.8, 2.4)))
         corner, reach = np.array([scale, 0.0]), self.reach

@@ -30,11 +30,11 @@ class Plane:
     kind: ClassVar[str] = "plane"
 
     def distance(self, points: Points) -> Distances:
-        """Height over the plane, positive outside the material."""
+        """Measure the height over the plane, positive outside the material."""
         return (points - self.point) @ self.normal
 
     def normals(self, points: Points) -> Points:
-        """Outward normals at points of the surface."""
+        """Find the outward normals at points of the surface."""
         return np.broadcast_to(self.normal, points.shape)
 
     def moved(self, pose: Pose) -> Plane:
@@ -60,11 +60,11 @@ class Cylinder:
     kind: ClassVar[str] = "cylinder"
 
     def distance(self, points: Points) -> Distances:
-        """Distance from the surface, positive outside the material."""
+        """Measure the distance from the surface, positive outside the material."""
         return self.side * (np.linalg.norm(_radial(points, self.point, self.axis), axis=-1) - self.radius)
 
     def normals(self, points: Points) -> Points:
-        """Outward normals at points of the surface."""
+        """Find the outward normals at points of the surface."""
         return self.side * _unit(_radial(points, self.point, self.axis))
 
     def moved(self, pose: Pose) -> Cylinder:
@@ -90,13 +90,14 @@ class Cone:
     kind: ClassVar[str] = "cone"
 
     def distance(self, points: Points) -> Distances:
-        """Distance from the surface, positive outside the material; behind the apex, from the extended rulings."""
+        """Measure the distance from the surface, positive outside the material; behind the apex, from the extended
+        rulings."""
         height = (points - self.apex) @ self.axis
         radius = np.linalg.norm(_radial(points, self.apex, self.axis), axis=-1)
         return self.side * (radius * np.cos(self.half_angle) - height * np.sin(self.half_angle))
 
     def normals(self, points: Points) -> Points:
-        """Outward normals at points of the surface."""
+        """Find the outward normals at points of the surface."""
         radial = _unit(_radial(points, self.apex, self.axis))
         return self.side * (radial * np.cos(self.half_angle) - self.axis * np.sin(self.half_angle))
 
@@ -120,11 +121,11 @@ class Sphere:
     kind: ClassVar[str] = "sphere"
 
     def distance(self, points: Points) -> Distances:
-        """Distance from the surface, positive outside the material."""
+        """Measure the distance from the surface, positive outside the material."""
         return self.side * (np.linalg.norm(points - self.centre, axis=-1) - self.radius)
 
     def normals(self, points: Points) -> Points:
-        """Outward normals at points of the surface."""
+        """Find the outward normals at points of the surface."""
         return self.side * _unit(points - self.centre)
 
     def moved(self, pose: Pose) -> Sphere:

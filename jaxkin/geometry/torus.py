@@ -25,11 +25,11 @@ class Torus:
     kind: ClassVar[str] = "torus"
 
     def distance(self, points: Points) -> Float[np.ndarray, "*batch"]:
-        """Distance from the surface, positive outside the tube."""
+        """Measure the distance from the surface, positive outside the tube."""
         return np.linalg.norm(self._from_tube(points), axis=-1) - self.radius
 
     def normals(self, points: Points) -> Points:
-        """Unit normals that point out of the tube."""
+        """Find the unit normals that point out of the tube."""
         offset = self._from_tube(points)
         length = np.linalg.norm(offset, axis=-1, keepdims=True)
         return offset / np.where(length > 0, length, 1.0)

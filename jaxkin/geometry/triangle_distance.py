@@ -94,7 +94,7 @@ def _dot(a: Array, b: Array) -> Array:
 
 
 def _point_segment(point: Array, start: Array, edge: Array) -> Array:
-    """Square of the distance of a point to a segment from `start` to `start + edge`."""
+    """Compute the square of the distance of a point to a segment from `start` to `start + edge`."""
     square = _dot(edge, edge)
     along = jnp.clip(_dot(point - start, edge) / jnp.where(square > 0, square, 1.0), 0.0, 1.0)
     off = point - start - along[..., None] * edge
@@ -102,7 +102,8 @@ def _point_segment(point: Array, start: Array, edge: Array) -> Array:
 
 
 def _point_triangle(point: Array, triangle: Array) -> Array:
-    """Square of the distance of a point to a triangle: to its plane where the foot is inside, else to an edge."""
+    """Compute the square of the distance of a point to a triangle: to its plane where the foot is inside, else to an
+    edge."""
     edges = jnp.roll(triangle, -1, axis=-2) - triangle
     normal = jnp.cross(edges[..., 0, :], edges[..., 1, :])
     square = _dot(normal, normal)
@@ -113,7 +114,8 @@ def _point_triangle(point: Array, triangle: Array) -> Array:
 
 
 def _segments(p: Array, d: Array, q: Array, e: Array) -> Array:
-    """Square of the distance of the segments p + s d and q + t e, where the common perpendicular meets both.
+    """Compute the square of the distance of the segments p + s d and q + t e, where the common perpendicular meets
+    both.
 
     Infinite where it does not: then the nearest point of one of them is one of its ends.
     """

@@ -193,7 +193,7 @@ def _joints(joints: Iterable[ExportedJoint], where: _Places, metres: float, note
 
 
 def _apart(movement: str, base: Pose, follower: Pose) -> tuple[float, float]:
-    """Distance and angle by which two frames of a joint differ in what its movement leaves in place."""
+    """Measure distance and angle by which two frames of a joint differ in what its movement leaves in place."""
     feature, aligned = MOVEMENTS[movement].feature, MOVEMENTS[movement].aligned
     offset = follower[:3, 3] - base[:3, 3]
     along = float(offset @ base[:3, 2])

@@ -86,7 +86,8 @@ def keyframes(closed: np.ndarray) -> Int[np.ndarray, " keyframes"]:
 
 
 def quaternions(rotations: Float[np.ndarray, "poses 3 3"]) -> Float[np.ndarray, "poses 4"]:
-    """Unit quaternions (x, y, z, w), each in the hemisphere of the one before: between them lies the shorter turn."""
+    """Compute unit quaternions (x, y, z, w), each in the hemisphere of the one before: between them lies the shorter
+    turn."""
     from scipy.spatial.transform import Rotation
 
     turns = Rotation.from_matrix(rotations).as_quat()

@@ -35,7 +35,8 @@ def main(kind: str, most: int, parts: int, target: str, source: str) -> None:
 
 
 def read(file, kind: str, most: int, parts: int) -> list[dict]:
-    """Nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the world."""
+    """Read nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the
+    world."""
     # what trimesh could use and reading does without takes twice as long to import as all the rest
     for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if kind != "3mf" else ())):
         sys.modules[module] = None  # pyright: ignore[reportArgumentType]

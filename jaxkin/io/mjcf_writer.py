@@ -176,7 +176,7 @@ class _Writer:
         return {"range": _text(*np.clip([low * scale, high * scale], -UNLIMITED, UNLIMITED))}
 
     def _scale(self, joint: Joint, column: int) -> float:
-        """Metres in the unit of a coordinate that is a length, 1 for an angle."""
+        """Return the metres in the unit of a coordinate that is a length, 1 for an angle."""
         return self.metres if is_length(joint.coordinates[column]) else 1.0
 
     def _polynomial(self, name: str, follower: str, leader: str, factors: Sequence[float], constant: float = 0) -> None:
@@ -251,5 +251,5 @@ def _check(joint: Joint) -> None:
 
 
 def _text(*numbers: float) -> str:
-    """Numbers in full precision, with blanks between them."""
+    """Write numbers in full precision, with blanks between them."""
     return " ".join(repr(float(number)) for number in numbers)

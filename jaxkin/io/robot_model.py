@@ -156,7 +156,7 @@ def tag(element: Element) -> str:
 
 
 def unknown_parts(element: Element, known: Sequence[str], where: str) -> list[str]:
-    """Notes on the elements inside one that are not among the `known` tags, one for each tag."""
+    """Write notes on the elements inside one that are not among the `known` tags, one for each tag."""
     others: dict[str, list[Element]] = {}
     for each in element:
         if each.tag not in known:

@@ -97,7 +97,7 @@ def _renamed(motor: str, names: Mapping[str, str]) -> str:
 
 
 def _clean_names(names: list[str]) -> dict[str, str]:
-    """Names as the file has them -> names that are fit for messages."""
+    """Map names as the file has them to names that are fit for messages."""
     return dict(zip(names, unique(cleaned(name) or "unnamed" for name in names), strict=True))
 
 
@@ -129,7 +129,7 @@ def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.nd
 
 
 def _corners(shape: Shape) -> np.ndarray:
-    """Triangles (n, 3, 3) of a solid that needs no file, in the frame of its link, metres."""
+    """Make the triangles (n, 3, 3) of a solid that needs no file, in the frame of its link, metres."""
     import trimesh
 
     make = {

@@ -244,7 +244,7 @@ class _Reader:
         return ((low, high),) if low <= high and np.isfinite([low, high]).any() else ()
 
     def _pitch(self, each: Element, where: str) -> float:
-        """Metres a turn. The older <thread_pitch> is radians a metre, positive where the thread is left-handed."""
+        """Read the pitch, metres a turn. The older <thread_pitch> is radians a metre, positive if left-handed."""
         if (said := each.findtext("screw_thread_pitch")) is not None:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])

@@ -100,7 +100,7 @@ class Frames:
         raise self.unknown(name)
 
     def placement(self) -> Pose:
-        """From the frame of the model to the one that its pose places."""
+        """Compute the pose from the frame of the model to the frame that its pose places."""
         name = self.model.get("placement_frame")
         return np.linalg.inv(self.in_model(name)) if name else np.eye(4)
 

@@ -220,7 +220,8 @@ class _Reader:
         return transform
 
     def _path(self, side: Element, above: tuple[str, ...]) -> tuple[str, ...]:
-        """Identifiers from the root to the instance that a side of a joint or mate is on; of the root itself none."""
+        """Read the identifiers from the root to the instance that a side of a joint or mate is on; of the root itself
+        none."""
         path = tuple(uid.text or "" for uid in side.iterfind("InstancePath/Uid"))
         return above if path == (self.root,) and (*above, *path) not in self.placed else (*above, *path)
 

@@ -65,5 +65,5 @@ def _crossings(start: Points, direction: Points, triangles: Triangles) -> int:
 
 
 def areas(triangles: Triangles) -> Points:
-    """Twice the area of each triangle, as a vector along the normal that its winding gives it."""
+    """Compute twice the area of each triangle, as a vector along the normal that its winding gives it."""
     return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])

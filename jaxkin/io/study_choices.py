@@ -92,7 +92,7 @@ def _other_fixed(tried: _Tried, proposals: Sequence[Proposal]) -> list[str]:
 
 
 def _other_drives(mechanism: Mechanism, driven: Sequence[str]) -> Iterator[str]:
-    """Coordinates that can take the place of one of those that drive."""
+    """Find coordinates that can take the place of one of those that drive."""
     for name in useful_coordinates(mechanism) if driven else ():
         places = [tuple(name if each == one else each for each in driven) for one in driven if name not in driven]
         if found := next((place for place in places if can_drive(mechanism, place)), None):
@@ -110,7 +110,8 @@ def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
 
 
 def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:
-    """Parts that only one group holds, and that no joint needs, by their products: screws, and what touches nothing."""
+    """Find parts that only one group holds, and that no joint needs, by their products: screws, and what touches
+    nothing."""
     held = Counter(part for parts, _ in bodies.groups for part in parts)
     jointed = {part for joint in mechanism.all_joints if joint.freedoms for part in joint.parts}
     evidence = {part: each for parts, each in reversed(bodies.groups) for part in parts}

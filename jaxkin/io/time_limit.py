@@ -40,7 +40,7 @@ class TimeLimit:
         return cls(path.name, size, allowed, time.monotonic() + allowed)
 
     def remaining(self) -> float:
-        """Seconds that are left; ValueError where none are, with what to do about it."""
+        """Return the seconds that are left; ValueError where none are, with what to do about it."""
         if (left := self.ends - time.monotonic()) <= 0:
             raise self.exceeded()
         return left

@@ -245,7 +245,7 @@ class _Reader:
         return [name for name in self.loops.motors if self._moves(joints[name], "name_mot")]
 
     def _transmissions(self, joints: dict[str, RobotJoint]) -> list[str]:
-        """Joints that a transmission or a controller moves."""
+        """Find the joints that a transmission or a controller moves."""
         found = []
         for each in [*self.root.iterfind("transmission"), *self.root.iterfind("ros2_control")]:
             for joint in each.iterfind("joint"):

@@ -72,7 +72,7 @@ def _only(tied: Collection[int], known: Collection[int]) -> list[int]:
 
 
 def _alone(number: int, couplings: Mapping[int, Collection[int]], held: Collection[int]) -> list[int]:
-    """Find the first column of coupling `k` that is in no loop, not known, and in no other coupling that is left."""
+    """Find the first column of coupling `number` that is not `held` (in a loop, or known), nor in another coupling."""
     others = {column for k, tied in couplings.items() if k != number for column in tied}
     return [column for column in couplings[number] if column not in held and column not in others][:1]
 
@@ -89,7 +89,7 @@ def _solving(groups: Sequence[Group], joints: Collection[int]) -> list[int]:
 def _together(
     loops: Sequence[Circuit], couplings: Mapping[int, Collection[int]], columns: Columns, driven: Collection[int]
 ) -> Group:
-    """Make one group of all loops and couplings; its rank is the number of independent equations."""
+    """Make one group of all loops and couplings; its rank is taken to be the number of its unknowns."""
     unknowns = tuple(column for column in range(len(columns)) if column not in driven)
     joints = tuple(dict.fromkeys(columns[column][0] for column in unknowns))
     known = tuple(dict.fromkeys(joint for joint, _ in columns if joint not in joints))

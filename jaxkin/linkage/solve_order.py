@@ -117,7 +117,7 @@ def _feels(
 
 
 def _needed(groups: Sequence[Group], number: int) -> set[int]:
-    """Numbers of all groups that must be solved before one, directly or not."""
+    """List the numbers of all groups that must be solved before one, directly or not."""
     return {k for other in groups[number].after for k in (other, *_needed(groups, other))}
 
 

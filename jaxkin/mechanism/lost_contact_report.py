@@ -24,7 +24,8 @@ MAX_REPORTED_PER_JOINT = 3
 def lost_contact_report(
     lost: Sequence[LostContact], mechanism: Mechanism, inputs: Mapping[str, np.ndarray | Array]
 ) -> list[str]:
-    """Lines on the joints that leave their faces; one line on contacts that are lost where their joints still hold."""
+    """Write lines on the joints that leave their faces; one line on contacts that are lost where their joints still
+    hold."""
     loose: dict[str, list[LostContact]] = defaultdict(list)
     for each in lost:
         if each.loose.any():

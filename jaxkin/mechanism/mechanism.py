@@ -264,7 +264,7 @@ class Mechanism:
         return plan(self, drive)
 
     def mobility(self) -> Mobility:
-        """Freedoms, idle freedoms and redundant constraints at the assembled pose; ValueError where that is open."""
+        """Count freedoms, idle ones and redundant constraints at the assembled pose; ValueError where it is open."""
         return mobility(self.linkage, self.unit)
 
     def blocking_contacts(self) -> tuple[BlockingContacts, ...]:

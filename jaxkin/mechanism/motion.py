@@ -107,7 +107,7 @@ class Motion:
         return lost_contacts(self)
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
-        """Path of a point of a part, given where it is in the assembled pose (world coordinates)."""
+        """Compute the path of a point of a part, given where it is in the assembled pose (world coordinates)."""
         if part not in self.transforms:
             raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
         transforms = self.transforms[part]

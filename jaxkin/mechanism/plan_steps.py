@@ -188,7 +188,7 @@ def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
 
 
 def _loops(element: DrivenElement, number: int) -> tuple[int, ...]:
-    """Numbers of the loops of a group, without its couplings."""
+    """List the numbers of the loops of a group, without its couplings."""
     return tuple(each for each in element.system.order[number] if each < len(element.system.loops))
 
 

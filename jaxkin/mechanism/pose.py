@@ -47,7 +47,7 @@ class Pose:
         return Named("part", ((name, rows[0]) for name, rows in self.motion.transforms.items()))
 
     def point(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:
-        """Where a point of a part is now, given where it is in the assembled pose (world coordinates)."""
+        """Tell where a point of a part is now, given where it is in the assembled pose (world coordinates)."""
         return self.motion.points(part, point)[0]
 
     def __str__(self) -> str:

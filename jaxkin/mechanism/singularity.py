@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def sigma_min(motion: Motion) -> Float[Array, " poses"]:
-    """See `Motion.sigma_min`."""
+    """Compute the smallest singular value of a motion: see `Motion.sigma_min`."""
     linkage = motion.mechanism.linkage
     driven = [coordinate(linkage, name) for name in motion.inputs]
     least = jnp.full(len(motion), jnp.inf, motion.residual.dtype)
@@ -37,7 +37,7 @@ def sigma_min(motion: Motion) -> Float[Array, " poses"]:
 
 
 def _rank(linkage: Linkage, number: int, system: LoopSystem, columns: Columns) -> int:
-    """Independent equations for the free coordinates where nothing is singular.
+    """Count the independent equations for the free coordinates, where nothing is singular.
 
     As many as may be where JAX traces, and where the host finds no closed pose to count them at.
     """

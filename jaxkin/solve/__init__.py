@@ -1,7 +1,7 @@
 """Solve the closure equations of loops for many poses at once: closure, correctors, continuation, range, execution.
 
-The route of one loop system (the loops of one structure element) through the solver, in order of calls: each function
-is called by the nearest one above it that is indented less. What happens before and after is on the page
+The route of one loop system (the loops and couplings of one loop group) through the solver, in order of calls: each
+function is called by the nearest one above it that is indented less. What happens before and after is on the page
 "Architecture", and what the words mean in the glossary (`docs/glossary.md`).
 
  1. `execution/programs.py` `solve`                         compile, or fetch, the program of the loop system

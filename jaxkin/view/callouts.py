@@ -44,7 +44,7 @@ def draw_contacts(sheet: Sheet, regions: Sequence[tuple[Region, Contact]], corne
 
 
 def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) -> None:
-    """A chain line along the z axis of each joint; a dot for a ball, and no line for what cannot move at all."""
+    """Draw a chain line along the z axis of each joint; a dot for a ball, and no line for what cannot move at all."""
     taken: list[np.ndarray] = []
     for index, joint in enumerate(mechanism.all_joints):
         if not joint.freedoms:
@@ -60,7 +60,7 @@ def draw_axes(sheet: Sheet, mechanism: Mechanism, size: float, corner: Place) ->
 
 
 def draw_states(sheet: Sheet, contacts: Sequence[Contact], corner: Place) -> None:
-    """The letter of each contact state, in the middle of its region."""
+    """Draw the letter of each contact state, in the middle of its region."""
     taken: list[np.ndarray] = []
     for contact in contacts[:MAX_CALLOUTS]:
         place = _pixels(sheet, contact.centre[None], corner)[0]
@@ -72,7 +72,7 @@ def _pixels(sheet: Sheet, points: Float[np.ndarray, "points 3"], corner: Place) 
 
 
 def _label(sheet: Sheet, place: np.ndarray, text: str, taken: list[np.ndarray]) -> None:
-    """A text above a place, and above the labels that are there already; `taken` are their boxes."""
+    """Write a text above a place, and above the labels that are there already; `taken` are their boxes."""
     half = np.array([4.6 * len(text) + 10, 13.0])  # letters of the size below, and the box around them
     centre = np.array([np.clip(place[0], MARGIN + half[0], sheet.width - MARGIN - half[0]), place[1] - 16])
     while any(np.all(np.abs(centre - other[0]) < half + other[1]) for other in taken):

@@ -34,7 +34,8 @@ class View:
 
 
 def choose_view(parts: Sequence[Part], fixed: Sequence[str], displacements: Displacements) -> View:
-    """The view that shows most of the moving parts: of the two sides of the plane of motion, or of eight oblique ones.
+    """Choose the view that shows most of the moving parts: of the two sides of the plane of motion, or of eight oblique
+    ones.
 
     `displacements` are of closed poses, at least one. A plane of motion that two world axes lie in is drawn with these
     axes to the right and up; any other with the longer side of the fixed parts level and the moving parts above them.
@@ -98,7 +99,8 @@ def _normal(parts: Sequence[Part], steps: Sequence[np.ndarray]) -> Vector | None
 def _upwards(
     out: Vector, parts: Sequence[Part], moving: Sequence[Part], fixed: Sequence[str], displacements: Displacements
 ) -> Vector:
-    """The direction across the longer side of the fixed parts (of all, if none is drawn), towards the moving ones."""
+    """Choose the direction across the longer side of the fixed parts (of all, if none is drawn), towards the moving
+    ones."""
     from trimesh.bounds import oriented_bounds_2D
 
     still = [part for part in parts if part.name in fixed]
@@ -114,15 +116,15 @@ def _upwards(
 
 
 def _middle(parts: Sequence[Part], displacements: Displacements) -> tuple[np.ndarray, list[str]]:
-    """All triangles at the pose in the middle, and the part that each is of."""
+    """Find all triangles at the pose in the middle, and the part that each is of."""
     middle = {name: poses[[len(poses) // 2]] for name, poses in displacements.items()}
     triangles = [move(middle, part.name, part.triangles)[0] for part in parts]
     return np.concatenate(triangles), [part.name for part in parts for _ in part.triangles]
 
 
 def _spread(view: View, steps: Sequence[np.ndarray]) -> float:
-    """How wide a motion in space opens in the view: the geometric mean over the parts of the area that each sweeps, so
-    that no path is looked at from its edge if that can be helped."""
+    """Measure how wide a motion in space opens in the view: the geometric mean over the parts of the area that each
+    sweeps, so that no path is looked at from its edge if that can be helped."""
     if view.planar:
         return 1.0
     flat = [part @ view.axes[:2].T for part in (np.concatenate(steps), *steps)]
@@ -131,7 +133,7 @@ def _spread(view: View, steps: Sequence[np.ndarray]) -> float:
 
 
 def _seen(view: View, triangles: np.ndarray, wanted: np.ndarray) -> int:
-    """How many pixels of a small picture show a wanted triangle."""
+    """Count how many pixels of a small picture show a wanted triangle."""
     points = view.project(triangles)
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())

@@ -33,7 +33,8 @@ SHADES = ((1.0, 1.0), (0.55, 1.0), (1.0, 0.6))
 
 
 def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
-    """The parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in 0..1.
+    """Make the parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in
+    0..1.
 
     The solids where the mechanism was read from a file, otherwise sticks; colours of the file where it gives any.
     Parts without one share that of their body.
@@ -48,7 +49,8 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
 
 
 def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> dict[str, Color]:
-    """The colour of each part by its body alone: the palette in turn, then paler and darker; fixed bodies are grey."""
+    """Choose the colour of each part by its body alone: the palette in turn, then paler and darker; fixed bodies are
+    grey."""
     shades = [tuple(1 - pale + pale * dark * value for value in color) for pale, dark in SHADES for color in PALETTE]
     colors, found = cycle(shades), {}
     for parts in bodies.values():
@@ -57,5 +59,5 @@ def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> 
 
 
 def body_label(name: str, parts: Sequence[str]) -> str:
-    """What a legend calls a body: its first part, and how many more it has."""
+    """Tell what a legend calls a body: its first part, and how many more it has."""
     return name if len(parts) == 1 else f"{name} and {len(parts) - 1} more"

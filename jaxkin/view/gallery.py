@@ -65,7 +65,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
 
 
 def _square(canvas: Canvas) -> Canvas:
-    """The canvas with as much paper around as a panel has."""
+    """Grow the canvas by as much paper around as a panel has."""
     room = np.array([canvas.width - PANEL, PANEL - canvas.height, 0]) / (2 * canvas.scale)
     return replace(canvas, corner=canvas.corner + room, width=PANEL, height=PANEL)
 

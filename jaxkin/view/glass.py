@@ -26,13 +26,13 @@ THROUGH = 12
 
 
 def pale(color: Color) -> Color:
-    """The colour that parts of a colour get."""
+    """Find the colour that parts of a colour get."""
     red, green, blue = (PALE + (1 - PALE) * channel for channel in color)
     return red, green, blue
 
 
 def canvas_of(parts: Sequence[Part], fixed: Sequence[str], longer: int = WIDTH) -> Canvas:
-    """What the drawing shows of the parts, from where, and how large: the pixels of its longer side."""
+    """Find what the drawing shows of the parts, from where, and how large: the pixels of its longer side."""
     view = _view(parts, fixed)
     points = view.project(np.concatenate([part.triangles.reshape(-1, 3) for part in parts]))
     low, high = points.min(axis=0), points.max(axis=0)
@@ -51,7 +51,8 @@ def see_through(
     areas: Sequence[Float[np.ndarray, "_ 3 3"]],
     color: Color,
 ) -> UInt8[np.ndarray, "height width 3"]:
-    """The parts in pale colours, and over them areas in one colour: strong where they are in front, else through."""
+    """Draw the parts in pale colours, and over them areas in one colour: strong where they are in front, else
+    through."""
     from PIL import Image
 
     solid = draw(canvas, [part.triangles for part in parts], colors)
@@ -88,7 +89,7 @@ def _view(parts: Sequence[Part], fixed: Sequence[str]) -> View:
 
 
 def _seen(parts: Sequence[Part], view: View) -> float:
-    """The sum over the parts of the logarithm of what a small picture shows of each."""
+    """Measure the sum over the parts of the logarithm of what a small picture shows of each."""
     points = view.project(np.concatenate([part.triangles for part in parts]))
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     pixels = (points - low) * (THUMBNAIL / (high - low)[:2].max())

@@ -89,7 +89,7 @@ def draw_graph(
 
 
 def write(axes: Axes, at: Place | np.ndarray, text: str, letters: int = MAX_LETTERS, **style: Any) -> None:
-    """A name in the middle of a place, cut off where it is long; a dollar sign is one."""
+    """Write a name in the middle of a place, cut off where it is long; a dollar sign is one."""
     style = {"color": INK, "ha": "center", "va": "center", "parse_math": False} | style
     axes.text(float(at[0]), float(at[1]), clip(text, letters), **style)
 
@@ -101,7 +101,7 @@ def _names(
     parts: Float[np.ndarray, "parts 2"],
     through: Mapping[int, Sequence[object]],
 ) -> None:
-    """The name of each joint beside its line, where the next part, line or name is farthest."""
+    """Write the name of each joint beside its line, where the next part, line or name is farthest."""
     taken = [parts]
     for joint, line in lines.items():
         name = structure.joints[joint]
@@ -120,7 +120,8 @@ def _names(
 
 
 def lines_of(structure: Structure, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
-    """The line of each joint from part 1 to part 2; several between the same parts are bowed, one part's is a ring."""
+    """Find the line of each joint from part 1 to part 2; several between the same parts are bowed, one part's is a
+    ring."""
     together: dict[tuple[str, ...], list[int]] = defaultdict(list)
     for joint, ends in enumerate(structure.joint_parts):
         together[tuple(sorted(structure.row_of[part] for part in ends))].append(joint)
@@ -156,7 +157,7 @@ def _aside(line: Line) -> Line:
 
 
 def _arrow(axes: Axes, line: Line, color: Color, small: bool) -> None:
-    """A head on the line, after its middle."""
+    """Draw an arrow head on the line, after its middle."""
     k = int(0.62 * (len(line) - 1))
     style = {"arrowstyle": "-|>", "color": color, "linewidth": 0, "mutation_scale": 7 if small else 13}
     axes.annotate("", xy=line[k + 1], xytext=line[k - 1], zorder=3, arrowprops=style)

@@ -67,7 +67,7 @@ def draw(canvas: Canvas, parts: Sequence[Float[np.ndarray, "_ 3 3"]], colors: Se
 
 
 def compose(fixed: Layer, moving: Layer, ghost: Layer) -> UInt8[np.ndarray, "height width 3"]:
-    """The picture: fixed parts hatched in grey, moving parts, and the outlines of a ghost behind these.
+    """Draw the picture: fixed parts hatched in grey, moving parts, and the outlines of a ghost behind these.
 
     What a fixed part hides of a moving one shows through it, so that a housing does not hide the mechanism.
     """
@@ -114,7 +114,7 @@ def _edges(raster: Raster, owners: np.ndarray, normal: np.ndarray) -> tuple[np.n
 
 
 def _grown(mask: Bool[np.ndarray, "height width"]) -> Bool[np.ndarray, "height width"]:
-    """The mask and the four neighbours of its pixels."""
+    """Grow the mask by the four neighbours of its pixels."""
     grown = mask.copy()
     for one, other in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
         grown[one] |= mask[other]
@@ -128,7 +128,8 @@ def _ink(image: Float[np.ndarray, "height width 3"], where: np.ndarray, ink: Seq
 
 
 def _shadow(depth: Float[np.ndarray, "height width"]) -> Float[np.ndarray, "height width"]:
-    """How much darker a pixel is for lying deeper than its surroundings (the depth buffer through an unsharp mask)."""
+    """Compute how much darker a pixel is for lying deeper than its surroundings (the depth buffer through an unsharp
+    mask)."""
     from scipy.ndimage import gaussian_filter
 
     coarse = depth[SUPERSAMPLING // 2 :: SUPERSAMPLING, SUPERSAMPLING // 2 :: SUPERSAMPLING] / SUPERSAMPLING

@@ -102,7 +102,7 @@ def _legend(
 
 
 def legend_of_regions(contacts: Sequence[Contact]) -> list[tuple[Artist, str]]:
-    """What the regions of contacts look like: of those kinds that are there."""
+    """Tell what the regions of contacts look like: of those kinds that are there."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 

@@ -61,7 +61,7 @@ def inspection_page(
 
 
 def _scene(found: Mechanism | Assembly, source: str) -> dict:
-    """What `inspection.js` reads, beside what the viewer does. Lengths are over `scale` about `centre`."""
+    """Write what `inspection.js` reads, beside what the viewer does. Lengths are over `scale` about `centre`."""
     mechanism = found if isinstance(found, Mechanism) else None
     solids = found.parts if isinstance(found, Assembly) else found.solids or stick_parts(found)
     fixed = mechanism.fixed if mechanism else ()
@@ -111,7 +111,8 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
 def _axis(
     joint: Joint, boxes: dict[str, Float[np.ndarray, "2 3"]], centre: Float[np.ndarray, "3"], scale: float
 ) -> Float[np.ndarray, "3 3"]:
-    """The place of a joint and the two ends of its axis, which reaches through both of its parts; a ball has none."""
+    """Find the place of a joint and the two ends of its axis, which reaches through both of its parts; a ball has
+    none."""
     pose = np.asarray(joint.frames_1, float)[0]
     place, axis = (pose[:3, 3] - centre) / scale, pose[:3, 2]
     if MOVEMENTS[joint.movements[0]].ball:
@@ -127,7 +128,7 @@ def _corners(box: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
 
 
 def _told(part: Part, unit: str) -> dict:
-    """What the report says of a part: where it is from, its size, and its faces that were not understood."""
+    """Tell what the report says of a part: where it is from, its size, and its faces that were not understood."""
     width, depth, height = (f"{side:.4g}" for side in np.ptp(part.box, axis=0))
     return {
         "original": part.original_name if part.original_name != part.name else "",
@@ -138,7 +139,7 @@ def _told(part: Part, unit: str) -> dict:
 
 
 def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict:
-    """A joint with its parts, and all that it is known from."""
+    """Write a joint with its parts, and all that it is known from."""
     evidence = joint.evidence
     known = evidence is None or evidence.kind in (EvidenceKind.CONTACT, EvidenceKind.USER, EvidenceKind.EXPORT)
     contacts = mechanism.contacts.get(joint.name, ())
@@ -177,7 +178,7 @@ def _notes(
 
 
 def _group(text: str) -> tuple[str, str]:
-    """The heading that a note stands under, and what it says there."""
+    """Find the heading that a note stands under, and what it says there."""
     if text.startswith(f"{INFERRED} "):
         kind, _, said = text.removeprefix(f"{INFERRED} ").partition(": ")
         return f"Inferred from {kind}", said

@@ -29,29 +29,29 @@ class Input:
     """The unit, with the space that belongs before it."""
 
     def at(self, pose: int) -> str:
-        """The value at a pose with its unit, rounded to 0.1 degree or to four digits; with a true minus sign."""
+        """Write the value at a pose with its unit, rounded to 0.1 degree or to four digits; with a true minus sign."""
         value = float(self.values[pose])
         number = f"{value:.1f}".removesuffix(".0") if self.suffix == "°" else f"{value:.4g}"
         return f"{'0' if number == '-0' else number.replace('-', chr(0x2212))}{self.suffix}"
 
 
 def inputs(motion: Motion) -> tuple[Input, ...]:
-    """The driven displacements of a motion, in its order."""
+    """Return the driven displacements of a motion, in its order."""
     return tuple(_input(motion, key, np.asarray(values, float)) for key, values in motion.inputs.items())
 
 
 def named(inputs: tuple[Input, ...], pose: int) -> str:
-    """The driven displacements at a pose, with their names; of many the first ones."""
+    """Write the driven displacements at a pose, with their names; of many the first ones."""
     return _some([f"{entry.name} {entry.at(pose)}" for entry in inputs], ", ")
 
 
 def title(inputs: tuple[Input, ...], pose: int) -> str:
-    """The bare value where a single joint is driven, otherwise as `named`."""
+    """Write the bare value where a single joint is driven, otherwise as `named`."""
     return inputs[0].at(pose) if len(inputs) == 1 else named(inputs, pose)
 
 
 def headline(motion: Motion) -> tuple[str, str]:
-    """What drives the motion over which range, and how many of its poses were not closed or lost contact."""
+    """Tell what drives the motion over which range, and how many of its poses were not closed or lost contact."""
     drives = _some([f"{entry.name}, {_range(entry)}" for entry in inputs(motion)], "; ")
     status = np.asarray(motion.status)[~np.asarray(motion.on_branch)]
     facts = [f"{len(motion)} pose{'' if len(motion) == 1 else 's'}"]

@@ -81,7 +81,8 @@ def _improved(points: Points, edges: Int[np.ndarray, "edges 2"]) -> Points:
 def _cost(
     points: Points, edges: Int[np.ndarray, "edges 2"], node: int, trials: Float[np.ndarray, "trials 2"]
 ) -> Float[np.ndarray, " trials"]:
-    """What each place costs that a node could have: too near or far from others, crossings, lines through nodes."""
+    """Compute what each place costs that a node could have: too near or far from others, crossings, lines through
+    nodes."""
     others = np.delete(np.arange(len(points)), node)
     own = (edges == node).any(axis=1)
     ends = np.where(edges[own, 0] == node, edges[own, 1], edges[own, 0])
@@ -99,7 +100,7 @@ def _cost(
 
 
 def _nearness(points: np.ndarray, starts: np.ndarray, stops: np.ndarray) -> np.ndarray:
-    """One over the squared distance from a line, less what it is where that begins to count."""
+    """Compute one over the squared distance from a line, less what it is where that begins to count."""
     along = stops - starts
     share = ((points - starts) * along).sum(axis=-1) / np.maximum((along**2).sum(axis=-1), 1e-12)
     gaps = ((points - starts - np.clip(share, 0.0, 1.0)[..., None] * along) ** 2).sum(axis=-1)

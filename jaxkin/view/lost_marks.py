@@ -30,7 +30,7 @@ class LostMark:
 
 
 def lost_marks(lost: Sequence[LostContact], displacements: Displacements) -> tuple[LostMark, ...]:
-    """A mark for each joint that leaves its faces, at the contact whose faces part the farthest."""
+    """Make a mark for each joint that leaves its faces, at the contact whose faces part the farthest."""
     joints = dict.fromkeys(each.joint for each in lost if each.loose.any())
     marks = []
     for joint in joints:
@@ -43,7 +43,7 @@ def lost_marks(lost: Sequence[LostContact], displacements: Displacements) -> tup
 
 
 def told(marks: Sequence[LostMark], pose: int) -> str:
-    """The joints that have left their faces at a pose, in words; empty if there is none."""
+    """Name the joints that have left their faces at a pose, in words; empty if there is none."""
     names = [mark.joint for mark in marks if mark.shown[pose]]
     more = f" and {len(names) - 2} more" if len(names) > 2 else ""
     return f"lost contact: {', '.join(names[:2])}{more}" if names else ""

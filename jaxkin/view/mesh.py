@@ -29,7 +29,7 @@ class Mesh:
 
 
 def shaded_mesh(triangles: Float[np.ndarray, "triangles 3 3"]) -> Mesh:
-    """The mesh of some triangles of about unit size: corners nearer than 1e-8 are one."""
+    """Make the mesh of some triangles of about unit size: corners nearer than 1e-8 are one."""
     from trimesh import Trimesh
     from trimesh.graph import smooth_shade
     from trimesh.grouping import group_rows
@@ -62,7 +62,7 @@ def lightened(
 
 
 def _clustered(triangles: Float[np.ndarray, "_ 3 3"], cell: float) -> Float[np.ndarray, "_ 3 3"]:
-    """The triangles with all corners of a cell at their mean, without those that have lost their area or are twice."""
+    """Put all corners in a cell at their mean; drop triangles that have lost their area or are there twice."""
     corners = triangles.reshape(-1, 3)
     _, owner = np.unique(np.floor(corners / cell).astype(np.int64) @ (1, 2**20, 2**40), return_inverse=True)
     count = np.bincount(owner)

@@ -37,7 +37,7 @@ def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None =
 
 
 def _content(motion: Motion, scene: Scene) -> dict:
-    """What `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
+    """Write what `page.js` reads. Lengths are over `scale` about `centre`, so that float32 is enough in any unit."""
     low, high = scene.bounds
     centre, scale = scene.view.axes.T @ (low + high) / 2, float(np.linalg.norm(high - low) / 2)
     shown = scene.order[np.unique(np.linspace(0, len(motion) - 1, min(len(motion), MAX_PAGE_POSES)).astype(int))]

@@ -62,7 +62,7 @@ def normals(triangles: Float[np.ndarray, "triangles 3 3"]) -> Float[np.ndarray, 
 
 
 def _spans(triangles: np.ndarray, height: int, width: int) -> tuple[np.ndarray, ...]:
-    """The pixels of all triangles, row by row: triangle, row, first column, column after the last."""
+    """List the pixels of all triangles, row by row: triangle, row, first column, column after the last."""
     order = np.argsort(triangles[..., 1], axis=1)
     corners = np.take_along_axis(triangles, order[..., None], axis=1)
     first, last = np.clip(np.ceil(corners[:, [0, 2], 1] - 0.5), 0, height).astype(np.int64).T
@@ -79,7 +79,7 @@ def _spans(triangles: np.ndarray, height: int, width: int) -> tuple[np.ndarray, 
 
 
 def _expand(starts: np.ndarray, stops: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """All integers of many ranges: which range each is from, and the integer."""
+    """List all integers of many ranges: which range each is from, and the integer."""
     counts = np.maximum(stops - starts, 0)
     which = np.repeat(np.arange(len(counts)), counts)
     return which, np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts - starts, counts)

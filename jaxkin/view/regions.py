@@ -27,7 +27,7 @@ class Region(NamedTuple):
 
 
 def region_of(contact: Contact, face1: Face, face2: Face, tolerance: float) -> Region:
-    """The region of a contact between two faces; `tolerance` is the length of the detection."""
+    """Find the region of a contact between two faces; `tolerance` is the length of the detection."""
     s1, s2 = contact.surfaces
     touch = contact.contact_state.touch(s1, s2, contact.centre)
     if touch is None:  # the detection found one here

@@ -60,7 +60,8 @@ class Scene:
 
 
 def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Scene:
-    """The scene of a motion; `points[part]`: (x, y, z) in the assembled pose, one or several, instead of the default.
+    """Make the scene of a motion; `points[part]`: (x, y, z) in the assembled pose, one or several, instead of the
+    default.
 
     Raises ValueError for a part that does not exist and for points that are not such.
     """
@@ -97,7 +98,7 @@ def _returns(parts: tuple[Part, ...], sample: Displacements, size: float) -> boo
 def _bounds(
     parts: tuple[Part, ...], sample: Displacements, view: View, traces: tuple[Trace, ...]
 ) -> Float[np.ndarray, "2 3"]:
-    """The assembled pose, a sample of poses that includes both ends, and the paths at all poses."""
+    """List the assembled pose, a sample of poses that includes both ends, and the paths at all poses."""
     clouds = [trace.path[np.isfinite(trace.path).all(axis=1)] for trace in traces]
     for part in parts:
         corners = _extremes(part.triangles.reshape(-1, 3))
@@ -107,7 +108,7 @@ def _bounds(
 
 
 def _extremes(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "extremes 3"]:
-    """The corners of the convex hull, where that saves work."""
+    """List the corners of the convex hull, where that saves work."""
     if len(points) < 1000:
         return points
     from scipy.spatial import ConvexHull

@@ -40,7 +40,7 @@ class Sheet(NamedTuple):
         return MARGIN + column * (self.canvas.width + GAP), HEAD + row * (self.canvas.height + CAPTION + GAP)
 
     def write(self, at: Place, text: str, size: int, color: Color, weight="normal", ha="left") -> None:
-        """One line of text that begins at a point (or as `ha` says), halfway up; a dollar sign is one."""
+        """Write one line of text that begins at a point (or as `ha` says), halfway up; a dollar sign is one."""
         self.axes.text(*at, text, size=size, color=color, weight=weight, ha=ha, va="center", parse_math=False)
 
     def save(self, path: Path | str) -> None:
@@ -51,7 +51,7 @@ class Sheet(NamedTuple):
 
 
 def make_sheet(canvas: Canvas, columns: int, rows: int, entries: list[tuple[Artist, str]]) -> Sheet:
-    """A sheet for some rows and columns of panels, and for a legend of some entries."""
+    """Make a sheet for some rows and columns of panels, and for a legend of some entries."""
     from matplotlib.figure import Figure
 
     width = 2 * MARGIN + columns * canvas.width + (columns - 1) * GAP
@@ -64,14 +64,14 @@ def make_sheet(canvas: Canvas, columns: int, rows: int, entries: list[tuple[Arti
 
 
 def _columns(entries: list[tuple[Artist, str]], width: int) -> int:
-    """How many entries fit in a line of the legend, beside the scale."""
+    """Compute how many entries fit in a line of the legend, beside the scale."""
     widths = [75 + 11 * len(label) for _, label in entries]  # symbol and gaps, and letters of the legend's size
     room = int(0.8 * width)
     return len(entries) if sum(widths) <= room else max(1, room // max(widths))
 
 
 def draw_legend(sheet: Sheet, entries: list[tuple[Artist, str]]) -> None:
-    """The legend in the lower left corner: what each entry looks like, and what it is called."""
+    """Draw the legend in the lower left corner: what each entry looks like, and what it is called."""
     handles, labels = zip(*entries, strict=True)
     legend = sheet.figure.legend(
         handles,
@@ -91,7 +91,7 @@ def draw_legend(sheet: Sheet, entries: list[tuple[Artist, str]]) -> None:
 
 
 def draw_scale(sheet: Sheet, unit: str) -> None:
-    """A line of a round length, up to a quarter of a panel, in the lower right corner."""
+    """Draw a line of a round length, up to a quarter of a panel, in the lower right corner."""
     wanted = sheet.canvas.width / sheet.canvas.scale / 4
     power = 10.0 ** np.floor(np.log10(wanted))
     length = power * max((step for step in (1, 2, 5) if step * power <= wanted), default=1)
@@ -103,5 +103,5 @@ def draw_scale(sheet: Sheet, unit: str) -> None:
 
 
 def clip(text: str, letters: int) -> str:
-    """The text, cut off where it is longer."""
+    """Return the text, cut off where it is longer."""
     return text if len(text) <= letters else f"{text[: letters - 1]}…"

@@ -30,7 +30,8 @@ Triangles = Float[np.ndarray, "triangles 3 3"]
 
 
 def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
-    """The parts of a mechanism as bars from joint to joint, with pins, rails and balls that show what the joints do.
+    """Make the parts of a mechanism as bars from joint to joint, with pins, rails and balls that show what the joints
+    do.
 
     In world coordinates of the assembled pose and in the unit of the mechanism, in the order of `mechanism.parts`.
     Up to three joints of a part are linked pair by pair, more of them to their middle. Where all axes are parallel, the
@@ -64,7 +65,7 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
 
 
 def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
-    """For each joint the frame at its end of part 1 and that of part 2, copied.
+    """Find for each joint the frame at its end of part 1 and that of part 2, copied.
 
     A fixed joint is nowhere in particular: it goes to the middle of the other joints of its parts, if they have any.
     """
@@ -85,7 +86,7 @@ def _frames(mechanism: Mechanism) -> dict[str, tuple[Pose, Pose]]:
 
 
 def _common_axis(mechanism: Mechanism) -> Float[np.ndarray, "3"]:
-    """The direction of all axes of rotation if they are parallel, otherwise zero."""
+    """Find the direction of all axes of rotation if they are parallel, otherwise zero."""
     axes = [
         np.asarray(frame, float)[:3, element.axis]
         for joint in mechanism.joints.values()
@@ -117,7 +118,7 @@ def _rod(start: Float[np.ndarray, "3"], end: Float[np.ndarray, "3"], radius: flo
 
 
 def _distinct(points: list[Float[np.ndarray, "3"]]) -> list[Float[np.ndarray, "3"]]:
-    """The points without those that lie within the radius of an earlier one: a bar would have no length."""
+    """Keep the points without those that lie within the radius of an earlier one: a bar would have no length."""
     kept: list[np.ndarray] = []
     for point in points:
         if all(np.linalg.norm(point - other) > 1.0 for other in kept):

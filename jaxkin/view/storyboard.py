@@ -96,7 +96,7 @@ def _check(poses: Sequence[int] | np.ndarray, scene: Scene, count: int) -> list[
 
 
 def _canvas(scene: Scene, width: int) -> Canvas:
-    """The canvas that every pose and all paths fit in, with some air, no higher than wide."""
+    """Make the canvas that every pose and all paths fit in, with some air, no higher than wide."""
     low, high = scene.bounds[:, :2]
     margin = SWEEP_MARGIN * (high - low).max()
     extent, centre = high - low + 2 * margin, (low + high) / 2
@@ -107,14 +107,14 @@ def _canvas(scene: Scene, width: int) -> Canvas:
 
 
 def _layer(scene: Scene, canvas: Canvas, fixed: bool, pose: int | None) -> Layer:
-    """The fixed or the moving parts at a pose, or in the assembled pose."""
+    """Draw the fixed or the moving parts at a pose, or in the assembled pose."""
     parts = [part for part in scene.parts if (part.name in scene.fixed) == fixed]
     triangles = [part.triangles if pose is None else scene.moved(part, part.triangles, [pose])[0] for part in parts]
     return draw(canvas, triangles, [FIXED if fixed else part.color or GREY for part in parts])
 
 
 def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[int]) -> None:
-    """The mechanism at each pose; if there is none to show, where it was assembled."""
+    """Draw the mechanism at each pose; if there is none to show, where it was assembled."""
     canvas = sheet.canvas
     fixed, ghost = (_layer(scene, canvas, still, None) for still in (True, False))
     for index, pose in enumerate(shown or [None]):
@@ -134,7 +134,7 @@ def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[
 
 
 def _paths(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
-    """The paths over a panel, with a dot where the point is now."""
+    """Draw the paths over a panel, with a dot where the point is now."""
     colors = {part.name: part.color or GREY for part in scene.parts}
     for trace in scene.traces:
         x, y = sheet.canvas.pixels(trace.path)[:, :2].T + np.array([[left], [top]])
@@ -154,7 +154,7 @@ def _lost(sheet: Sheet, left: int, top: int, scene: Scene, pose: int) -> None:
 
 
 def _legend(scene: Scene) -> list[tuple[Artist, str]]:
-    """What the legend explains, and how."""
+    """Tell what the legend explains, and how."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 

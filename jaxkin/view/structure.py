@@ -37,7 +37,7 @@ def draw_structure(structure: Structure, path: Path | str) -> None:
 
 
 def plot_structure(structure: Structure) -> Figure:
-    """A figure with two drawings: every loop has one colour in both, and runs the way its arrows point.
+    """Draw a figure with two drawings: every loop has one colour in both, and runs the way its arrows point.
 
     A tree too deep or too wide to be read is left out. Raises ValueError for more parts than a drawing can show.
     """

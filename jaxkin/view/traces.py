@@ -25,7 +25,7 @@ MAX_PATHS = 8  # more paths than these hide the mechanism: the longest are kept
 
 
 def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:
-    """The points that a user gives, one (x, y, z) or several a part: ValueError otherwise."""
+    """Read the points that a user gives, one (x, y, z) or several a part: ValueError otherwise."""
     marks: Marks = []
     for part, value in points.items():
         if part not in parts:
@@ -79,7 +79,7 @@ def default_marks(mechanism: Mechanism, parts: Sequence[Part], view: View, displ
 
 
 def _farthest(part: Part, joints: Float[np.ndarray, "joints 3"], flat: np.ndarray) -> tuple[Vector, float]:
-    """The corner of the part farthest from the nearest of its joints; of equal ones the first in the file."""
+    """Find the corner of the part farthest from the nearest of its joints; of equal ones the first in the file."""
     corners = part.triangles.reshape(-1, 3)
     centres = joints if len(joints) else part.box.mean(axis=0)[None]
     gaps = np.min([np.linalg.norm((corners - centre) @ flat, axis=1) for centre in centres], axis=0)

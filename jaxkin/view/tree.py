@@ -76,7 +76,7 @@ def draw_tree(axes: Axes, structure: Structure, places: Sequence[Box], palette: 
 
 
 def _holder(structure: Structure, element: StructureElement) -> str:
-    """The part of the element above that an element hangs on."""
+    """Find the part of the element above that an element hangs on."""
     if element.joint is None:
         return element.upper
     ends = structure.joint_parts[structure.joints.index(element.joint)]
@@ -106,7 +106,7 @@ def _lower(box: Box, part: str) -> float:
 
 
 def _tie(axes: Axes, start: Place, box: Box, element: StructureElement) -> None:
-    """The line from the part above, with the joint node on it; the name of the part where they share one."""
+    """Draw the line from the part above, with the joint node on it; the name of the part where they share one."""
     middle = (box.x, box.y + 0.24)
     axes.plot([start[0], middle[0], box.x], [start[1], middle[1], box.y], color=INK, linewidth=0.9, zorder=1)
     style = {"boxstyle": "square,pad=0.3", "facecolor": "white", "edgecolor": "white" if element.joint is None else INK}
@@ -119,7 +119,7 @@ def _tied(element: StructureElement) -> str:
 
 
 def _element(axes: Axes, box: Box, number: int, element: StructureElement, palette: Sequence[Color]) -> None:
-    """An element with its loops, its upper adjacent part above them and the lower adjacent ones below."""
+    """Draw an element with its loops, its upper adjacent part above them and the lower adjacent ones below."""
     root = element.above is None
     write(axes, (box.x - box.width / 2 - 0.05, box.y - 0.11), f"N{number + 1}", size=6, color=GREY, ha="right")
     if not element.loops:
@@ -139,7 +139,7 @@ def _element(axes: Axes, box: Box, number: int, element: StructureElement, palet
 
 
 def _pill(axes: Axes, at: Place, name: str, fixed: bool, strong: bool = False) -> None:
-    """A part in its long circle, as in Fig. 4."""
+    """Draw a part in its long circle, as in Fig. 4."""
     _frame(axes, at, _name_width(name), HIGH, HIGH / 2, STILL if fixed else "white", 1.2 if strong else 0.7)
     write(axes, at, name, size=7.5, zorder=4)
 

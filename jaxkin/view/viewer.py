@@ -51,7 +51,7 @@ def part_entries(
 
 
 def rounded(color: Color) -> list[float]:
-    """A colour in as many digits as can be seen."""
+    """Round a colour to as many digits as can be seen."""
     return [round(value, 4) for value in color]
 
 

@@ -1,5 +1,7 @@
 """Effects by name: computed where a study or the command line asks for them, and nowhere else."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -20,6 +22,11 @@ contacts = true
 clashes = {{ within = 2.0 }}
 rates = {rates}
 """
+
+
+def test_every_name_stands_in_the_table_of_effects():
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "effects.md").read_text("utf-8")
+    assert [name for name in EFFECTS if f"| `{name}` |" not in page] == []
 
 
 def study(folder, rates="{ ground-crank = 180 }"):

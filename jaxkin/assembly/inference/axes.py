@@ -69,7 +69,7 @@ def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[C
 
 
 def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]:
-    """Pairs of bores of different parts whose axes are one within the largest clearance; the pin comes first."""
+    """Find pairs of bores of different parts whose axes are one within the largest clearance; the pin comes first."""
     points, axes = (np.array([getattr(bore, name) for bore in bores]) for name in ("point", "axis"))
     radii = np.array([bore.radius for bore in bores])
     parts = np.unique([bore.part for bore in bores], return_inverse=True)[1]
@@ -102,7 +102,7 @@ def _equal(pair: CommonAxis) -> bool:
 
 
 def engaged(pair: CommonAxis) -> float:
-    """Length along the axis that both bores share; negative where there is a gap between them."""
+    """Measure the length along the axis that both bores share; negative where there is a gap between them."""
     return _overlap(pair.one, pair.other)
 
 

@@ -137,7 +137,7 @@ def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
 
 
 def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
-    """Distances of the corners of a part from an axis, and where they are along it."""
+    """Measure the distances of the corners of a part from an axis, and where they are along it."""
     corners = part.triangles.reshape(-1, 3) - axis.point
     along = corners @ axis.axis
     return np.linalg.norm(corners - np.outer(along, axis.axis), axis=1), along

@@ -47,7 +47,7 @@ class Bore:
         return bool(np.linalg.norm(np.cross(self.axis, other.axis)) <= angle and apart <= length * other.radius)
 
     def reach(self, along: Vector) -> tuple[float, float]:
-        """Where the bore begins and ends, along a direction that is parallel to its axis."""
+        """Find where the bore begins and ends, along a direction that is parallel to its axis."""
         middle = float(self.point @ along)
         return middle - self.half, middle + self.half
 

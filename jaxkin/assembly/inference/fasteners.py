@@ -113,7 +113,7 @@ def parallel(one: Bore, other: Bore) -> bool:
 
 
 def bolted(shared: Mapping[frozenset[str], list[Bore]], order: Mapping[str, int]) -> list[Inference]:
-    """Parts that two or more parallel axes hold to each other."""
+    """Find parts that two or more parallel axes hold to each other."""
     result = []
     for pair, axes in shared.items():
         parts = tuple(sorted(pair, key=order.__getitem__))

@@ -16,7 +16,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
 def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Pins that stand in the material of parts that have no hole for them."""
+    """Find pins that stand in the material of parts that have no hole for them."""
     related = known.touching | {frozenset(pair.parts) for pair in known.axes}
     result = []
     for part in (known.solids[name] for name in known.names if name in fastening):
@@ -30,7 +30,8 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial end."""
+    """Find pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial
+    end."""
     axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
     directions: dict[tuple[str, str], set[bool]] = {}
     for contact in known.contacts:
@@ -64,7 +65,7 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
 
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Bodies that have two or more parallel axes in common."""
+    """Find bodies that have two or more parallel axes in common."""
     body = known.body
 
     def of_bodies(stack: Stack) -> Stack:
@@ -76,7 +77,8 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
 
 
 def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Fasteners with the body that holds them: the only one, or that which holds them farthest out, as a fork does."""
+    """Join fasteners with the body that holds them: the only one, or that which holds them farthest out, as a fork
+    does."""
     body, result = known.body, []
     for stack in every:
         loose = [part for part in stack.fasteners if body[part] not in {body[held] for held in stack.held}]

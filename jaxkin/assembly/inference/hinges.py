@@ -20,7 +20,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
 def hinges(known: Known) -> list[tuple[Inference, bool]]:
-    """Joints of two bodies about their common axis, and whether exact contacts say so but for the slide."""
+    """Infer joints of two bodies about common axes; tell of each whether exact contacts say it but for the slide."""
     body, between = known.body, {}
     given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
     by_hand = {frozenset(body[part] for part in pair) for pair in given}

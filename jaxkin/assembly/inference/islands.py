@@ -23,7 +23,7 @@ NEAR = 0.02
 
 
 def lying_on_one(known: Known) -> list[Inference]:
-    """Bodies that touch one other body only, and that by one plane."""
+    """Find bodies that touch one other body only, and that by one plane."""
     body = known.body
     ties: dict[str, set[str]] = {}
     planes: dict[Pair, list[Vector]] = {}
@@ -58,7 +58,7 @@ def lying_on_one(known: Known) -> list[Inference]:
 
 
 def tied_to_nothing(known: Known) -> list[Inference]:
-    """Parts that nothing ties to the fixed ones: with the part that they are nearest to, or at rest.
+    """Tie parts that nothing ties to the fixed ones to the part that they are nearest to, or hold them at rest.
 
     Groups of parts are joined by the shortest distances first, as a minimum spanning tree is made.
     """
@@ -87,7 +87,8 @@ def _nearest(parts: tuple[str, str], distance: float, text: str) -> Inference:
 
 
 def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[float, str, str]]:
-    """Distances of parts that nothing ties to the parts next to them, the shortest first; long ones are left out."""
+    """Measure the distances of parts that nothing ties to the parts next to them, the shortest first; long ones are
+    left out."""
     home = group_of[known.fixed[0]]
     low, high = (np.array([part.box[end] for part in known.parts]) for end in (0, 1))
     numbers = np.array([group_of[name] for name in known.names])

@@ -42,7 +42,7 @@ class Measured:
         return bearings(self.parts, self.bores)
 
     def axes(self, clearance: float | None) -> list[CommonAxis]:
-        """Common axes of different parts: see `common_axes`."""
+        """Find the common axes of different parts: see `common_axes`."""
         if clearance not in self._axes:
             self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         return self._axes[clearance]
@@ -53,7 +53,7 @@ class Measured:
         return np.stack([part.box for part in self.parts])
 
     def beside(self, part: Part) -> list[Part]:
-        """Other parts whose boxes overlap that of a part."""
+        """Find the other parts whose boxes overlap that of a part."""
         low, high = part.box
         meet = np.all((self.boxes[:, 0] <= high) & (low <= self.boxes[:, 1]), axis=1)
         return [self.parts[index] for index in np.flatnonzero(meet) if self.parts[index] is not part]
@@ -75,7 +75,7 @@ class Measured:
         return self._inside[key]
 
     def distance(self, one: Part, other: Part) -> float:
-        """Distance between two parts: of some corners of either from the triangles of the other."""
+        """Measure the distance between two parts: of some corners of either from the triangles of the other."""
         key = frozenset((one.name, other.name))
         if key not in self._distances:
             self._distances[key] = min(_from_corners(one, other), _from_corners(other, one))

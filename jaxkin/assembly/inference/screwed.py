@@ -18,7 +18,7 @@ MAX_SHORTFALL = 2.0
 
 
 def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Bodies with two or more parallel screws that go through nothing else and point at one other body."""
+    """Find bodies with two or more parallel screws that go through nothing else and point at one other body."""
     body = known.body
     pointing: dict[frozenset[str], list[tuple[Stack, float]]] = {}
     for stack in every:
@@ -58,7 +58,7 @@ def _pointed_at(known: Known, stack: Stack, own: Collection[str]) -> tuple[float
 def crossings(
     point: Vector, axis: Vector, triangles: Float[np.ndarray, "triangles 3 3"]
 ) -> Float[np.ndarray, " crossings"]:
-    """Where along a line it goes through triangles (Moeller and Trumbore 1997)."""
+    """Find where a line goes through triangles, as lengths along the line (Moeller and Trumbore 1997)."""
     first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     normal = np.cross(axis, second)
     scale = np.einsum("ij,ij->i", first, normal)

@@ -47,7 +47,7 @@ def stops(part: Part, axis: Bore) -> list[Stop]:
 
 
 def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:
-    """Distance from an axis of triangles that stand across it; 0 where it goes through one of them."""
+    """Measure the distance from an axis of triangles that stand across it; 0 where it goes through one of them."""
     corners = triangles - point
     corners = corners - (corners @ axis)[..., None] * axis
     edges = np.roll(corners, -1, axis=1) - corners

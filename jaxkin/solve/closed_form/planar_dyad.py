@@ -80,7 +80,7 @@ def scale(number: Number, vector: Complex) -> Complex:
 
 
 def conj(number: Complex) -> Complex:
-    """Conjugate: the rotation back, or the mirror image."""
+    """Conjugate a number: the rotation back, or the mirror image."""
     return Complex(number.real, -number.imag)
 
 

@@ -176,11 +176,11 @@ def _reached(
 
 
 def _scaled(system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"]) -> Float[Array, "1 poses"]:
-    """Inputs in radians and characteristic lengths."""
+    """Convert inputs to radians and characteristic lengths."""
     return inputs / axes.length if system.is_length[system.driven[0]] else inputs
 
 
 def _angles(system: LoopSystem) -> np.ndarray:
-    """1 for columns that are angles and not driven, else 0: (columns, 1)."""
+    """Mark columns that are angles and not driven by 1, others by 0: (columns, 1)."""
     is_angle = [not length and column not in system.driven for column, length in enumerate(system.is_length)]
     return np.array(is_angle, float)[:, None]

@@ -93,7 +93,7 @@ def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Co
 
 
 def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
-    """Places and known displacements of a dyad: the arguments of `planar_dyad`."""
+    """Find the places and known displacements of a dyad: the arguments of `planar_dyad`."""
     chain, (one, two, three) = formula.chain, formula.rows
     places = [planar_place(system, axes, row, chain) for row in formula.rows]
 
@@ -105,7 +105,7 @@ def _planar(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinate
 
 
 def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
-    """Axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
+    """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
     found = [axes.direction[row, chain, :, None] for row in formula.rows]
     eye = jnp.eye(3, dtype=axes.centre.dtype)
@@ -144,7 +144,7 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
 
 
 def _axis(axes: Axes, formula: GroupFormula):
-    """Direction of the axis of the unknown, and a point on it."""
+    """Find the direction of the axis of the unknown, and a point on it."""
     here = formula.rows[0], formula.chain
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
@@ -178,5 +178,5 @@ def residual_norm(system: LoopSystem, axes: Axes, x: Float[Array, "columns poses
 
 
 def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):
-    """Where a chain ends, (3, poses)."""
+    """Find where a chain ends, (3, poses)."""
     return carried(system, axes, chain, moving_rows(system, chain), x, axes.open_shift[chain, :, None])

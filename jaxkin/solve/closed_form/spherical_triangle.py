@@ -64,12 +64,12 @@ def signed_root(axes: Sequence[Vector], between: Sequence[Rotation]) -> Number:
 
 
 def dot(one: Vector, other: Vector) -> Number:
-    """Scalar product."""
+    """Compute the scalar product."""
     return jnp.sum(one * other, axis=0)
 
 
 def cross(one: Vector, other: Vector) -> Vector:
-    """Vector product."""
+    """Compute the vector product."""
     return jnp.stack(
         [
             one[1] * other[2] - one[2] * other[1],
