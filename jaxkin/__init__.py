@@ -36,6 +36,8 @@ from jaxkin.effects.forces.masses import Masses as Masses
 from jaxkin.effects.forces.masses import masses as masses
 from jaxkin.effects.forces.reactions import Reactions as Reactions
 from jaxkin.effects.forces.reactions import reactions as reactions
+from jaxkin.effects.forces.transmission import Transmission as Transmission
+from jaxkin.effects.forces.transmission import transmission as transmission
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw
 from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates

@@ -17,7 +17,7 @@ else, and refinement removes the rest of its error: where such a freedom is in b
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import jax
@@ -25,9 +25,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import MOVEMENTS, displaced_columns, is_length
-from jaxkin.geometry.rigid import as_rigid, inverse, product
-from jaxkin.joints.joint import Joint
+from jaxkin.effects.forces.screws import joint_screws, pulls_of, purified
+from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.motion import Motion
 
@@ -37,8 +36,6 @@ leave fewer digits to what holds an undriven freedom, more to all else."""
 REFINEMENTS = 3
 """Steps that remove the error of that stiffness: each by its ratio to the smallest eigenvalue of the balance, which is
 1e-3 or so away from singular poses."""
-TINY = 1e4
-"""What is added to S^T S, in units of rounding, where coordinates of a joint may depend on each other."""
 
 Wrenches = Float[Array, "poses 6"]
 """Torque over the size of the mechanism, then force: newtons."""
@@ -73,49 +70,6 @@ def size_and_middle(linkage: Linkage) -> tuple[Float[Array, ""], Float[Array, "3
     return jnp.where(square > 0, jnp.sqrt(jnp.where(square > 0, square, 1.0)), 1.0), middle
 
 
-def joint_screws(
-    joint: Joint, q: Float[Array, "poses _"], part_1: Float[Array, "poses 4 4"], size: Any, driven: Collection[int] = ()
-) -> tuple[Float[Array, "poses 3"], Float[Array, "poses 6 _"]]:
-    """The point of a joint in each pose, and the unit twists of its coordinates about this point, in world axes.
-
-    Twists are those of part 2 relative to part 1. Lengths count over `size` in linear velocities, and in the
-    coordinates that are lengths. The angles of a ball without a drive are replaced by turns about the axes of the
-    world, which allow the same at every angle.
-    """
-    found = jnp.moveaxis(part_1[:, :3], 0, -1)
-    twists: list[Any] = []
-    first = 0
-    for number, (movement, frame) in enumerate(zip(joint.movements, joint.frames_1, strict=True)):
-        if number:
-            found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
-        found = product(found, as_rigid(jnp.asarray(frame, float)))
-        own: dict[int, Any] = {}
-        for element in MOVEMENTS[movement].elements:
-            axis, at = found[:, element.axis], found[:, 3]
-            turning = jnp.zeros_like(axis) if element.kind == "translate" else axis
-            if MOVEMENTS[movement].ball and first not in driven:
-                turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
-            pitch = 0.0 if element.kind == "rotate" else jnp.asarray(joint.pitch, float) / (2 * jnp.pi) / size
-            along = axis if element.kind == "translate" else pitch * axis
-            own[element.coordinate] = turning, along, at
-            value = q[:, first + element.coordinate]
-            advance = None
-            if element.kind != "rotate":
-                advance = value if element.kind == "translate" else value * pitch * size
-            turn = None if element.kind == "translate" else (jnp.cos(value), jnp.sin(value))
-            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
-            found = jnp.stack(columns, axis=1)
-        twists += [own[k] for k in range(len(own))]
-        first += len(own)
-    place = found[:, 3]
-    rows = [
-        jnp.concatenate([turning, along + jnp.cross(turning, (place - at) / size, axis=0)])
-        for turning, along, at in twists
-    ]
-    screws = jnp.stack(rows, axis=-1) if rows else jnp.zeros((6, q.shape[0], 0))
-    return place.T, jnp.moveaxis(screws, 1, 0)
-
-
 def balance(motion: Motion) -> Balance:
     """Set up the system for all poses of a motion."""
     linkage = motion.mechanism.linkage
@@ -128,11 +82,11 @@ def balance(motion: Motion) -> Balance:
         free = [k for k in range(joint.freedoms) if k not in own]
         place, every = joint_screws(joint, q, motion.transforms[joint.parts[0]], size, own)
         loose = every[:, :, np.array(free, int)]
-        pulled = _pulls(loose)
+        pulled = pulls_of(loose)
         places.append(place)
         screws.append(every)
         pulls.append({k: pulled[:, :, column] for column, k in enumerate(free)})
-        projectors.append(_purified(jnp.eye(6) - jnp.einsum("pij,pkj->pik", pulled, loose)))
+        projectors.append(purified(jnp.eye(6) - jnp.einsum("pij,pkj->pik", pulled, loose)))
         levers.append(_lever((place - middle) / size))
     ties: list[dict[int, Array]] = [{} for _ in gradients]
     for tie, gradient in zip(ties, gradients, strict=True):
@@ -151,24 +105,6 @@ def driven_coordinates(motion: Motion) -> dict[tuple[int, int], str]:
         number = list(motion.mechanism.joints).index(joint)
         found[number, motion.mechanism.all_joints[number].coordinates.index(own)] = name
     return found
-
-
-def _pulls(screws: Float[Array, "poses 6 free"]) -> Float[Array, "poses 6 free"]:
-    """S (S^T S)^-1: the wrench of least norm that has a unit load in one coordinate and none in the others."""
-    if not screws.shape[2]:
-        return screws
-    gram = jnp.einsum("pik,pil->pkl", screws, screws)
-    tiny = TINY * jnp.finfo(screws.dtype).eps
-    return jnp.moveaxis(jnp.linalg.solve(gram + tiny * jnp.eye(gram.shape[-1]), jnp.moveaxis(screws, 1, 2)), 1, 2)
-
-
-def _purified(projectors: Float[Array, "poses 6 6"]) -> Float[Array, "poses 6 6"]:
-    """Bring matrices to the projectors that they nearly are: 3 P^2 - 2 P^3 squares the errors of the eigenvalues.
-
-    What `TINY` leaves in the directions of freedoms would be a stiffness beside that of `HOLD`.
-    """
-    square = projectors @ projectors
-    return 3 * square - 2 * square @ projectors
 
 
 def coupling_gradients(motion: Motion, size: Any) -> list[dict[tuple[int, int], Float[Array, " poses"]]]:
