@@ -15,6 +15,7 @@ from reference.planar import slider_crank as slider_crank_angles
 TURN = whole_turn()
 
 
+@pytest.mark.long
 def test_angle_between_coupler_and_rocker(tmp_path):
     """Norton, Design of Machinery, sections 4.10 and 6.7: the transmission angle, and the ratio of the rates."""
     motion = fourbar().sweep({"A": TURN})
