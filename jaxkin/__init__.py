@@ -41,6 +41,8 @@ from jaxkin.effects.forces.masses import Masses as Masses
 from jaxkin.effects.forces.masses import masses as masses
 from jaxkin.effects.forces.reactions import Reactions as Reactions
 from jaxkin.effects.forces.reactions import reactions as reactions
+from jaxkin.effects.forces.transmission import Transmission as Transmission
+from jaxkin.effects.forces.transmission import transmission as transmission
 from jaxkin.effects.limit_search import LimitKind as LimitKind
 from jaxkin.effects.limits import Limit as Limit
 from jaxkin.effects.limits import Limits as Limits

@@ -15,12 +15,12 @@ from jaxtyping import Array, Float
 
 from jaxkin._named import Named
 from jaxkin._names import nearest
-from jaxkin.effects.forces.balance import Balance, Wrenches, balance, driven_coordinates, size_and_middle, solve
+from jaxkin.effects.forces.balance import Balance, balance, driven_coordinates, size_and_middle, solve
 from jaxkin.effects.forces.changes import changes
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed, units_of
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -28,16 +28,17 @@ from jaxkin.mechanism.motion import Motion
 
 MAX_LINES = 12
 """Joints that a printed result or a picture names at most: more do not fit on a screen."""
-OUT_OF_BALANCE = 1e-6
-"""Imbalance over the largest force, above which it is told: far above rounding, which is 1e-10 even near a dead point.
-"""
+MAX_HELD = 4
+"""Coordinates without a drive that a printed result names at most: one idle freedom may show in several."""
+HELD = 1e-6
+"""Force that holds a freedom, over the largest force, above which it is told: far above rounding."""
 
 
 @dataclass(frozen=True, eq=False)
 class Reactions:
     """What each joint transmits from part 1 to part 2 in each pose. A pytree; NaN at poses that are not CLOSED.
 
-    Along the freedoms of a joint it is what drives, joint springs and couplings transmit there, and nothing otherwise.
+    Along the freedoms of a joint it is what drives, joint springs and couplings transmit there, and what is `held`.
     """
 
     motion: Motion
@@ -49,9 +50,10 @@ class Reactions:
     """For each joint the torque on part 2 about its point, world axes, newton metres."""
     drives: dict[str, Float[Array, " poses"]]
     """Forces of the drives, as those of `jk.drive_forces`, found from the same balance."""
-    imbalance: Float[Array, " poses"]
-    """What no joint can hold, newtons (torques over the size of the mechanism): zero to rounding unless a freedom
-    without a drive is out of balance, or the pose is singular."""
+    held: Mapping[str, Float[Array, "poses _"]]
+    """For each joint the load that would hold its coordinates without a drive, newton metres or newtons: zero to
+    rounding unless a freedom that nothing drives, an idle one too, is out of balance, or a pose is singular. It is part
+    of `forces` and `torques`. Of a ball without a drive they are the torques about x, y, z of the world."""
 
     @cached_property
     def undetermined(self) -> tuple[Undetermined, ...]:
@@ -78,14 +80,22 @@ class Reactions:
             )
         if len(order) > MAX_LINES:
             lines.append(f"  and {len(order) - MAX_LINES} more: see .forces and .torques")
-        most = max(float(np.nanmax(each)) for each in forces.values())
-        if (left := float(np.nanmax(np.asarray(self.imbalance)))) > OUT_OF_BALANCE * most:
-            pose = int(np.nanargmax(np.asarray(self.imbalance)))
-            lines.append(
-                f"  out of balance by up to {left:.3g} N, at pose {pose}: a freedom without a drive, or singular"
-            )
+        lines += self._what_is_held(max(float(np.nanmax(each)) for each in forces.values()))
         lines += [f"  {each}" for each in self.undetermined[:MAX_LINES]]
         return "\n".join(lines)
+
+    def _what_is_held(self, most: float) -> list[str]:
+        """Say which coordinates without a drive would have to be held, for forces up to `most`."""
+        lever = float(size_and_middle(self.motion.mechanism.linkage)[0]) * METRES[self.motion.mechanism.unit]
+        found = []
+        for name, joint in self.motion.mechanism.joints.items():
+            for k, own in enumerate(joint.coordinates):
+                load = np.abs(np.asarray(self.held[name][:, k]))
+                if np.nanmax(load) > HELD * most * (1.0 if is_length(own) else lever):
+                    unit = units_of(self.motion, f"{name}.{own}")[0]
+                    found.append(f"  {name}.{own} has no drive: up to {np.nanmax(load):.3g} {unit} would hold it")
+        more = [f"  and {len(found) - MAX_HELD} more without a drive: see .held"] if len(found) > MAX_HELD else []
+        return [*found[:MAX_HELD], *more]
 
     def plot(self, path: str | Path, joints: Sequence[str] | None = None) -> Path:
         """Draw the size of the forces of some joints, by default of the most loaded ones; returns the path."""
@@ -107,7 +117,7 @@ class Reactions:
 
 
 jax.tree_util.register_dataclass(
-    Reactions, data_fields=["motion", "points", "forces", "torques", "drives", "imbalance"], meta_fields=[]
+    Reactions, data_fields=["motion", "points", "forces", "torques", "drives", "held"], meta_fields=[]
 )
 
 
@@ -131,31 +141,22 @@ def reactions(
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
     moving = None if rates is None else changes(motion, rates, accelerations)
-    places, wrenches, drives, imbalance = _balanced(motion, loads(motion, acting, moving))
-    size = size_and_middle(motion.mechanism.linkage)[0]
-    metre = METRES[motion.mechanism.unit]
-    names = list(motion.mechanism.joints)
-    return Reactions(
-        motion,
-        Named("joint", zip(names, places, strict=True)),
-        Named("joint", ((name, nan_unless_closed(motion, w[:, 3:])) for name, w in zip(names, wrenches, strict=True))),
-        Named(
-            "joint",
-            (
-                (name, nan_unless_closed(motion, size * metre * w[:, :3]))
-                for name, w in zip(names, wrenches, strict=True)
-            ),
-        ),
-        {name: nan_unless_closed(motion, drives[name]) for name in motion.inputs},
-        nan_unless_closed(motion, imbalance),
-    )
+    places, forces, torques, drives, held = _balanced(motion, loads(motion, acting, moving))
+    joints = list(motion.mechanism.joints)
+
+    def named(rows: Sequence[Array], known: bool = False) -> Named[Array]:
+        return Named("joint", zip(joints, rows if known else (nan_unless_closed(motion, x) for x in rows), strict=True))
+
+    drives = {name: nan_unless_closed(motion, drives[name]) for name in motion.inputs}
+    return Reactions(motion, named(places, known=True), named(forces), named(torques), drives, named(held))
+
+
+Rows = tuple[Float[Array, "poses _"], ...]
 
 
 @jax.jit
-def _balanced(
-    motion: Motion, acting: Loads
-) -> tuple[tuple[Float[Array, "poses 3"], ...], tuple[Wrenches, ...], dict[str, Array], Float[Array, " poses"]]:
-    """Points, wrenches of the joints about them, forces of the drives, and imbalance."""
+def _balanced(motion: Motion, acting: Loads) -> tuple[Rows, Rows, Rows, dict[str, Float[Array, " poses"]], Rows]:
+    """Points of the joints, forces, torques about the points, forces of the drives, and what holds the rest."""
     linkage, metre = motion.mechanism.linkage, METRES[motion.mechanism.unit]
     found = balance(motion)
     loaded: dict[int, Array] = {}
@@ -163,14 +164,21 @@ def _balanced(
         if k in found.pulls[joint]:
             scaled = load / _lever_arm(motion, found, joint, k)
             loaded[joint] = loaded.get(joint, 0.0) + scaled[:, None] * found.pulls[joint][k]
-    wrenches, strengths, imbalance = solve(linkage, found, _wrenches(motion, found, acting, metre), loaded)
+    sent = solve(linkage, found, _wrenches(motion, found, acting, metre), loaded)
+    driven = driven_coordinates(motion)
     drives = {}
-    for (joint, k), name in driven_coordinates(motion).items():
-        along = jnp.einsum("pi,pi->p", wrenches[joint], found.screws[joint][:, :, k])
-        for gradient, strength in zip(found.gradients, strengths, strict=True):
+    for (joint, k), name in driven.items():
+        along = jnp.einsum("pi,pi->p", sent.wrenches[joint], found.screws[joint][:, :, k])
+        for gradient, strength in zip(found.gradients, sent.couplings, strict=True):
             along = along - strength * gradient.get((joint, k), 0.0)
         drives[name] = along * _lever_arm(motion, found, joint, k) - acting.joints.get((joint, k), 0.0)
-    return found.places, wrenches, drives, imbalance
+    held = []
+    for joint, (wrench, screws) in enumerate(zip(sent.held, found.screws, strict=True)):
+        arms = [0.0 if (joint, k) in driven else _lever_arm(motion, found, joint, k) for k in range(screws.shape[2])]
+        held.append(jnp.einsum("pi,pik->pk", wrench, screws) * jnp.asarray(arms))
+    forces = tuple(wrench[:, 3:] for wrench in sent.wrenches)
+    torques = tuple(found.size * metre * wrench[:, :3] for wrench in sent.wrenches)
+    return found.places, forces, torques, drives, tuple(held)
 
 
 def _lever_arm(motion: Motion, found: Balance, joint: int, k: int) -> Any:

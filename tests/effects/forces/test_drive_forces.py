@@ -61,6 +61,7 @@ def test_a_rocker_torque_through_the_velocity_ratio_of_norton(motion):
         np.testing.assert_allclose(forces, -2.5 * ratio, rtol=1e-10, atol=1e-10)
 
 
+@pytest.mark.long
 def test_weight_and_piston_force_of_a_slider_crank():
     """Torque = dV/dtheta with V the potential of weights; piston force times the velocity ratio dx/dtheta."""
     mechanism = replace(slider_crank(), unit="mm")
@@ -241,7 +242,7 @@ def test_power_of_a_spatial_linkage_with_balls():
     np.testing.assert_allclose(
         joints.drives["A.phi"], found.forces["A.phi"], atol=1e-9 * np.abs(found.forces["A.phi"]).max()
     )
-    assert float(joints.imbalance.max()) < 1e-9 * float(jnp.abs(joints.forces["A"]).max())
+    assert all(float(jnp.abs(rows).max()) < 1e-8 for rows in joints.held.values())
     assert joints.undetermined == ()
 
 

@@ -1,0 +1,77 @@
+"""The freedoms of a joint in each pose: unit twists of its coordinates, and what they let through."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
+from jaxkin.geometry.rigid import as_rigid, inverse, product
+from jaxkin.joints.joint import Joint
+
+TINY = 1e4
+"""What is added to S^T S, in units of rounding, where coordinates of a joint may depend on each other."""
+
+
+def joint_screws(
+    joint: Joint, q: Float[Array, "poses _"], part_1: Float[Array, "poses 4 4"], size: Any, driven: Collection[int] = ()
+) -> tuple[Float[Array, "poses 3"], Float[Array, "poses 6 _"]]:
+    """The point of a joint in each pose, and the unit twists of its coordinates about this point, in world axes.
+
+    Twists are those of part 2 relative to part 1. Lengths count over `size` in linear velocities, and in the
+    coordinates that are lengths. The angles of a ball without a drive are replaced by turns about the axes of the
+    world, which allow the same at every angle.
+    """
+    found = jnp.moveaxis(part_1[:, :3], 0, -1)
+    twists: list[Any] = []
+    first = 0
+    for number, (movement, frame) in enumerate(zip(joint.movements, joint.frames_1, strict=True)):
+        if number:
+            found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
+        found = product(found, as_rigid(jnp.asarray(frame, float)))
+        own: dict[int, Any] = {}
+        for element in MOVEMENTS[movement].elements:
+            axis, at = found[:, element.axis], found[:, 3]
+            turning = jnp.zeros_like(axis) if element.kind == "translate" else axis
+            if MOVEMENTS[movement].ball and first not in driven:
+                turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
+            pitch = 0.0 if element.kind == "rotate" else jnp.asarray(joint.pitch, float) / (2 * jnp.pi) / size
+            along = axis if element.kind == "translate" else pitch * axis
+            own[element.coordinate] = turning, along, at
+            value = q[:, first + element.coordinate]
+            advance = None
+            if element.kind != "rotate":
+                advance = value if element.kind == "translate" else value * pitch * size
+            turn = None if element.kind == "translate" else (jnp.cos(value), jnp.sin(value))
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
+            found = jnp.stack(columns, axis=1)
+        twists += [own[k] for k in range(len(own))]
+        first += len(own)
+    place = found[:, 3]
+    rows = [
+        jnp.concatenate([turning, along + jnp.cross(turning, (place - at) / size, axis=0)])
+        for turning, along, at in twists
+    ]
+    screws = jnp.stack(rows, axis=-1) if rows else jnp.zeros((6, q.shape[0], 0))
+    return place.T, jnp.moveaxis(screws, 1, 0)
+
+
+def pulls_of(screws: Float[Array, "poses 6 free"]) -> Float[Array, "poses 6 free"]:
+    """S (S^T S)^-1: the wrench of least norm that has a unit load in one coordinate and none in the others."""
+    if not screws.shape[2]:
+        return screws
+    gram = jnp.einsum("pik,pil->pkl", screws, screws)
+    tiny = TINY * jnp.finfo(screws.dtype).eps
+    return jnp.moveaxis(jnp.linalg.solve(gram + tiny * jnp.eye(gram.shape[-1]), jnp.moveaxis(screws, 1, 2)), 1, 2)
+
+
+def purified(projectors: Float[Array, "poses 6 6"]) -> Float[Array, "poses 6 6"]:
+    """Bring matrices to the projectors that they nearly are: 3 P^2 - 2 P^3 squares the errors of the eigenvalues.
+
+    What `TINY` leaves in the directions of freedoms would be a stiffness beside that of `balance.HOLD`.
+    """
+    square = projectors @ projectors
+    return 3 * square - 2 * square @ projectors

@@ -1,0 +1,131 @@
+"""How well a mechanism passes motion and force on to an output: ratio, mechanical advantage, transmission angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Float
+
+from jaxkin._names import listed, nearest
+from jaxkin.effects.forces.drive import drive_forces
+from jaxkin.effects.forces.given import joint_load
+from jaxkin.effects.forces.reactions import reactions
+from jaxkin.effects.forces.wrenches import nan_unless_closed
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.rates import velocities
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.linkage.coordinates import coordinate
+from jaxkin.mechanism.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Transmission:
+    """From the driven coordinate of a motion to an output, in each pose. A pytree; NaN at poses not CLOSED."""
+
+    input: str
+    output: str
+    """The coordinates, "joint.coordinate"."""
+    joint: str
+    """The joint through which the output part is moved."""
+    ratio: Float[Array, " poses"]
+    """Rate of the output over that of the input: of radians, or of the unit of the mechanism."""
+    advantage: Float[Array, " poses"]
+    """Force of the output over that of the input, newtons or newton metres; infinite where the output rests."""
+    angle: Float[Array, " poses"]
+    """Transmission angle, radians, 0 to pi/2: the complement of the angle between the force on the output part and the
+    velocity of its point. In a four-bar it is the angle between coupler and output link, the acute one."""
+
+    def __str__(self) -> str:
+        angle = np.degrees(np.asarray(self.angle))
+        lines = [f"Transmission from {self.input} to {self.output}, through {self.joint}"]
+        if np.isfinite(angle).any():
+            ratio = np.asarray(self.ratio)
+            lines += [
+                f"  ratio of rates from {np.nanmin(ratio):.4g} to {np.nanmax(ratio):.4g}",
+                f"  transmission angle from {np.nanmin(angle):.4g} deg at pose {np.nanargmin(angle)} to "
+                f"{np.nanmax(angle):.4g} deg at pose {np.nanargmax(angle)}",
+            ]
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the transmission angle over the poses into a picture file; returns its path."""
+        degrees = np.degrees(np.asarray(self.angle, float))
+        title = f"{self.input} to {self.output}"
+        return draw_lines([f"through {self.joint}"], degrees[None], "transmission angle (deg)", title, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write ratio, advantage and angle as comma-separated values, one row a pose; returns the path."""
+        rows = np.stack([np.asarray(each, float) for each in (self.ratio, self.advantage, self.angle)])
+        return save_rows(["ratio", "advantage", "transmission angle [rad]"], rows, Path(path))
+
+
+jax.tree_util.register_dataclass(
+    Transmission, data_fields=["ratio", "advantage", "angle"], meta_fields=["input", "output", "joint"]
+)
+
+
+def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Transmission:
+    """Find how motion and force go from the one driven coordinate of a motion to another coordinate.
+
+    `output` is "joint" or "joint.coordinate"; the part that moves there, part 2 of its joint unless that is fixed, is
+    the output part. Without weight and friction, the advantage is the inverse of the ratio of rates. The transmission
+    angle is measured at `joint`, by default the one other joint of the output part: there a load on the output puts a
+    force on the part, and its angle from the velocity of the point says how much of it moves the output.
+
+    Works inside `jit`, `vmap` and `grad`. Raises ValueError for motions with several drives, an output that is driven,
+    and where the joint must be named.
+    """
+    mechanism = motion.mechanism
+    if len(motion.inputs) != 1:
+        raise ValueError(f"a transmission has one input, and this motion is driven by {listed(list(motion.inputs))}")
+    (name,) = motion.inputs
+    number, index = coordinate(mechanism.linkage, output)
+    own = mechanism.all_joints[number]
+    full = f"{own.name}.{own.coordinates[index]}"
+    if full == name:
+        raise ValueError(f"{full!r} is the input itself; name another coordinate")
+    part = own.parts[0] if own.parts[1] in mechanism.fixed else own.parts[1]
+    others = [each.name for each in mechanism.all_joints if part in each.parts and each.name != own.name]
+    if joint is not None and joint not in others:
+        raise ValueError(f"the output part {part!r} has no other joint {joint!r}{nearest(joint, others)}")
+    if joint is None and len(others) != 1:
+        raise ValueError(f"the output part {part!r} is moved through one of {listed(others)}: say joint={others[:1]!r}")
+    through = joint or others[0]
+    speeds = velocities(motion, {name: 1.0})
+    load = joint_load(full, 1.0)
+    force = drive_forces(motion, applied=load).forces[name]
+    found = reactions(motion, applied=load)
+    push = found.forces[through]
+    if (normal := _normal(motion, number)) is not None:
+        # links lie side by side, and what that puts along their pins is shared by stiffness, and moves nothing
+        normal = jnp.einsum("pij,j->pi", motion.transforms[part][:, :3, :3], normal)
+        push = push - jnp.sum(push * normal, axis=1, keepdims=True) * normal
+    # the velocity of the output part at the joint: of the point of the part that is there now
+    place, change = motion.transforms[part], speeds.transforms[part]
+    point = jnp.einsum("pji,pj->pi", place[:, :3, :3], found.points[through] - place[:, :3, 3])
+    velocity = jnp.einsum("pij,pj->pi", change[:, :3, :3], point) + change[:, :3, 3]
+    along = jnp.abs(jnp.sum(push * velocity, axis=1))
+    size = jnp.sqrt(jnp.sum(push**2, axis=1) * jnp.sum(velocity**2, axis=1))
+    sine = jnp.where(size > 0, along / jnp.where(size > 0, size, 1.0), 0.0)
+    ratio = nan_unless_closed(motion, speeds.displacements[number][:, index])
+    angle = jnp.where(motion.closed, jnp.arcsin(jnp.minimum(sine, 1.0)), jnp.nan)
+    return Transmission(name, full, through, ratio, -1.0 / force, angle)
+
+
+def _normal(motion: Motion, number: int) -> Float[Array, "3"] | None:
+    """The normal of the plane in which the loops of a joint move, as assembled; None where they are spatial."""
+    linkage = motion.mechanism.linkage
+    for group, found in zip(linkage.structure.loop_groups, linkage.classes, strict=True):
+        if number not in group.joints or found.plane is None:
+            continue
+        for each in group.joints:
+            joint = linkage.joints[each]
+            for frame, movement in enumerate(joint.movements):
+                for element in MOVEMENTS[movement].elements:
+                    if element.kind == "rotate":
+                        return jnp.asarray(joint.frames_1[frame][:3, element.axis], float)
+    return None
