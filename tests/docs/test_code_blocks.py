@@ -30,6 +30,7 @@ LONG = {
         "how-to/time",
         "how-to/modes",
         "how-to/range",
+        "how-to/workspace",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
