@@ -33,6 +33,7 @@ LONG = {
         "how-to/forces",
         "how-to/modes",
         "how-to/range",
+        "how-to/workspace",
     )
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""

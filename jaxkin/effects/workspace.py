@@ -1,0 +1,242 @@
+"""Maps over two inputs: where a mechanism can go, where a point of it then is, and how near to singular."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import dtypes
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin._names import by_name, listed, nearest
+from jaxkin._traced import traced
+from jaxkin.effects.grid_flood import flood
+from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.workspace_plot import draw_workspace
+from jaxkin.linkage.coordinates import coordinates
+from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.motion import Motion, as_point
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
+from jaxkin.mobility.open_loops import check_closed
+from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.solve_range import displacements
+from jaxkin.solve.status import Status, default_tolerance
+from jaxkin.solve.system.from_linkage import Columns
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True, eq=False)
+class Workspace:
+    """A map over two inputs; arrays have the first input as their first axis. Prints, draws and saves itself."""
+
+    inputs: Mapping[str, Float[np.ndarray, " values"]]
+    """The two inputs by "joint.coordinate", with the values of the grid: radians, lengths."""
+    part: str
+    point: tuple[float, float, float]
+    """The point of the part, where it is in the assembled pose."""
+    status: Int[np.ndarray, "first second"]
+    """Codes of `Status`: CLOSED where a path over the grid leads from the assembled pose without a singular pose,
+    JUMPED where the loops close but no such path was found, UNREACHABLE where no neighbour leads to a closed pose."""
+    points: Float[np.ndarray, "first second 3"]
+    """Where the point is; NaN where the loops do not close."""
+    rates: Float[np.ndarray, "first second 3 2"]
+    """Derivatives of the point by the two inputs; NaN where the loops do not close."""
+    motion: Motion
+    """All poses, the second input fastest."""
+
+    @property
+    def reached(self) -> Bool[np.ndarray, "first second"]:
+        """Which nodes are CLOSED."""
+        return self.status == Status.CLOSED.value
+
+    @cached_property
+    def sigma_min(self) -> Float[np.ndarray, "first second"]:
+        """How near to singular the loops are, as `motion.sigma_min`; NaN where they do not close."""
+        found = np.asarray(self.motion.sigma_min).reshape(self.status.shape)
+        return np.where(np.isfinite(self.points[..., 0]), found, np.nan)
+
+    @cached_property
+    def condition(self) -> Float[np.ndarray, "first second"]:
+        """How evenly the inputs move the point: the smaller singular value of `rates` over the larger one.
+
+        It is 1 where the point moves alike in all directions of the inputs, 0 where it cannot be moved in some; NaN
+        where the loops do not close.
+        """
+        closed = np.all(np.isfinite(self.rates), axis=(2, 3))
+        values = np.linalg.svd(np.where(closed[..., None, None], self.rates, 1.0), compute_uv=False)
+        return np.where(closed, values[..., 1] / np.maximum(values[..., 0], 1e-300), np.nan)
+
+    def __str__(self) -> str:
+        (one, first), (other, second) = self.inputs.items()
+        counts = [(status, int((self.status == status.value).sum())) for status in Status]
+        said = listed([f"{count} {status.name}" for status, count in counts if count])
+        lines = [
+            f"Workspace of {self.part} over {len(first)} x {len(second)} poses: {said}",
+            f"  {one} from {first[0]:.4g} to {first[-1]:.4g}, {other} from {second[0]:.4g} to {second[-1]:.4g}",
+        ]
+        if self.reached.any():
+            unit = self.motion.mechanism.unit
+            for name, values in zip("xyz", self.points[self.reached].T, strict=True):
+                lines.append(f"  {name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip())
+            for name, values in (("sigma_min", self.sigma_min), ("condition", self.condition)):
+                at = np.unravel_index(np.argmin(np.where(self.reached, values, np.inf)), self.status.shape)
+                lines.append(
+                    f"  least {name} {values[at]:.2g} at {one} = {first[at[0]]:.4g}, {other} = {second[at[1]]:.4g}"
+                )
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the map over the inputs, and the places of the point, into a picture file; returns its path."""
+        return draw_workspace(self, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write inputs, status, point, sigma_min and condition as comma-separated values, a row a pose."""
+        first, second = np.meshgrid(*self.inputs.values(), indexing="ij")
+        rows = [first, second, self.status, *np.moveaxis(self.points, -1, 0), self.sigma_min, self.condition]
+        names = [*self.inputs, "status", "x", "y", "z", "sigma_min", "condition"]
+        return save_rows(names, np.array([np.ravel(row) for row in rows], float), Path(path))
+
+
+def workspace(
+    mechanism: Mechanism,
+    ranges: Mapping[str, Sequence[float] | np.ndarray],
+    part: str,
+    point: Sequence[float | int] | np.ndarray,
+    *,
+    hold: Iterable[str] = (),
+    options: SolverOptions | None = None,
+) -> Workspace:
+    """Map a mechanism over a grid of two inputs: which poses it reaches, where a point of a part is, how near singular.
+
+    `ranges` maps two coordinates to rising arrays of displacements from the assembled pose, radians or lengths. The map
+    is filled from the node nearest to the assembled pose, from neighbour to neighbour, past no singular pose. Nodes are
+    CLOSED where a path over the grid leads there, on the branch of the assembled pose; JUMPED where the loops close,
+    but no path was found; UNREACHABLE where no neighbour leads to a closed pose. A passage narrower than the grid is
+    not found. Coordinates in `hold` stay as assembled.
+
+    Raises ValueError for names, ranges and points that make no sense, for a drive that leaves freedoms or that the
+    loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
+    """
+    if traced((mechanism, point)):
+        raise ValueError("a workspace is mapped on the host: call workspace outside of jit, vmap and grad")
+    linkage, options = mechanism.linkage, options_with(options)
+    grid = _grid(ranges)
+    if part not in mechanism.parts:
+        raise ValueError(f"there is no part {part!r}{nearest(part, mechanism.parts)}")
+    if isinstance(hold, str):
+        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
+    keys = (*grid, *hold)
+    driven = coordinates(linkage, keys)
+    check_closed(linkage, mechanism.unit, "a workspace", "workspace(...)")
+    if linkage.ideal:
+        raise ValueError(f"a workspace needs loops that close: {'; '.join(mechanism.alignment)}")
+    plan = plan_drive(linkage, keys)
+    if plan.infeasible:
+        raise ValueError(why_infeasible(mechanism, plan.infeasible))
+    if free := undriven_freedoms(linkage, list(driven.values())):
+        raise ValueError(f"the two inputs leave freedoms: hold {listed(free)} too, as in hold=[{free[0]!r}]")
+    where = as_point(point)
+
+    first, second = grid.values()
+    shape = len(first), len(second)
+    nodes = np.stack([np.ravel(each) for each in np.meshgrid(first, second, indexing="ij")])
+    nodes = np.concatenate([nodes, np.zeros((len(keys) - 2, nodes.shape[1]))]).astype(dtypes.canonicalize_dtype(float))
+    max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
+    found = flood(plan.elements, options, nodes, shape, max_residual)
+    layout = _Layout(
+        plan.freedoms,
+        tuple(driven.values()),
+        tuple(element.system for element in plan.elements),
+        tuple(element.columns for element in plan.elements),
+        tuple(element.inputs for element in plan.elements),
+        mechanism.parts.index(part),
+    )
+    poses = tuple(Poses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
+    joints = tuple(element.joints for element in plan.elements)
+    rows, points, rates = _read(layout, linkage, joints, jnp.asarray(nodes), poses, where)
+    inputs = {name: jnp.asarray(row) for name, row in zip(driven, nodes, strict=True)}
+    motion = Motion(mechanism, inputs, rows, jnp.asarray(found.status), jnp.asarray(found.residual), options=options)
+    closed = np.isin(found.status, (Status.CLOSED.value, Status.JUMPED.value))
+    return Workspace(
+        dict(zip(driven, (first, second), strict=False)),
+        part,
+        tuple(float(each) for each in where),  # pyright: ignore[reportArgumentType]
+        found.status.reshape(shape),
+        np.where(closed[:, None], points, np.nan).reshape(*shape, 3),
+        np.where(closed[:, None, None], rates, np.nan).reshape(*shape, 3, 2),
+        motion,
+    )
+
+
+def _grid(ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, Float[np.ndarray, " values"]]:
+    """Check the values of the two inputs."""
+    example = "{'A': np.linspace(-1, 1, 41), 'B': np.linspace(-1, 1, 41)}"
+    found = {}
+    for key, values in by_name(ranges, "ranges", example).items():
+        try:
+            found[key] = np.asarray(values, float)
+        except (TypeError, ValueError):
+            raise ValueError(f"the values of {key!r} must be numbers, got {values!r}") from None
+        row = found[key]
+        if row.ndim != 1 or len(row) < 2 or not np.isfinite(row).all() or np.any(np.diff(row) <= 0):
+            raise ValueError(f"the values of {key!r} must be two finite numbers or more, rising, got {values!r}")
+    if len(found) != 2:
+        raise ValueError(f"a workspace has two inputs, as in {example}, got {len(found)}")
+    return found
+
+
+class _Layout(NamedTuple):
+    """What goes where in a pose (static)."""
+
+    freedoms: tuple[int, ...]
+    driven: tuple[tuple[int, int], ...]
+    systems: tuple[LoopSystem, ...]
+    columns: tuple[Columns, ...]
+    inputs: tuple[tuple[int, ...], ...]
+    part: int
+
+
+@partial(jax.jit, static_argnums=0)
+def _read(
+    layout: _Layout,
+    linkage: Linkage,
+    joints: tuple[Joints, ...],
+    inputs: Float[Array, "driven poses"],
+    poses: tuple[Poses, ...],
+    point: Float[Array, "3"],
+) -> tuple[tuple[Float[Array, "poses _"], ...], Float[Array, "poses 3"], Float[Array, "poses 3 2"]]:
+    """Compute the displacements of all joints, where a point is, and its derivatives by the first two inputs."""
+
+    def placed(inputs: Float[Array, "driven poses"]):
+        rows = [jnp.zeros((inputs.shape[1], count), inputs.dtype) for count in layout.freedoms]
+        for (joint, k), row in zip(layout.driven, inputs, strict=True):
+            rows[joint] = rows[joint].at[:, k].set(row)
+        for system, columns, own, numbers, found in zip(
+            layout.systems, layout.columns, layout.inputs, joints, poses, strict=True
+        ):
+            x = displacements(system, numbers, inputs[np.array(own, int)], found)
+            for (joint, k), row in zip(columns, x, strict=True):
+                rows[joint] = rows[joint].at[:, k].set(row)
+        place = part_transforms(linkage, tuple(rows))[layout.part]
+        return jnp.einsum("pij,j->pi", place[:, :3, :3], point) + place[:, :3, 3], tuple(rows)
+
+    points, rows = placed(inputs)
+    rates = []
+    for number in range(2):
+        unit = jnp.zeros_like(inputs).at[number].set(1.0)
+        rates.append(jax.jvp(lambda u: placed(u)[0], (inputs,), (unit,))[1])
+    return rows, points, jnp.stack(rates, axis=-1)

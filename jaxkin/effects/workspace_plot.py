@@ -1,0 +1,66 @@
+"""Draw a map over two inputs, and the places of a point, side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from jaxkin._files import whole
+from jaxkin.solve.status import Status
+
+if TYPE_CHECKING:
+    from jaxkin.effects.workspace import Workspace
+
+FLAT = 1e-9
+"""Extent of a point's places along an axis, over the largest one, below which they are drawn in the plane across."""
+GREYS = {Status.JUMPED: "0.8", Status.UNREACHABLE: "0.95", Status.STALLED: "0.6"}
+"""Colours of nodes that are not reached."""
+
+
+def draw_workspace(found: Workspace, path: Path) -> Path:
+    """Draw `sigma_min` over the inputs and `condition` over the places of the point; returns the path."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.figure import Figure
+    from matplotlib.patches import Patch
+
+    figure = Figure(figsize=(11, 5), layout="constrained")
+    axes = figure.add_subplot(1, 2, 1)
+    (one, first), (other, second) = found.inputs.items()
+    handles = []
+    for status, grey in GREYS.items():
+        here = found.status == status.value
+        if here.any():
+            axes.pcolormesh(
+                first, second, np.where(here, 1.0, np.nan).T, cmap=ListedColormap([grey]), shading="nearest"
+            )
+            handles.append(Patch(facecolor=grey, edgecolor="0.5", label=status.name))
+    values = np.where(found.reached & np.isfinite(found.sigma_min), found.sigma_min, np.nan)
+    if np.isfinite(values).any():
+        drawn = axes.pcolormesh(first, second, values.T, cmap="viridis", shading="nearest", vmin=0.0)
+        figure.colorbar(drawn, ax=axes, label="sigma_min")
+    axes.set(xlabel=one, ylabel=other)
+    axes.set_title("inputs: how near the loops are to singular", fontsize="medium")
+    if handles:
+        axes.legend(handles=handles, fontsize="small", loc="upper right")
+
+    points = found.points[found.reached]
+    extent = np.ptp(points, axis=0) if len(points) else np.ones(3)
+    across = [k for k in range(3) if extent[k] <= FLAT * max(extent.max(), 1e-300)]
+    title = f"places of the point of {found.part}"
+    if across:
+        a, b = [k for k in range(3) if k != across[-1]]
+        plane = figure.add_subplot(1, 2, 2)
+        drawn = plane.scatter(points[:, a], points[:, b], c=found.condition[found.reached], s=6, vmin=0.0)
+        plane.set(xlabel="xyz"[a], ylabel="xyz"[b], title=title)
+        plane.set_aspect("equal")
+        figure.colorbar(drawn, ax=plane, label="condition")
+    else:
+        space = figure.add_subplot(1, 2, 2, projection="3d")
+        drawn = space.scatter(*points.T, c=found.condition[found.reached], s=6, vmin=0.0)
+        space.set(xlabel="x", ylabel="y", title=title)
+        figure.colorbar(drawn, ax=space, label="condition")
+    with whole(path) as draft:
+        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
+    return path

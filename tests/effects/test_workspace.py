@@ -1,0 +1,142 @@
+"""Maps over two inputs: a five-bar against its closed form, a serial arm, and a hexapod against its legs."""
+
+import jax
+import numpy as np
+import pytest
+from scipy.ndimage import label
+
+import jaxkin as jk
+from jaxkin import Status
+from reference import planar
+from reference.catalogue import hexapod
+from reference.mechanisms import flat, planar_fourbar
+
+Z = (0.0, 0.0, 1.0)
+BASE, ARM, START = 80.0, np.hypot(30.0, 60.0), np.arctan2(60.0, -30.0)
+FINE = 8
+"""Intervals between two nodes at which the closed form is looked at."""
+
+
+def elbows(left, right):
+    """Ends of the two arms (poses, 2) for displacements of their drives; the right one is the mirror image."""
+    return planar.polar(ARM, START + left), np.array([BASE, 0.0]) + planar.polar(ARM, np.pi - START + right)
+
+
+def tip(left, right, rod):
+    """Where the rods meet, above the line of the elbows; nan where they do not."""
+    one, other = elbows(np.asarray(left, float), np.asarray(right, float))
+    with np.errstate(invalid="ignore"):
+        return planar.meet(one, rod, other, rod, 1)
+
+
+def five_bar(rod: float) -> jk.Mechanism:
+    left, right = (place[0] for place in elbows(np.zeros(1), np.zeros(1)))
+    top = tip(np.zeros(1), np.zeros(1), rod)
+    joints = [
+        jk.revolute("A", "ground", "left", point=(0, 0, 0), axis=Z),
+        jk.revolute("B", "left", "left rod", point=flat(left), axis=Z),
+        jk.revolute("C", "left rod", "right rod", point=flat(top), axis=Z),
+        jk.revolute("D", "right", "right rod", point=flat(right), axis=Z),
+        jk.revolute("E", "ground", "right", point=(BASE, 0, 0), axis=Z),
+    ]
+    return jk.Mechanism.build(fixed=["ground"], joints=joints)
+
+
+def connected(grid, rod) -> np.ndarray:
+    """Nodes that are connected with the assembled pose along the lines of the grid, through poses that exist."""
+    fine = np.linspace(grid[0], grid[-1], FINE * (len(grid) - 1) + 1)
+    there = np.isfinite(tip(*(each.ravel() for each in np.meshgrid(fine, fine, indexing="ij")), rod)[:, 0])
+    there = there.reshape(len(fine), len(fine))
+    lines = np.zeros_like(there)
+    lines[::FINE] = lines[:, ::FINE] = True
+    islands = label(there & lines)[0]
+    home = int(np.argmin(np.abs(fine)))
+    return islands[::FINE, ::FINE] == islands[home, home]
+
+
+@pytest.mark.parametrize("rod", [72.0, pytest.param(86.0, marks=pytest.mark.long)])
+def test_a_five_bar(rod, tmp_path):
+    """All nodes, their places, and their derivatives; the shorter rods leave islands to which no motion leads."""
+    grid = np.linspace(-3.1, 3.1, 37)  # no node where the elbows meet, around which the rods turn freely
+    found = jk.workspace(five_bar(rod), {"A": grid, "E": grid}, "left rod", flat(tip([0.0], [0.0], rod)))
+    left, right = np.meshgrid(grid, grid, indexing="ij")
+    wanted = tip(left.ravel(), right.ravel(), rod).reshape(37, 37, 2)
+    exists = np.isfinite(wanted[..., 0])
+    np.testing.assert_array_equal(found.status == Status.UNREACHABLE.value, ~exists)
+    np.testing.assert_array_equal(found.reached, connected(grid, rod))
+    assert np.isnan(found.points[~exists]).all() and np.isnan(found.condition[~exists]).all()
+    at = found.reached
+    # beside a limit an error of a pose is that of the residual over a small singular value
+    np.testing.assert_allclose(found.points[at][:, :2], wanted[at], rtol=0, atol=1e-9)
+    well = at & (found.sigma_min > 0.1)
+    step = 1e-6
+    for number, (one, other) in enumerate(((step, 0.0), (0.0, step))):
+        ends = [tip((left + side * one).ravel(), (right + side * other).ravel(), rod) for side in (1, -1)]
+        rates = ((ends[0] - ends[1]) / (2 * step)).reshape(37, 37, 2)
+        np.testing.assert_allclose(found.rates[well][..., :2, number], rates[well], rtol=0, atol=1e-5)
+    values = np.linalg.svd(found.rates[well], compute_uv=False)
+    np.testing.assert_allclose(found.condition[well], values[:, 1] / values[:, 0], rtol=1e-12)
+    if rod == 72.0:
+        text = str(found)
+        assert np.sum(found.status == Status.JUMPED.value) > 50
+        assert "Workspace of left rod over 37 x 37 poses" in text and f"{at.sum()} CLOSED" in text
+        assert found.plot(tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+        assert len(found.save(tmp_path / "map.csv").read_text().splitlines()) == 1 + 37**2
+
+
+def test_a_serial_arm_reaches_all():
+    """Nothing is to be closed: a point of two links, singular where they are stretched and folded."""
+    arm = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("shoulder", "ground", "upper", point=(0, 0, 0), axis=Z),
+            jk.revolute("elbow", "upper", "lower", point=(2, 0, 0), axis=Z),
+        ],
+    )
+    first, second = np.linspace(0.5, 1.5, 5), np.linspace(0.0, np.pi, 7)
+    found = jk.workspace(arm, {"shoulder": first, "elbow": second}, "lower", (3.0, 0, 0))
+    assert found.reached.all() and found.status.shape == (5, 7)
+    one, other = np.meshgrid(first, second, indexing="ij")
+    np.testing.assert_allclose(
+        found.points[..., :2], planar.polar(2.0, one) + planar.polar(1.0, one + other), rtol=0, atol=1e-14
+    )
+    assert found.condition[:, [0, -1]].max() < 1e-12 < 0.1 < found.condition[:, 2:-2].min()
+
+
+def test_what_is_no_map_is_refused():
+    mechanism, grid = five_bar(86.0), np.linspace(-1.0, 1.0, 3)
+    for ranges, message in (
+        ({"A": grid}, "a workspace has two inputs, as in .*, got 1"),
+        ({"A": grid, "E": grid[::-1]}, "the values of 'E' must be two finite numbers or more, rising"),
+        ({"A": grid, "E": "x"}, "the values of 'E' must be numbers"),
+        ({"A": grid, "F": grid}, "there is no joint 'F'"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            jk.workspace(mechanism, ranges, "left", (0, 0, 0))
+    with pytest.raises(ValueError, match="there is no part 'lef'; did you mean 'left'"):
+        jk.workspace(mechanism, {"A": grid, "E": grid}, "lef", (0, 0, 0))
+    with pytest.raises(ValueError, match="a point must be three numbers"):
+        jk.workspace(mechanism, {"A": grid, "E": grid}, "left", (0, 0))
+    with pytest.raises(ValueError, match=r"1 freedom"):
+        jk.workspace(planar_fourbar(), {"A": grid, "B": grid}, "coupler", (0, 0, 0))
+    with pytest.raises(ValueError, match=r"leave freedoms: hold .* too, as in hold="):
+        jk.workspace(hexapod(), {"leg 0": grid, "leg 1": grid}, "platform", (0, 0, 0))
+    with pytest.raises(ValueError, match="outside of jit"):
+        jax.jit(lambda x: jk.workspace(mechanism, {"A": grid, "E": grid}, "left", x).points)(np.zeros(3))
+
+
+@pytest.mark.long
+def test_two_legs_of_a_hexapod():
+    """The legs of all poses are as long as they were told; the others rest."""
+    mechanism, grid = hexapod(), np.linspace(-30.0, 30.0, 13)
+    hold = [f"leg {i}" for i in range(2, 6)]
+    found = jk.workspace(mechanism, {"leg 0": grid, "leg 1": grid}, "platform", (0, 0, 220.0), hold=hold)
+    assert 0.5 < found.reached.mean() < 1.0
+    at = found.reached.ravel()
+    for i in range(6):
+        base, top = (np.asarray(mechanism.joints[f"{end} {i}"].frames_1[0][:3, 3]) for end in ("base", "top"))
+        legs = np.linalg.norm(np.asarray(found.motion.points("platform", top)) - base, axis=1) - np.linalg.norm(
+            top - base
+        )
+        wanted = [np.repeat(grid, 13), np.tile(grid, 13)][i][at] if i < 2 else 0.0
+        np.testing.assert_allclose(legs[at], wanted, rtol=0, atol=1e-9)
