@@ -58,6 +58,7 @@ from jaxkin.joints.pairs import contact_joint as contact_joint
 from jaxkin.joints.pairs import cylindrical as cylindrical
 from jaxkin.joints.pairs import fixed as fixed
 from jaxkin.joints.pairs import free as free
+from jaxkin.joints.pairs import pin_in_slot as pin_in_slot
 from jaxkin.joints.pairs import planar as planar
 from jaxkin.joints.pairs import prismatic as prismatic
 from jaxkin.joints.pairs import revolute as revolute

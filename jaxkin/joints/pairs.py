@@ -136,6 +136,53 @@ def free(name: str, part1: str, part2: str, *, point: Triple, limits: GivenLimit
     return with_limits(joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]]), limits)
 
 
+def pin_in_slot(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    point: Triple,
+    axis: Triple,
+    direction: Triple | None = None,
+    centre: Triple | None = None,
+    limits: GivenLimits | None = None,
+) -> Joint:
+    """Make a pin of part 2, through the point along the axis, in a slot of part 1: a straight or a circular one.
+
+    A straight slot runs along `direction`, perpendicular to the axis. Coordinates: z, how far the pin is along it, and
+    phi, the turn of part 2. A circular slot runs about the line along the axis through `centre`. Coordinates: phi1, how
+    far the pin is around it, and phi2, the turn of part 2 against the slot there: part 2 has turned by phi1 + phi2.
+    Raises ValueError for both or neither of them, a direction that is not perpendicular within 1e-6, and a centre on
+    the axis of the pin.
+    """
+    if (direction is None) == (centre is None):
+        raise ValueError(
+            f"joint {name!r}: a slot is straight, direction=(x, y, z), or circular, centre=(x, y, z): "
+            f"give one of them, got {'neither' if centre is None else 'both'}"
+        )
+    pin = _frame(name, point, axis)
+    known = not traced(point, axis, direction, centre)
+    if direction is not None:
+        along, z = _frame(name, point, direction, "direction")[:3, 2], pin[:3, 2]
+        if known and abs(float(along @ z)) > 1e-6:
+            raise ValueError(
+                f"joint {name!r}: the direction of a slot must be perpendicular to the axis of its pin, the cosine "
+                f"between them is {float(along @ z):.3g}; use a prismatic and a revolute joint and a part between them "
+                f"for a skew slot"
+            )
+        slot, slides = _frame(name, point, along - (along @ z) * z), "T_z"
+    else:
+        slot, slides = _frame(name, centre, axis, point_label="centre"), "T_phi"
+        arm = pin[:3, 3] - slot[:3, 3]
+        if known and np.linalg.norm(np.cross(pin[:3, 2], arm)) <= 1e-9 * np.linalg.norm([pin[:3, 3], slot[:3, 3]]):
+            raise ValueError(
+                f"joint {name!r}: the centre of a circular slot must lie beside the axis of its pin, got "
+                f"centre={np.asarray(centre).tolist()} on the axis through point={np.asarray(point).tolist()}; use a "
+                f"revolute joint for a pin at the centre"
+            )
+    return with_limits(joint(name, (part1, part2), JointKind.PIN_IN_SLOT, (slides, "T_phi"), [slot, pin]), limits)
+
+
 def contact_joint(
     name: str,
     part1: str,
@@ -181,20 +228,23 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.SCREW: screw,
     JointKind.FIXED: fixed,
     JointKind.FREE: free,
+    JointKind.PIN_IN_SLOT: pin_in_slot,
 }
 """Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
 keyword arguments of the function are keys of the joint in the file."""
 
 
-def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:
+def _frame(
+    name: str, point: Triple | None, axis: Triple, what: str = "axis", point_label: str = "point"
+) -> np.ndarray | jax.Array:
     """Make the frame at the point with z along the axis; numbers are checked (ValueError), traced ones are not.
 
-    `what` is the name of the axis in messages.
+    `what` and `point_label` are the names of the axis and of the point in messages.
     """
     if traced(point, axis):
         return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
     checked = {}
-    for label, value in (("point", point), (what, axis)):
+    for label, value in ((point_label, point), (what, axis)):
         try:
             array = np.asarray(value, float)
         except (TypeError, ValueError):
@@ -204,7 +254,7 @@ def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.nda
         checked[label] = array
     if not np.any(checked[what]):
         raise ValueError(f"joint {name!r}: {what} must be a direction, got the zero vector")
-    return frame(checked["point"], checked[what])
+    return frame(checked[point_label], checked[what])
 
 
 def _traced_frame(point: jax.Array, axis: jax.Array) -> jax.Array:
