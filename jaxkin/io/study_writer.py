@@ -175,7 +175,8 @@ WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
     "axis": lambda joint, _: _pin(joint)[:3, 2].tolist(),
     "normal": lambda _, pose: pose[:3, 2].tolist(),
     "axis1": lambda _, pose: pose[:3, 1].tolist(),
-    "axis2": lambda _, pose: pose[:3, 0].tolist(),
+    # the axis of a constant velocity joint is written as the direction that bisects its shafts
+    "axis2": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].repeats else pose[:3, 0].tolist(),
     "pitch": lambda joint, _: float(joint.pitch),
     "direction": lambda joint, pose: pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None,
     "centre": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].only_slides else pose[:3, 3].tolist(),

@@ -17,6 +17,7 @@ class JointKind(StrEnum):
     SCREW = "screw"
     FIXED = "fixed"
     FREE = "free"
+    CONSTANT_VELOCITY = "constant velocity"
     PIN_IN_SLOT = "pin in slot"
     CONTACT_A = "contact a"
     CONTACT_B = "contact b"

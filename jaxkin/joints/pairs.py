@@ -102,6 +102,30 @@ def universal(
     return with_limits(joint(name, (part1, part2), JointKind.UNIVERSAL, ("T_theta_phi",), [pose]), limits)
 
 
+def constant_velocity(
+    name: str, part1: str, part2: str, *, point: Triple, axis: Triple, axis2: Triple | None = None
+) -> Joint:
+    """Make a homokinetic joint (Rzeppa, tripod on a shaft with a fixed centre) between two shafts that meet at a point.
+
+    `axis` is the direction of the shaft of part 1 and `axis2` that of part 2, both from part 1 to part 2; without
+    `axis2` the shafts are in line. The joint bends about any axis in the plane that bisects the shafts, and does not
+    twist: both shafts turn alike at any angle between them. Only the direction that bisects them matters, and `axis`
+    may be that. Coordinates: theta, phi, of the movement Rx(theta) Ry(phi) Rx(theta) with z along that direction; a
+    bend about x alone is 2 theta, one about y alone is phi. Raises ValueError for shafts in opposite directions.
+    """
+    along = _frame(name, point, axis)[:3, 2]
+    if axis2 is not None:
+        xp = jnp if traced(axis, axis2) else np
+        along = xp.asarray(along) + xp.asarray(_frame(name, point, axis2, "axis2")[:3, 2])
+        if not traced(along) and np.linalg.norm(along) < 1e-6:
+            raise ValueError(
+                f"joint {name!r}: axis and axis2 of a constant velocity joint must both point from {part1!r} to "
+                f"{part2!r}, but they are opposite; turn one of them round"
+            )
+    pose = _frame(name, point, along)
+    return joint(name, (part1, part2), JointKind.CONSTANT_VELOCITY, ("T_theta_phi_theta",), [pose])
+
+
 def screw(
     name: str,
     part1: str,
@@ -225,6 +249,7 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.PLANAR: planar,
     JointKind.SPHERICAL: spherical,
     JointKind.UNIVERSAL: universal,
+    JointKind.CONSTANT_VELOCITY: constant_velocity,
     JointKind.SCREW: screw,
     JointKind.FIXED: fixed,
     JointKind.FREE: free,

@@ -99,6 +99,7 @@ def test_a_circular_slot_is_a_link():
     np.testing.assert_allclose(around + turned, np.unwrap(wanted.coupler) - wanted.coupler[0], atol=1e-13)
 
 
+@pytest.mark.long
 def test_derivative_with_respect_to_the_place_of_the_pin():
     def stroke(crank):
         motion = yoke_of(crank).sweep({"A": jnp.array([0.4])})
@@ -108,7 +109,9 @@ def test_derivative_with_respect_to_the_place_of_the_pin():
     assert float(jax.jit(jax.grad(stroke))(30.0)) == pytest.approx(np.cos(0.4) - 1, abs=1e-13)
 
 
-@pytest.mark.parametrize("name", ["yoke", "quick return", "round"])
+@pytest.mark.parametrize(
+    "name", ["yoke", *(pytest.param(name, marks=pytest.mark.long) for name in ("quick return", "round"))]
+)
 def test_it_is_written_drawn_and_read_back(name, tmp_path):
     given = mechanisms()[name]
     drive = given.mobility().drivable[0]
@@ -128,6 +131,7 @@ def test_it_is_written_drawn_and_read_back(name, tmp_path):
     assert "pin in slot" in str(given) and "pin" in str(given.plan([drive]))
 
 
+@pytest.mark.long
 def test_the_same_from_another_pose():
     given = mechanisms()["quick return"]
     motion = given.sweep({"crank": [0.0, 0.7, 1.1]}, throw=True)
