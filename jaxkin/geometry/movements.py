@@ -4,8 +4,8 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 `T_theta_phi` and `T_theta_phi_psi`, theta, phi, psi are rotations about x, y, z; in the other movements phi is the
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
-closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair, and `I`, the identity,
-are not in the paper.
+closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
+`T_theta_phi_theta`, the constant velocity joint, and `I`, the identity, are not in the paper.
 """
 
 from __future__ import annotations
@@ -31,7 +31,8 @@ class ElementaryMotion:
     axis: int
     """Axis of the local frame: 0, 1, 2 for x, y, z."""
     coordinate: int
-    """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion."""
+    """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion. Several motions may
+    have the same coordinate."""
 
 
 class InvariantFeature(NamedTuple):
@@ -97,6 +98,11 @@ class Movement:
     def has_pitch(self) -> bool:
         """Whether the movement advances by a pitch."""
         return any(element.kind == "screw" for element in self.elements)
+
+    @property
+    def repeats(self) -> bool:
+        """Whether a coordinate drives more than one of the elementary motions."""
+        return len(self.elements) > len(self.coordinates)
 
     @property
     def only_slides(self) -> bool:
@@ -180,6 +186,18 @@ MOVEMENTS: dict[str, Movement] = {
         aligned=frozenset({"direction", "centre"}),
         figures=((CylinderFigure(1, 0.9, 6.0),), (CylinderFigure(0, 0.8, 6.0),)),
         lock=AngleLock("T_theta_phi_psi", ball=0, columns=(0, 1)),
+    ),
+    "T_theta_phi_theta": Movement(
+        coordinates=("theta", "phi"),
+        # Rx(theta) Ry(phi) Rx(theta): the same read backwards, so that its rotation vector has no z component; these
+        # are all rotations about axes at right angles to z, by less than half a turn
+        elements=(_rotate(0, 0), _rotate(1, 1), _rotate(0, 0)),
+        letter="V",
+        feature=InvariantFeature("point"),
+        # in line, both shafts lie along z
+        features_alone=(InvariantFeature("axis", marked=True), InvariantFeature("axis", marked=True)),
+        aligned=frozenset({"direction", "centre"}),
+        figures=((CylinderFigure(2, 2.6, 2.4),), (BallFigure(2.2),)),
     ),
     "T_theta_phi_psi": Movement(
         coordinates=("theta", "phi", "psi"),

@@ -121,10 +121,14 @@ class _Writer:
                 made.append({"name": names[first], "type": "ball"} | place)
             for motion in () if movement.ball else movement.elements:
                 column = first + motion.coordinate
+                name = names[column]
+                if name in [each["name"] for each in made]:  # a joint of MuJoCo has one axis
+                    name += "_again"
+                    self._polynomial(f"{joint.name} {name}", name, names[column], [1.0])
                 axis = _text(*sign * frame[:3, motion.axis])
                 slides = motion.kind == "translate"
                 made.append(
-                    {"name": names[column], "type": "slide" if slides else "hinge"}
+                    {"name": name, "type": "slide" if slides else "hinge"}
                     | ({} if slides else place)
                     | {"axis": axis}
                     | self._range(joint, column)

@@ -82,6 +82,8 @@ class JointTable(BaseModel):
     axis1: Triple | None = None
     axis2: Triple | None = None
     normal: Triple | None = None
+    direction: Triple | None = None
+    centre: Triple | None = None
     pitch: Number | None = None
     state: str | None = None
     frames: list[Frame] | None = None

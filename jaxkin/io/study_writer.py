@@ -14,7 +14,7 @@ from jaxkin._grouped import grouped, kind_of
 from jaxkin._traced import traced
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
-from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
@@ -158,7 +158,8 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     usual = np.allclose(pose, frame(pose[:3, 3], pose[:3, 2]), atol=_SAME)
     if joint.kind in JOINTS_BY_HAND and (usual or joint.kind not in _AS_CONTACT):
         takes = signature(JOINTS_BY_HAND[joint.kind]).parameters
-        return str(joint.kind), {key: said(joint, pose) for key, said in WRITTEN_ARGUMENTS.items() if key in takes}
+        said = {key: of(joint, pose) for key, of in WRITTEN_ARGUMENTS.items() if key in takes}
+        return str(joint.kind), {key: value for key, value in said.items() if value is not None}
     if joint.kind in _AS_CONTACT:
         letter, region = _AS_CONTACT[joint.kind], None
     elif state := joint.contact_state:
@@ -170,14 +171,23 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
 
 
 WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
-    "point": lambda _, pose: pose[:3, 3].tolist(),
-    "axis": lambda _, pose: pose[:3, 2].tolist(),
+    "point": lambda joint, _: _pin(joint)[:3, 3].tolist(),
+    "axis": lambda joint, _: _pin(joint)[:3, 2].tolist(),
     "normal": lambda _, pose: pose[:3, 2].tolist(),
     "axis1": lambda _, pose: pose[:3, 1].tolist(),
-    "axis2": lambda _, pose: pose[:3, 0].tolist(),
+    # the axis of a constant velocity joint is written as the direction that bisects its shafts
+    "axis2": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].repeats else pose[:3, 0].tolist(),
     "pitch": lambda joint, _: float(joint.pitch),
+    "direction": lambda joint, pose: pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None,
+    "centre": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].only_slides else pose[:3, 3].tolist(),
 }
-"""Keyword argument of the functions in `jaxkin.joints.pairs` -> what it was, from a joint and its frame."""
+"""Keyword argument of the functions in `jaxkin.joints.pairs` -> what it was, from a joint and its first frame; None
+where it was not given."""
+
+
+def _pin(joint: Joint) -> Pose:
+    """The last frame of a joint: that of the pin in a slot, and the only one of most joints."""
+    return np.asarray(joint.frames_1, float)[-1]
 
 
 def _drive(mechanism: Mechanism, drive: Mapping[str, str] | None) -> list[str]:

@@ -22,7 +22,7 @@ from jaxtyping import Float
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 
 Array = np.ndarray | jax.Array
@@ -217,6 +217,11 @@ def _full_name(coupling: Coupling, key: str, by_joint: Mapping[str, Joint]) -> s
     if name not in by_joint:
         raise ValueError(f"coupling {coupling.name!r}: there is no joint {key!r}{nearest(str(key), by_joint)}")
     joint = by_joint[name]
+    if any(MOVEMENTS[name].repeats for name in joint.movements):
+        raise ValueError(
+            f"coupling {coupling.name!r}: joint {name!r} ({joint.kind}) bends without an axis of its own; couple a "
+            f"joint that turns about one axis, such as a bearing of its shafts"
+        )
     alone = [c for c, group in zip(joint.coordinates, _groups(joint), strict=True) if len(group) == 1]
     if wanted and wanted in joint.coordinates and wanted not in alone:
         raise ValueError(

@@ -1,4 +1,4 @@
-"""The kinds of joints: lower pairs, the universal joint and the contact states of the paper."""
+"""The kinds of joints: lower pairs, other joints by hand and the contact states of the paper."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ class JointKind(StrEnum):
     SCREW = "screw"
     FIXED = "fixed"
     FREE = "free"
+    CONSTANT_VELOCITY = "constant velocity"
+    PIN_IN_SLOT = "pin in slot"
     CONTACT_A = "contact a"
     CONTACT_B = "contact b"
     CONTACT_C = "contact c"

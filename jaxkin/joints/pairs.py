@@ -102,6 +102,30 @@ def universal(
     return with_limits(joint(name, (part1, part2), JointKind.UNIVERSAL, ("T_theta_phi",), [pose]), limits)
 
 
+def constant_velocity(
+    name: str, part1: str, part2: str, *, point: Triple, axis: Triple, axis2: Triple | None = None
+) -> Joint:
+    """Make a homokinetic joint (Rzeppa, tripod on a shaft with a fixed centre) between two shafts that meet at a point.
+
+    `axis` is the direction of the shaft of part 1 and `axis2` that of part 2, both from part 1 to part 2; without
+    `axis2` the shafts are in line. The joint bends about any axis in the plane that bisects the shafts, and does not
+    twist: both shafts turn alike at any angle between them. Only the direction that bisects them matters, and `axis`
+    may be that. Coordinates: theta, phi, of the movement Rx(theta) Ry(phi) Rx(theta) with z along that direction; a
+    bend about x alone is 2 theta, one about y alone is phi. Raises ValueError for shafts in opposite directions.
+    """
+    along = _frame(name, point, axis)[:3, 2]
+    if axis2 is not None:
+        xp = jnp if traced(axis, axis2) else np
+        along = xp.asarray(along) + xp.asarray(_frame(name, point, axis2, "axis2")[:3, 2])
+        if not traced(along) and np.linalg.norm(along) < 1e-6:
+            raise ValueError(
+                f"joint {name!r}: axis and axis2 of a constant velocity joint must both point from {part1!r} to "
+                f"{part2!r}, but they are opposite; turn one of them round"
+            )
+    pose = _frame(name, point, along)
+    return joint(name, (part1, part2), JointKind.CONSTANT_VELOCITY, ("T_theta_phi_theta",), [pose])
+
+
 def screw(
     name: str,
     part1: str,
@@ -134,6 +158,53 @@ def free(name: str, part1: str, part2: str, *, point: Triple, limits: GivenLimit
     frames = [_frame(name, point, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     movements = ("T_z", "T_z", "T_z", "T_theta_phi_psi")
     return with_limits(joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]]), limits)
+
+
+def pin_in_slot(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    point: Triple,
+    axis: Triple,
+    direction: Triple | None = None,
+    centre: Triple | None = None,
+    limits: GivenLimits | None = None,
+) -> Joint:
+    """Make a pin of part 2, through the point along the axis, in a slot of part 1: a straight or a circular one.
+
+    A straight slot runs along `direction`, perpendicular to the axis. Coordinates: z, how far the pin is along it, and
+    phi, the turn of part 2. A circular slot runs about the line along the axis through `centre`. Coordinates: phi1, how
+    far the pin is around it, and phi2, the turn of part 2 against the slot there: part 2 has turned by phi1 + phi2.
+    Raises ValueError for both or neither of them, a direction that is not perpendicular within 1e-6, and a centre on
+    the axis of the pin.
+    """
+    if (direction is None) == (centre is None):
+        raise ValueError(
+            f"joint {name!r}: a slot is straight, direction=(x, y, z), or circular, centre=(x, y, z): "
+            f"give one of them, got {'neither' if centre is None else 'both'}"
+        )
+    pin = _frame(name, point, axis)
+    known = not traced(point, axis, direction, centre)
+    if direction is not None:
+        along, z = _frame(name, point, direction, "direction")[:3, 2], pin[:3, 2]
+        if known and abs(float(along @ z)) > 1e-6:
+            raise ValueError(
+                f"joint {name!r}: the direction of a slot must be perpendicular to the axis of its pin, the cosine "
+                f"between them is {float(along @ z):.3g}; use a prismatic and a revolute joint and a part between them "
+                f"for a skew slot"
+            )
+        slot, slides = _frame(name, point, along - (along @ z) * z), "T_z"
+    else:
+        slot, slides = _frame(name, centre, axis, point_label="centre"), "T_phi"
+        arm = pin[:3, 3] - slot[:3, 3]
+        if known and np.linalg.norm(np.cross(pin[:3, 2], arm)) <= 1e-9 * np.linalg.norm([pin[:3, 3], slot[:3, 3]]):
+            raise ValueError(
+                f"joint {name!r}: the centre of a circular slot must lie beside the axis of its pin, got "
+                f"centre={np.asarray(centre).tolist()} on the axis through point={np.asarray(point).tolist()}; use a "
+                f"revolute joint for a pin at the centre"
+            )
+    return with_limits(joint(name, (part1, part2), JointKind.PIN_IN_SLOT, (slides, "T_phi"), [slot, pin]), limits)
 
 
 def contact_joint(
@@ -178,23 +249,27 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.PLANAR: planar,
     JointKind.SPHERICAL: spherical,
     JointKind.UNIVERSAL: universal,
+    JointKind.CONSTANT_VELOCITY: constant_velocity,
     JointKind.SCREW: screw,
     JointKind.FIXED: fixed,
     JointKind.FREE: free,
+    JointKind.PIN_IN_SLOT: pin_in_slot,
 }
 """Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
 keyword arguments of the function are keys of the joint in the file."""
 
 
-def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.ndarray | jax.Array:
+def _frame(
+    name: str, point: Triple | None, axis: Triple, what: str = "axis", point_label: str = "point"
+) -> np.ndarray | jax.Array:
     """Make the frame at the point with z along the axis; numbers are checked (ValueError), traced ones are not.
 
-    `what` is the name of the axis in messages.
+    `what` and `point_label` are the names of the axis and of the point in messages.
     """
     if traced(point, axis):
         return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
     checked = {}
-    for label, value in (("point", point), (what, axis)):
+    for label, value in ((point_label, point), (what, axis)):
         try:
             array = np.asarray(value, float)
         except (TypeError, ValueError):
@@ -204,7 +279,7 @@ def _frame(name: str, point: Triple, axis: Triple, what: str = "axis") -> np.nda
         checked[label] = array
     if not np.any(checked[what]):
         raise ValueError(f"joint {name!r}: {what} must be a direction, got the zero vector")
-    return frame(checked["point"], checked[what])
+    return frame(checked[point_label], checked[what])
 
 
 def _traced_frame(point: jax.Array, axis: jax.Array) -> jax.Array:

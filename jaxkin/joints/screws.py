@@ -46,7 +46,8 @@ def chain(
             k = first + element.coordinate
             axis, step = pose[:3, element.axis], np.eye(4)
             if element.kind != "translate":
-                screws[:3, k], screws[3:, k] = axis, np.cross(pose[:3, 3], axis)
+                screws[:3, k] += axis
+                screws[3:, k] += np.cross(pose[:3, 3], axis)
                 step[:3, :3] = rotation(np.eye(3)[element.axis], q[k])
             if element.kind != "rotate":
                 advance = 1.0 if element.kind == "translate" else pitch / (2 * np.pi)

@@ -1,7 +1,7 @@
 """Name single loops by the letters of their joints: planar dyad RRP, spherical dyad RRR, spatial loop RSSR.
 
-R is a revolute, P a prismatic, H a helical, C a cylindrical, E a planar, U a universal and S a spherical pair; other
-joints are the pairs that they are made of, in brackets.
+R is a revolute, P a prismatic, H a helical, C a cylindrical, E a planar, U a universal and S a spherical pair, V a
+constant velocity joint; other joints are the pairs that they are made of, in brackets.
 """
 
 from __future__ import annotations

@@ -94,7 +94,8 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
     """Move a joint to its new place, where the frames on its two parts are the same.
 
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
-    what it was, whatever the last one has turned or shifted.
+    what it was, whatever the last one has turned or shifted. Where a coordinate drives several motions, as in a
+    constant velocity joint, the frame goes along with half of the rotation: its z axis bisects the shafts again.
     """
     frames, start = [], 0
     for number, name in enumerate(joint.movements):
@@ -102,9 +103,19 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
         own = q[start : start + freedoms([name])]
         start += len(own)
         most = own.copy()
-        if MOVEMENTS[name].elements:
+        if MOVEMENTS[name].elements and not MOVEMENTS[name].repeats:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
-        frames.append(place @ chain([name], before, most, float(joint.pitch))[0] @ before[0])
+        new = place @ chain([name], before, most, float(joint.pitch))[0] @ before[0]
+        if MOVEMENTS[name].repeats:
+            start_of = place @ before[0]
+            new[:3, :3] = start_of[:3, :3] @ _half(start_of[:3, :3].T @ new[:3, :3])
+        frames.append(new)
         place = place @ chain([name], before, own, float(joint.pitch), after)[0]
     stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
     return replace(joint, frames_1=stacked, frames_2=stacked)
+
+
+def _half(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:
+    """The rotation about the same axis by half the angle, which is below half a turn: the rotation nearest to 1 + R."""
+    left, _, right = np.linalg.svd(np.eye(3) + rotation)
+    return left @ right

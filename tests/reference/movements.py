@@ -24,6 +24,13 @@ def matrix(movement, q, pitch=0.0):
         case "T_theta_phi":
             (ct, cf), (st, sf) = c, s
             rows = [[cf, sf * st, sf * ct, zero], [zero, ct, -st, zero], [-sf, cf * st, cf * ct, zero]]
+        case "T_theta_phi_theta":  # Rx Ry Rx, multiplied out; its skew part has no z component
+            (ct, cf), (st, sf) = c, s
+            rows = [
+                [cf, sf * st, sf * ct, zero],
+                [sf * st, ct * ct - st * st * cf, -st * ct - st * ct * cf, zero],
+                [-sf * ct, st * ct + st * ct * cf, ct * ct * cf - st * st, zero],
+            ]
         case "T_theta_phi_psi":
             (ct, cf, cp), (st, sf, sp) = c, s
             rows = [

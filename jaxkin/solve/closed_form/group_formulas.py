@@ -77,6 +77,8 @@ def _of_chain(
         return f"{len(block.columns)} unknowns, where the formula of the {name} is for {unknowns}"
     table = chain_tables(system)
     rows = [row for row in range(len(table.column)) if table.column[row, chain] in block.columns]
+    if len(rows) > unknowns:
+        return "a coordinate drives several turns"
     if len(rows) != unknowns or np.any(table.screw[rows, chain]):
         return f"the formula of the {name} is for turns and slides"
     letters = "".join("R" if table.turn[row, chain] else "P" for row in rows)

@@ -165,7 +165,8 @@ def _travel(
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
     """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
 
-    Twists are numbered as in `ChainTables.source`, with a zero twist behind the last one.
+    Twists are numbered as in `ChainTables.source`, with a zero twist behind the last one. The first twist of a
+    coordinate that drives several steps is the sum of theirs.
     """
     table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
     chains = len(table.begin)
@@ -201,6 +202,9 @@ def _travel(
         spins = sign[:, None, None] * axes
         spins = jnp.concatenate([spins, jnp.cross(spins, lever[:, None], axis=2)], axis=2)
         twists = jnp.concatenate([twists[:, None], spins], axis=1).reshape(-1, *twists.shape[1:])
+    if table.repeats.size:
+        first, again, chain = table.repeats
+        twists = twists.at[first, :, chain].add(twists[again, :, chain])
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 

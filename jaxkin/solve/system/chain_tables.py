@@ -101,6 +101,9 @@ class ChainTables(NamedTuple):
     """(columns, chains): number of the twist that is the column of the Jacobian. Twists are numbered four a row (about
     or along z, then the three of a ball), or one a row if the system has no balls. If the chain does not hold the
     coordinate, it is the number of twists, where a zero twist is appended."""
+    repeats: np.ndarray
+    """(3, repeats): number of the twist that `source` names for a coordinate, number of the twist of another row with
+    the same coordinate, which is to be added to it, and their chain."""
     rods: np.ndarray
     """(2, rods): numbers of both chains of each loop that is cut at a rod."""
 
@@ -118,27 +121,32 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     rows = dict(zip(ChainRow._fields, np.moveaxis(filled, -1, 0).swapaxes(1, 2), strict=True))
     ended = np.array([chain.ends for chain in chains], np.int32).reshape(-1, len(ChainEnds._fields))
     ends = dict(zip(ChainEnds._fields, ended.T, strict=True))
-    source = _sources(system, rows["column"], rows["ball"])
+    source, repeats = _sources(system, rows["column"], rows["ball"])
     quaternion = np.full(len(system.balls) + 1, len(system.turned_balls), np.int32)
     quaternion[list(system.turned_balls)] = np.arange(len(system.turned_balls))
     rows["ball"] = quaternion[rows["ball"]]
     rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
-    return ChainTables(**rows, **ends, source=source, rods=rods)
+    return ChainTables(**rows, **ends, source=source, repeats=repeats, rods=rods)
 
 
-def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> np.ndarray:
-    """Compute `ChainTables.source` from the columns and the numbers of balls of all rows, both (rows, chains)."""
+def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Compute `ChainTables.source` and `repeats` from the columns and the balls of all rows, both (rows, chains)."""
     length, chains = column.shape
     twists_a_row = 4 if system.turned_balls else 1
     source = np.full((system.columns, chains), twists_a_row * length, np.int32)
+    repeats = []
     for (row, chain), coordinate in np.ndenumerate(column):
-        if coordinate < system.columns:
+        if coordinate == system.columns:
+            continue
+        if source[coordinate, chain] < twists_a_row * length:
+            repeats.append((source[coordinate, chain], twists_a_row * row, chain))
+        else:
             source[coordinate, chain] = twists_a_row * row
     for (row, chain), number in np.ndenumerate(ball):
         if number < len(system.balls):
             columns = system.balls[number]
             source[list(columns), chain] = 4 * row + 1 + np.arange(len(columns))
-    return source
+    return source, np.array(repeats, np.int32).reshape(-1, 3).T
 
 
 def _frames(system: LoopSystem) -> int:
