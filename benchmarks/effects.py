@@ -1,0 +1,50 @@
+"""What each effect costs beside the sweep of 10,000 poses of the four-bar, and of the paper's Fig. 7.
+
+    python benchmarks/effects.py [poses]
+
+Whole calls of Python functions, compiled before, as users make them: medians, in sweeps of the same poses. A sweep that
+is differentiated is found anew, so rates hold one sweep, and static torque half a sweep at least.
+"""
+
+from __future__ import annotations
+
+import sys
+
+import jax
+from cases import CASES
+from timing import median_time
+
+import jaxkin as jk
+
+jax.config.update("jax_enable_x64", True)
+POSES = 10_000
+
+
+def main(poses: int = POSES) -> None:
+    print(f"{jax.default_backend()}, {poses} poses; times in sweeps\n")
+    print(
+        f"{'':<14}{'sweep [ms]':>11}{'rates':>8}{'accel.':>8}{'jerk':>8}{'static':>8}{'inverse dyn.':>14}{'reactions':>11}"
+    )
+    for name in ("four-bar", "paper, Fig. 7"):
+        make, drive = CASES[name]
+        mechanism, inputs = make(), drive(poses)
+        moving = [part for part in mechanism.parts if part not in mechanism.fixed]
+        masses = jk.masses(mechanism, given={part: jk.Mass(1.0, centre=(0, 0, 0), inertia=1e-3) for part in moving})
+        motion = mechanism.sweep(inputs)
+        speeds = dict.fromkeys(motion.inputs, 1.0)
+        calls = {
+            "rates": lambda m=motion, s=speeds: jk.velocities(m, s),
+            "accelerations": lambda m=motion, s=speeds: jk.accelerations(m, s),
+            "jerks": lambda m=motion, s=speeds: jk.jerks(m, s),
+            "static": lambda m=motion, w=masses: jk.drive_forces(m, w),
+            "inverse dynamics": lambda m=motion, w=masses, s=speeds: jk.drive_forces(m, w, rates=s),
+            "reactions": lambda m=motion, w=masses, s=speeds: jk.reactions(m, w, rates=s),
+        }
+        sweep = median_time(lambda m=mechanism, u=inputs: m.sweep(u).displacements)
+        found = [median_time(call) / sweep for call in calls.values()]
+        cells = "".join(f"{value:>{len(each) + 3}.2f}" for value, each in zip(found, headings, strict=True))
+        print(f"{name:<14}{1e3 * sweep:>11.2f}{cells}")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))
