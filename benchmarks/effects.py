@@ -22,9 +22,8 @@ POSES = 10_000
 
 def main(poses: int = POSES) -> None:
     print(f"{jax.default_backend()}, {poses} poses; times in sweeps\n")
-    print(
-        f"{'':<14}{'sweep [ms]':>11}{'rates':>8}{'accel.':>8}{'jerk':>8}{'static':>8}{'inverse dyn.':>14}{'reactions':>11}"
-    )
+    headings = ("rates", "accel.", "jerk", "static", "inverse dyn.", "reactions")
+    print(f"{'':<14}{'sweep [ms]':>11}" + "".join(f"{each:>{len(each) + 3}}" for each in headings))
     for name in ("four-bar", "paper, Fig. 7"):
         make, drive = CASES[name]
         mechanism, inputs = make(), drive(poses)
