@@ -126,6 +126,18 @@ def test_derivative_with_respect_to_the_angle_of_the_shafts():
     assert abs(float(found[0])) < 1e-12  # whatever the angle, it turns alike
 
 
+@pytest.mark.long
+def test_shafts_turn_alike_at_an_angle_that_was_changed():
+    mechanism = shafts(0.5)
+    assert not any("cv" in key and key[-1] == "angle" for key in mechanism.lengths)
+    key = ("ground", "in", "out", "angle")
+    assert mechanism.lengths[key] == pytest.approx(0.5, abs=1e-14)
+    longer = mechanism.with_lengths({key: 0.9})
+    motion = longer.sweep({"in": TURN}, throw=True)
+    out = np.asarray(motion.coordinates["out"])[:, 0]
+    np.testing.assert_allclose(out - out[0], TURN, atol=1e-12)
+
+
 def test_a_driveshaft_between_skew_shafts():
     mechanism = half_shaft()
     motion = mechanism.sweep({"in": TURN}, throw=True)
