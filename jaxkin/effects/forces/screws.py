@@ -32,7 +32,7 @@ def joint_screws(
         if number:
             found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
         found = product(found, as_rigid(jnp.asarray(frame, float)))
-        own: dict[int, Any] = {}
+        own: dict[int, list[Any]] = {}
         for element in MOVEMENTS[movement].elements:
             axis, at = found[:, element.axis], found[:, 3]
             turning = jnp.zeros_like(axis) if element.kind == "translate" else axis
@@ -40,7 +40,7 @@ def joint_screws(
                 turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
             pitch = 0.0 if element.kind == "rotate" else jnp.asarray(joint.pitch, float) / (2 * jnp.pi) / size
             along = axis if element.kind == "translate" else pitch * axis
-            own[element.coordinate] = turning, along, at
+            own.setdefault(element.coordinate, []).append((turning, along, at))
             value = q[:, first + element.coordinate]
             advance = None
             if element.kind != "rotate":
@@ -52,8 +52,12 @@ def joint_screws(
         first += len(own)
     place = found[:, 3]
     rows = [
-        jnp.concatenate([turning, along + jnp.cross(turning, (place - at) / size, axis=0)])
-        for turning, along, at in twists
+        # a coordinate may drive several motions: their twists add up
+        sum(
+            jnp.concatenate([turning, along + jnp.cross(turning, (place - at) / size, axis=0)])
+            for turning, along, at in each
+        )
+        for each in twists
     ]
     screws = jnp.stack(rows, axis=-1) if rows else jnp.zeros((6, q.shape[0], 0))
     return place.T, jnp.moveaxis(screws, 1, 0)
