@@ -187,6 +187,7 @@ def assembly_modes(
     complete. Elsewhere the loops are closed from `tries` random starts, the same ones for the same `seed`, and the
     result tells how many led to each mode: one that was found once suggests that there are more. Poses that differ by
     idle freedoms, such as the spin of a rod between two balls, are one mode. Loops that the drive does not move stay.
+    A mode whose `motion.sigma_min` is zero is singular: it may stand for a continuum of poses.
 
     Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot
     follow, for loops that are open in the assembled pose or agree only nearly, and inside `jit`, `vmap` and `grad`.

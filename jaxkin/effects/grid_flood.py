@@ -84,12 +84,14 @@ def flood(
     front.known[start] = True
     if front.begin(start):
         front.spread(_Wanted.FOLLOWED)
-        front.status[front.known] = Status.CLOSED.value
+        front.followed = front.known.copy()
     front.spread(_Wanted.LEAST)
     # what is open may close from neighbours that were found later
     front.known = front.residual <= max_residual
     front.spread(_Wanted.CLOSED)
-    return Flooded(tuple(State(*map(jnp.asarray, state)) for state in front.states), front.status, front.residual)
+    stationary, followed = jnp.asarray(front.stationary), jnp.asarray(front.followed)
+    status = np.asarray(classify(jnp.asarray(front.residual), stationary, followed, max_residual))
+    return Flooded(tuple(State(*map(jnp.asarray, state)) for state in front.states), status, front.residual)
 
 
 class _Wanted(Enum):
@@ -112,8 +114,10 @@ class _Front:
         rest = [assembled(system, count, inputs.dtype) for system in self.systems]
         self.states = [[np.array(part) for part in state] for state in rest]
         self.known = np.zeros(count, bool)
-        self.status = np.full(count, Status.STALLED.value, np.int32)
         self.residual = np.full(count, np.inf)
+        self.stationary = np.zeros(count, bool)
+        self.followed = np.zeros(count, bool)
+        """To which nodes the branch of the assembled pose leads."""
 
     def begin(self, start: int) -> bool:
         """Go from the assembled pose to the first node, in steps as long as those of the grid."""
@@ -201,9 +205,7 @@ class _Front:
                 part[..., nodes] = np.asarray(new)[..., chosen]
         self.known[nodes] = True
         self.residual[nodes] = np.asarray(found.residual)[chosen]
-        no = jnp.zeros(len(nodes), bool)
-        stationary = jnp.asarray(np.asarray(found.stationary)[chosen])
-        self.status[nodes] = classify(jnp.asarray(self.residual[nodes]), stationary, no, self.max_residual)
+        self.stationary[nodes] = np.asarray(found.stationary)[chosen]
 
 
 def _merged(found: _Steps, again: _Steps, failed: np.ndarray) -> _Steps:

@@ -69,12 +69,13 @@ class Curve:
         found[:, self.free] = basis
         return found, float(values[rank - 1]) if rank else np.inf
 
-    def begin(self, direction: float) -> Here | None:
-        """The assembled pose, with the tangent along which the drive moves in a direction, 1 or -1.
+    def begin(self, direction: float, start: Row | None = None) -> Here | None:
+        """A closed pose, by default the assembled one, with the tangent along which the drive moves in a direction.
 
-        None where the pose is singular: where the drive does not move to first order, or branches cross.
+        The direction is 1 or -1. None where the pose is singular: where the drive does not move to first order, or
+        branches cross.
         """
-        home = np.zeros(len(self.loops.columns))
+        home = np.zeros(len(self.loops.columns)) if start is None else start
         basis, sigma = self._freedoms(home)
         if len(basis) != 1 + self.idle:
             return None

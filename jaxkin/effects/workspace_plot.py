@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin._files import whole
 from jaxkin.solve.status import Status
@@ -18,9 +19,20 @@ FLAT = 1e-9
 GREYS = {Status.JUMPED: "0.8", Status.UNREACHABLE: "0.95", Status.STALLED: "0.6"}
 """Colours of nodes that are not reached."""
 
+MARK = "crimson"
+"""Colour of singular poses."""
 
-def draw_workspace(found: Workspace, path: Path) -> Path:
-    """Draw `sigma_min` over the inputs and `condition` over the places of the point; returns the path."""
+
+def draw_workspace(
+    found: Workspace,
+    path: Path,
+    singular: Float[np.ndarray, "singular 2"] | None = None,
+    places: Float[np.ndarray, "singular 3"] | None = None,
+) -> Path:
+    """Draw `sigma_min` over the inputs and `condition` over the places of the point; returns the path.
+
+    The inputs `singular`, at which the point is at `places`, are marked.
+    """
     from matplotlib.colors import ListedColormap
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
@@ -42,6 +54,8 @@ def draw_workspace(found: Workspace, path: Path) -> Path:
         figure.colorbar(drawn, ax=axes, label="sigma_min")
     axes.set(xlabel=one, ylabel=other)
     axes.set_title("inputs: how near the loops are to singular", fontsize="medium")
+    if singular is not None:
+        handles += axes.plot(*singular.T, ".", color=MARK, markersize=4, label="singular")
     if handles:
         axes.legend(handles=handles, fontsize="small", loc="upper right")
 
@@ -53,12 +67,16 @@ def draw_workspace(found: Workspace, path: Path) -> Path:
         a, b = [k for k in range(3) if k != across[-1]]
         plane = figure.add_subplot(1, 2, 2)
         drawn = plane.scatter(points[:, a], points[:, b], c=found.condition[found.reached], s=6, vmin=0.0)
+        if places is not None:
+            plane.plot(places[:, a], places[:, b], ".", color=MARK, markersize=4)
         plane.set(xlabel="xyz"[a], ylabel="xyz"[b], title=title)
         plane.set_aspect("equal")
         figure.colorbar(drawn, ax=plane, label="condition")
     else:
         space = figure.add_subplot(1, 2, 2, projection="3d")
         drawn = space.scatter(*points.T, c=found.condition[found.reached], s=6, vmin=0.0)
+        if places is not None:
+            space.plot(*places.T, ".", color=MARK, markersize=4)
         space.set(xlabel="x", ylabel="y", title=title)
         figure.colorbar(drawn, ax=space, label="condition")
     with whole(path) as draft:

@@ -60,7 +60,7 @@ def placed_at(
     Also returns the displacement of each part, in world coordinates.
     """
     given = mechanism.linkage
-    places = _places(given, [coordinates[joint.name] for joint in given.joints])
+    places = part_places(given, [coordinates[joint.name] for joint in given.joints])
     joints = [
         shifted(_placed(joint, places[joint.parts[0]], coordinates[joint.name]), coordinates[joint.name])
         for joint in given.joints
@@ -76,8 +76,8 @@ def placed_at(
     return found, places
 
 
-def _places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Place]:
-    """Compute the displacements of all parts, in world coordinates, from the fixed ones along the tree."""
+def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]) -> dict[str, Place]:
+    """Displacements of all parts, in world coordinates, from those of all joints along the tree of the structure."""
     places = {part: np.eye(4) for part in linkage.fixed}
     for part, parent, index, sign in linkage.structure.tree:
         step = _displacement(linkage.joints[index], coordinates[index])
