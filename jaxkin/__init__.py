@@ -31,6 +31,10 @@ from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
 from jaxkin.effects.forces.equilibrium import equilibrium as equilibrium
+from jaxkin.effects.forces.given import Force as Force
+from jaxkin.effects.forces.given import JointLoad as JointLoad
+from jaxkin.effects.forces.given import Spring as Spring
+from jaxkin.effects.forces.given import Torque as Torque
 from jaxkin.effects.forces.given import force as force
 from jaxkin.effects.forces.given import joint_load as joint_load
 from jaxkin.effects.forces.given import joint_spring as joint_spring
@@ -43,6 +47,7 @@ from jaxkin.effects.forces.reactions import Reactions as Reactions
 from jaxkin.effects.forces.reactions import reactions as reactions
 from jaxkin.effects.forces.transmission import Transmission as Transmission
 from jaxkin.effects.forces.transmission import transmission as transmission
+from jaxkin.effects.forces.undetermined import Undetermined as Undetermined
 from jaxkin.effects.limit_search import LimitKind as LimitKind
 from jaxkin.effects.limits import Limit as Limit
 from jaxkin.effects.limits import Limits as Limits
