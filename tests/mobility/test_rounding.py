@@ -286,12 +286,11 @@ def test_a_wrong_option_is_refused(align):
 
 def test_a_structure_stays_one():
     """A braced frame has no freedom within any noise: nothing is moved, and no pose is promised."""
-    corners = {"A": (0, 0), "B": (0, 3), "C": (4, 3), "D": (4, 0)}
+    corners = [(0, 0), (0, 3), (4, 3), (4, 0)]
+    bars = [("ground", "left"), ("left", "top"), ("top", "right"), ("ground", "right")]
     joints = [
-        revolute(name, one, other, point=(*corners[name], 1e-7 * number), axis=(1e-7 * number, 0, 1))
-        for number, (name, one, other) in enumerate(
-            (("A", "ground", "left"), ("B", "left", "top"), ("C", "top", "right"), ("D", "ground", "right"))
-        )
+        revolute("ABCD"[k], *bars[k], point=(*corner, 1e-7 * k), axis=(1e-7 * k, 0, 1))
+        for k, corner in enumerate(corners)
     ]
     brace = [
         revolute("E", "ground", "brace", point=(1, 0, 0), axis=(0, 0, 1)),
