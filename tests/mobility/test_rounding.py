@@ -288,10 +288,7 @@ def test_a_structure_stays_one():
     """A braced frame has no freedom within any noise: nothing is moved, and no pose is promised."""
     corners = [(0, 0), (0, 3), (4, 3), (4, 0)]
     bars = [("ground", "left"), ("left", "top"), ("top", "right"), ("ground", "right")]
-    joints = [
-        revolute("ABCD"[k], *bars[k], point=(*corner, 1e-7 * k), axis=(1e-7 * k, 0, 1))
-        for k, corner in enumerate(corners)
-    ]
+    joints = [revolute("ABCD"[k], *bars[k], point=(*corners[k], 1e-7 * k), axis=(1e-7 * k, 0, 1)) for k in range(4)]
     brace = [
         revolute("E", "ground", "brace", point=(1, 0, 0), axis=(0, 0, 1)),
         revolute("F", "brace", "top", point=(2, 3, 0), axis=(0, 0, 1)),
