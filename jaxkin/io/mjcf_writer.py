@@ -18,11 +18,11 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin._names import listed
-from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import WORLD
+from jaxkin.io.writable import check_writable
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -64,8 +64,7 @@ class _Writer:
     """The elements of one model."""
 
     def __init__(self, mechanism: Mechanism, model: str) -> None:
-        for joint in mechanism.all_joints:
-            _check(joint)
+        check_writable(mechanism.all_joints, "model")
         self.mechanism = mechanism
         self.metres = METRES[mechanism.unit]
         self.root = Element("mujoco", model=model)
@@ -242,16 +241,6 @@ def _joint_names(joints: Sequence[Joint]) -> list[list[str]]:
             own += [taken[-1]] * len(columns)
         result.append(own)
     return result
-
-
-def _check(joint: Joint) -> None:
-    if traced(joint):
-        raise ValueError(f"joint {joint.name!r} has traced numbers: write the model outside of jit, vmap and grad")
-    if not np.array_equal(joint.frames_1, joint.frames_2):
-        raise ValueError(
-            f"joint {joint.name!r} stands elsewhere on its second part than on its first, as after with_lengths: write "
-            "mechanism.close().mechanism, whose given pose is closed"
-        )
 
 
 def _text(*numbers: float) -> str:

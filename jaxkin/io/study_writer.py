@@ -11,7 +11,6 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
-from jaxkin._traced import traced
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
 from jaxkin.geometry.movements import MOVEMENTS, is_length
@@ -20,6 +19,7 @@ from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
 from jaxkin.io.study_couplings import coupling_keys
 from jaxkin.io.toml_text import comment, toml, toml_key
+from jaxkin.io.writable import check_writable
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -65,8 +65,7 @@ def write_study(
     """
     if mechanism.solids and geometry is None:
         raise ValueError('the mechanism has solids: say where they are from, as in geometry="arm.step"')
-    for joint in mechanism.all_joints:
-        _check(joint)
+    check_writable(mechanism.all_joints, "study")
     bodies = Bodies.of(mechanism)
     choices = NONE if proposals is None or not mechanism.solids else find_choices(mechanism, bodies, drive, proposals)
     lines = [
@@ -78,16 +77,6 @@ def write_study(
     ]
     with whole(Path(path)) as draft:
         draft.write_text("\n".join([*lines, ""]), "utf-8")
-
-
-def _check(joint: Joint) -> None:
-    if traced(joint):
-        raise ValueError(f"joint {joint.name!r} has traced numbers: write the study outside of jit, vmap and grad")
-    if not np.array_equal(joint.frames_1, joint.frames_2):
-        raise ValueError(
-            f"joint {joint.name!r} stands elsewhere on its second part than on its first, as after with_lengths: "
-            "write mechanism.close().mechanism, whose given pose is closed"
-        )
 
 
 def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assumptions: Sequence[str]) -> list[str]:

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import least_squares
 
 import jaxkin as jk
-from reference.catalogue import delta
+from reference.catalogue import delta, fivebar
 
 Z = (0.0, 0.0, 1.0)
 TIP = (3.0, 0.0, 0.0)
@@ -103,19 +103,6 @@ def test_limits_stop_joints_and_are_told():
     for goal, error in zip(goals, found.errors, strict=True):
         best = least_squares(lambda q, goal=goal: (goal - tips(q[None])[0][0]) / 2, [0.1, 0.1, 0.1], bounds=(low, high))
         assert error <= np.linalg.norm(best.fun) + 1e-7  # scipy stops a little short of limits
-
-
-def fivebar():
-    return jk.Mechanism.build(
-        fixed=["ground"],
-        joints=[
-            jk.revolute("A", "ground", "a", point=(0, 0, 0), axis=Z),
-            jk.revolute("B", "a", "b", point=(-0.5, 1.5, 0), axis=Z),
-            jk.revolute("C", "b", "c", point=(1.5, 2, 0), axis=Z),
-            jk.revolute("D", "c", "d", point=(4.2, 1.5, 0), axis=Z),
-            jk.revolute("E", "ground", "d", point=(4, 0, 0), axis=Z),
-        ],
-    )
 
 
 def test_where_targets_can_be_met_it_is_the_sweep():

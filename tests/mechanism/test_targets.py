@@ -7,24 +7,10 @@ import pytest
 
 import jaxkin as jk
 from reference import parallel
-from reference.catalogue import delta, hexapod
+from reference.catalogue import delta, fivebar, hexapod
 
 Z = (0.0, 0.0, 1.0)
 ANGLES = np.linspace(0.0, 2 * np.pi, 41)
-
-
-def legs():
-    """A five-bar: two arms of two links, from (0, 0) and from (4, 0), that meet at (1.5, 2)."""
-    return jk.Mechanism.build(
-        fixed=["ground"],
-        joints=[
-            jk.revolute("A", "ground", "a", point=(0, 0, 0), axis=Z),
-            jk.revolute("B", "a", "b", point=(-0.5, 1.5, 0), axis=Z),
-            jk.revolute("C", "b", "c", point=(1.5, 2, 0), axis=Z),
-            jk.revolute("D", "c", "d", point=(4.2, 1.5, 0), axis=Z),
-            jk.revolute("E", "ground", "d", point=(4, 0, 0), axis=Z),
-        ],
-    )
 
 
 def arm_angle(base, elbow, tip, path, side):
@@ -38,7 +24,7 @@ def arm_angle(base, elbow, tip, path, side):
 
 
 def test_a_five_bar_draws_a_path_and_its_motors_draw_it_again():
-    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+    mechanism, tip = fivebar(), (1.5, 2.0, 0.0)
     path = np.stack([1.5 + 0.4 * np.sin(ANGLES), 2.3 - 0.3 * np.cos(ANGLES), 0 * ANGLES], axis=1)
     motion = mechanism.sweep({jk.point("b", tip): path}, throw=True)
     np.testing.assert_allclose(motion.points("b", tip), path, atol=1e-13)
@@ -52,7 +38,7 @@ def test_a_five_bar_draws_a_path_and_its_motors_draw_it_again():
 
 def test_each_leg_is_solved_by_itself_once_the_platform_is_given():
     """Contracted, ground and platform are one body: two dyads, as a designer would solve them."""
-    steps = legs().plan([jk.point("b", (1.5, 2, 0))]).steps
+    steps = fivebar().plan([jk.point("b", (1.5, 2, 0))]).steps
     assert [step.loop_class for step in steps] == ["planar dyad RRR", "planar dyad RRR"]
     assert len(hexapod().plan([jk.pose("platform")]).steps) == 6
 
@@ -80,7 +66,7 @@ def test_the_arms_of_a_delta_for_places_of_its_platform():
 
 
 def test_targets_and_joints_are_driven_together():
-    mechanism = legs()
+    mechanism = fivebar()
     turned = np.linspace(0.0, 0.3, 7)
     spun = np.stack([[[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]] for a in turned])
     motion = mechanism.sweep({jk.orientation("b"): spun, "A": -turned}, throw=True)
@@ -105,7 +91,7 @@ def test_an_arm_in_space_reaches_a_point_with_the_least_movement():
 
 def test_derivatives_of_inverse_kinematics():
     """d(motor)/d(path) is the inverse of d(path)/d(motor)."""
-    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+    mechanism, tip = fivebar(), (1.5, 2.0, 0.0)
 
     def motors(place):
         motion = mechanism.sweep({jk.point("b", tip): jnp.append(place, 0.0)[None]})
@@ -120,7 +106,7 @@ def test_derivatives_of_inverse_kinematics():
 
 
 def test_one_pose_and_the_velocities_of_a_path():
-    mechanism, tip = legs(), (1.5, 2.0, 0.0)
+    mechanism, tip = fivebar(), (1.5, 2.0, 0.0)
     target = jk.point("b", tip)
     pose = mechanism.solve({target: np.array([1.4, 2.1, 0.0])})
     np.testing.assert_allclose(pose.point("b", tip), [1.4, 2.1, 0.0], atol=1e-13)
@@ -149,4 +135,4 @@ def test_one_pose_and_the_velocities_of_a_path():
 )
 def test_targets_that_make_no_sense(drive, said):
     with pytest.raises(ValueError, match=said):
-        legs().sweep(drive())
+        fivebar().sweep(drive())

@@ -162,6 +162,20 @@ def sarrus(theta=0.6, link=50.0) -> Mechanism:
     return Mechanism.build(fixed=[GROUND], joints=joints)
 
 
+def fivebar() -> Mechanism:
+    """Two arms of two links, from (0, 0) and from (4, 0), that meet at (1.5, 2) in C."""
+    return Mechanism.build(
+        fixed=[GROUND],
+        joints=[
+            revolute("A", GROUND, "a", point=(0, 0, 0), axis=Z),
+            revolute("B", "a", "b", point=(-0.5, 1.5, 0), axis=Z),
+            revolute("C", "b", "c", point=(1.5, 2, 0), axis=Z),
+            revolute("D", "c", "d", point=(4.2, 1.5, 0), axis=Z),
+            revolute("E", GROUND, "d", point=(4, 0, 0), axis=Z),
+        ],
+    )
+
+
 def hexapod() -> Mechanism:
     """Six legs between balls, each a slide: six freedoms, and the spin of each half of a leg."""
     at = parallel.hexapod()
