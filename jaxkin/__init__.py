@@ -86,6 +86,7 @@ from jaxkin.joints.evidence import Bond as Bond
 from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
+from jaxkin.joints.on_frames import joint_on_frames as joint_on_frames
 from jaxkin.joints.pairs import constant_velocity as constant_velocity
 from jaxkin.joints.pairs import contact_joint as contact_joint
 from jaxkin.joints.pairs import cylindrical as cylindrical

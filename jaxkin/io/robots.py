@@ -12,7 +12,6 @@ import numpy as np
 from jaxkin._names import listed
 from jaxkin.assembly.close_export import closed_export
 from jaxkin.assembly.exported import Constraint, Exported
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import apply
 from jaxkin.io.mesh import MESHES
@@ -21,14 +20,8 @@ from jaxkin.io.names import cleaned, unique
 from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
 from jaxkin.io.time_limit import TimeLimit
 from jaxkin.joints.combine import Chain
-from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.pairs import universal
+from jaxkin.joints.on_frames import MOVEMENT_OF
 from jaxkin.topology.components import connected
-
-MOVEMENT_OF = {str(movement.pair): key for key, movement in MOVEMENTS.items() if movement.pair} | {
-    str(JointKind.UNIVERSAL): universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
-}
-"""Kind of a joint -> key of its movement."""
 
 MARK = 0.02
 """Edge of the box that is drawn for a link without a solid, over the extent of the robot."""

@@ -93,6 +93,25 @@ class Motion:
             "part", zip(self.mechanism.parts, part_transforms(self.mechanism.linkage, self.displacements), strict=True)
         )
 
+    def poses(
+        self, places: Mapping[str, Float[Array | np.ndarray, "4 4"]], relative_to: str | None = None
+    ) -> dict[str, Float[Array, "poses 4 4"]]:
+        """Compute the poses of parts in the world, or relative to one of them, from those of the assembled pose.
+
+        `places` are the 4x4 poses of parts in the assembled pose, in the world, as files of robots have them; a pose
+        follows as displacement times place. Raises ValueError for unknown parts.
+        """
+        for part in (*places, *([relative_to] if relative_to is not None else [])):
+            if part not in self.transforms:
+                raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
+        if relative_to is not None and relative_to not in places:
+            raise ValueError(f"poses relative to {relative_to!r} need its place, too")
+        found = {part: self.transforms[part] @ jnp.asarray(place, float) for part, place in places.items()}
+        if relative_to is None:
+            return found
+        base = jnp.linalg.inv(found[relative_to])
+        return {part: base @ pose for part, pose in found.items()}
+
     @cached_property
     def lost_contacts(self) -> tuple[LostContact, ...]:
         """The contacts of the solids whose faces are apart at some poses: found when it is asked for.

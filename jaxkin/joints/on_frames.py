@@ -1,0 +1,86 @@
+"""Joints written by a frame on each of their two parts, in the axes of those parts, as files of robots have them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from jaxkin._names import nearest
+from jaxkin._traced import traced
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Pose, is_rigid
+from jaxkin.joints.evidence import BY_HAND
+from jaxkin.joints.joint import Joint, shifted
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.two_frames import two_frames
+
+MOVEMENT_OF = {
+    JointKind.REVOLUTE: "T_phi",
+    JointKind.PRISMATIC: "T_z",
+    JointKind.CYLINDRICAL: "T_z_phi",
+    JointKind.PLANAR: "T_xy_phi",
+    JointKind.SPHERICAL: "T_theta_phi_psi",
+    JointKind.UNIVERSAL: "T_theta_phi",
+    JointKind.SCREW: "T_screw",
+    JointKind.FIXED: "I",
+}
+"""Kind of a joint that two frames define -> key of its movement."""
+
+
+def joint_on_frames(
+    name: str,
+    part1: str,
+    part2: str,
+    *,
+    kind: str,
+    frame1: Any,
+    frame2: Any,
+    places: Mapping[str, Any] | None = None,
+    pitch: float | int = 0.0,
+    limits: GivenLimits | None = None,
+) -> Joint:
+    """Make a joint given by a frame on each of its parts, 4x4 poses in the axes of that part; z is its axis.
+
+    `places` are the poses of the parts in the world; the origin of the world, where a part has none. Coordinates count
+    from there: `limits`, which count from where the two frames agree, are moved. Frames may differ in what the joint
+    forbids: then the mechanism is open in this pose, and `mechanism.close()` closes it. A universal joint has its axis
+    on part 1 along z of `frame1`, and that on part 2 along z of `frame2`.
+
+    `kind` is "revolute", "prismatic", "cylindrical", "planar", "spherical", "universal", "screw" or "fixed". Raises
+    ValueError for other kinds, for what is no rigid pose, and for axes of a universal joint that are not perpendicular.
+    """
+    if kind not in MOVEMENT_OF:
+        raise ValueError(f"joint {name!r}: there is no kind {kind!r} of two frames{nearest(str(kind), MOVEMENT_OF)}")
+    world = [
+        _rigid(name, f"the place of {part!r}", (places or {}).get(part, np.eye(4))) @ _rigid(name, label, given)
+        for part, label, given in ((part1, "frame1", frame1), (part2, "frame2", frame2))
+    ]
+    try:
+        found = two_frames(JointKind(kind), *world)
+    except ValueError as error:
+        raise ValueError(f"joint {name!r}: {error}") from None
+    if not np.isfinite(pitch):
+        raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
+    movement = MOVEMENT_OF[JointKind(kind)]
+    turn = np.asarray(float(pitch) if MOVEMENTS[movement].has_pitch else 0.0)
+    frames = found.frame_1[None], found.frame_2[None]
+    made = with_limits(Joint(name, (part1, part2), JointKind(kind), (movement,), *frames, turn, BY_HAND), limits)
+    return shifted(made, np.array(found.values)) if made.limits and found.values else made
+
+
+def _rigid(name: str, what: str, given: Any) -> Pose:
+    if traced(given):
+        raise ValueError(f"joint {name!r}: {what} is traced; make the joint outside of jit, vmap and grad")
+    try:
+        pose = np.asarray(given, float)
+    except (TypeError, ValueError):
+        pose = np.zeros(0)
+    if pose.shape != (4, 4) or not is_rigid(pose):
+        raise ValueError(
+            f"joint {name!r}: {what} must be a rigid 4x4 pose, its first three columns perpendicular unit vectors, "
+            f"right-handed, its last row 0, 0, 0, 1; got {given!r}"
+        )
+    return pose
