@@ -72,6 +72,7 @@ def turning(folder):
     return parts, by_hand(folder, parts, joints)
 
 
+@pytest.mark.long
 def test_clearances_are_the_distances_of_sampled_points(tmp_path):
     parts, mechanism = turning(tmp_path)
     angle = np.linspace(0, 2 * np.pi, 25)

@@ -46,6 +46,7 @@ def test_velocity_and_acceleration_are_continuous(name):
         assert jumps < 1.2 * float(jnp.abs(law(times, order + 1)).max()) * 1e-4
 
 
+@pytest.mark.long
 def test_derivatives_are_those_of_the_displacement():
     law = jk.motion_law([("modified sine", 0.5, 2.0), ("dwell", 0.25), ("4-5-6-7", 1.0, -2.0)], start=0.3)
     times, step = np.array([0.1, 0.3, 0.6, 0.9, 1.6]), 1e-5
@@ -110,6 +111,7 @@ def test_angular_jerks_in_space_are_the_rates_of_angular_accelerations():
     np.testing.assert_allclose((alpha[2] - alpha[0]) / (2 * step), jerk[1], atol=1e-8)
 
 
+@pytest.mark.long
 def test_the_centrodes_of_a_double_slider_are_the_circles_of_cardano():
     """A rod of length L with its ends on two perpendicular lines: radius L about the corner, and L/2 on the rod."""
     length, start = 2.0, 0.6

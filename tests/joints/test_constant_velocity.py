@@ -86,6 +86,7 @@ def test_a_universal_joint_does_not():
     assert np.abs(out - TURN).max() == pytest.approx(np.arcsin(np.tan(0.25) ** 2), rel=0.02)
 
 
+@pytest.mark.long
 def test_an_angle_that_changes_while_it_turns():
     mechanism = swivel()
     assert mechanism.mobility().freedoms == 2

@@ -105,6 +105,7 @@ def test_limits_stop_joints_and_are_told():
         assert error <= np.linalg.norm(best.fun) + 1e-7  # scipy stops a little short of limits
 
 
+@pytest.mark.long
 def test_where_targets_can_be_met_it_is_the_sweep():
     pen, turn = jk.point("b", (1.5, 2, 0)), np.linspace(0, 2 * np.pi, 9)
     path = np.stack([1.5 + 0.4 * np.sin(turn), 2.3 - 0.3 * np.cos(turn), 0 * turn], axis=1)

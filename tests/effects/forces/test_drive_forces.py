@@ -47,6 +47,7 @@ def found(motion, masses) -> jk.DriveForces:
     return jk.drive_forces(motion, masses, gravity=GRAVITY, applied=loads_of_fourbar(), rates={"A": RATE})
 
 
+@pytest.mark.long
 def test_a_rocker_torque_through_the_velocity_ratio_of_norton(motion):
     """w4 / w2 = a sin(t2 - t3) / (c sin(t4 - t3)), Norton, Design of Machinery, section 6.7."""
     theta = 1.0 + TURN
