@@ -6,6 +6,7 @@ optimisations; those marked `long`, and a run of all (`pytest -m ""`), test the 
 """
 
 import os
+from pathlib import Path
 
 import jax
 
@@ -20,3 +21,17 @@ def pytest_configure(config):
     if folder is not None:
         jax.config.update("jax_compilation_cache_dir", str(folder))
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.1)
+
+
+MOST_MAPS = 25_000
+"""Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, Linux allows
+65,530 by default, and XLA crashes there."""
+
+
+def pytest_runtest_teardown(item, nextitem):
+    """Forget compiled programs between modules before the process has too many; those on the disk are read again."""
+    if nextitem is not None and nextitem.path == item.path:
+        return
+    maps = Path("/proc/self/maps")
+    if maps.exists() and maps.read_bytes().count(b"\n") > MOST_MAPS:
+        jax.clear_caches()
