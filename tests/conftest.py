@@ -23,9 +23,9 @@ def pytest_configure(config):
         jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.1)
 
 
-MOST_MAPS = 25_000
-"""Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, Linux allows
-65,530 by default, and XLA crashes there."""
+MOST_MAPS = 15_000
+"""Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, and Linux
+allows 65,530 by default: beyond that XLA crashes."""
 
 
 def pytest_runtest_teardown(item, nextitem):
