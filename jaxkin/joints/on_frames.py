@@ -15,17 +15,20 @@ from jaxkin.joints.evidence import BY_HAND
 from jaxkin.joints.joint import Joint, shifted
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.pairs import universal
 from jaxkin.joints.two_frames import two_frames
 
-MOVEMENT_OF = {
-    JointKind.REVOLUTE: "T_phi",
-    JointKind.PRISMATIC: "T_z",
-    JointKind.CYLINDRICAL: "T_z_phi",
-    JointKind.PLANAR: "T_xy_phi",
-    JointKind.SPHERICAL: "T_theta_phi_psi",
-    JointKind.UNIVERSAL: "T_theta_phi",
-    JointKind.SCREW: "T_screw",
-    JointKind.FIXED: "I",
+_OF_TWO_FRAMES = (
+    JointKind.REVOLUTE,
+    JointKind.PRISMATIC,
+    JointKind.CYLINDRICAL,
+    JointKind.PLANAR,
+    JointKind.SPHERICAL,
+    JointKind.SCREW,
+    JointKind.FIXED,
+)
+MOVEMENT_OF = {kind: key for key, movement in MOVEMENTS.items() for kind in _OF_TWO_FRAMES if movement.pair == kind} | {
+    JointKind.UNIVERSAL: universal("", "", "", point=(0, 0, 0), axis1=(0, 1, 0), axis2=(1, 0, 0)).movements[0]
 }
 """Kind of a joint that two frames define -> key of its movement."""
 
