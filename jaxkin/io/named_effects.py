@@ -19,6 +19,7 @@ from jaxkin.effects.contact_validity import contact_validity
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.masses import masses
 from jaxkin.effects.forces.reactions import reactions
+from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY
 from jaxkin.effects.rates import accelerations, velocities
 from jaxkin.geometry.movements import is_length
 from jaxkin.mechanism.motion import Motion
@@ -47,7 +48,7 @@ def _forces(
     motion: Motion,
     *,
     density: Any = None,
-    gravity: Sequence[float | int] = (0.0, 0.0, -9.81),
+    gravity: Sequence[float | int] = STANDARD_GRAVITY,
     speeds: Mapping[str, float | int] | None = None,
 ) -> dict[str, Result]:
     """Compute drive forces and reactions under weight, at rest or for constant `speeds`, degrees and lengths a second.

@@ -134,7 +134,7 @@ def inverse(
 
 
 def _drivable(mechanism: Mechanism) -> Sequence[str]:
-    """The coordinates that determine the motion together, or all where the assembled pose is open."""
+    """Find the coordinates that determine the motion together, or all where the assembled pose is open."""
     if opening(mechanism.linkage, mechanism.unit) is None:
         return mechanism.mobility().drivable
     return [f"{joint.name}.{name}" for joint in mechanism.all_joints for name in joint.coordinates]
@@ -143,7 +143,7 @@ def _drivable(mechanism: Mechanism) -> Sequence[str]:
 def _motion(
     mechanism: Mechanism, problem: Problem, x: np.ndarray, closure: np.ndarray, inputs: Sequence[str]
 ) -> Motion:
-    """The motion whose poses were found, with the displacements of the inputs as its own."""
+    """Make the motion whose poses were found, with the displacements of the inputs as its own."""
     q = jnp.asarray(x * problem.units)
     split = np.cumsum([joint.freedoms for joint in mechanism.all_joints])[:-1]
     status = np.where(closure <= CLOSED, Status.CLOSED.value, Status.UNREACHABLE.value)
@@ -158,7 +158,7 @@ def _motion(
 
 
 def _distinct(x: np.ndarray, errors: np.ndarray, first: int, problem: Problem) -> np.ndarray:
-    """The solutions (solutions, columns) that fit as well as the first one, which comes first; turns are wrapped."""
+    """Collect the solutions (solutions, columns) that fit as well as the first one; that comes first, turns wrapped."""
     kept: list[np.ndarray] = []
     for number in [first, *np.argsort(errors)]:
         if errors[number] > errors[first] + REACHED or not np.isfinite(errors[number]):
@@ -172,4 +172,5 @@ def _distinct(x: np.ndarray, errors: np.ndarray, first: int, problem: Problem) -
 
 
 def _wrapped(angles: np.ndarray) -> np.ndarray:
+    """Wrap angles into -pi to pi."""
     return (angles + np.pi) % (2 * np.pi) - np.pi
