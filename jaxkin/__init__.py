@@ -70,11 +70,13 @@ from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.effects.workspace import Workspace as Workspace
 from jaxkin.effects.workspace import workspace as workspace
 from jaxkin.geometry.part import Part as Part
+from jaxkin.io.asmt_writer import write_asmt as write_asmt
 from jaxkin.io.load import load as load
 from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.io.study_writer import write_study as write_study
+from jaxkin.io.urdf_writer import write_urdf as write_urdf
 from jaxkin.joints.coupling import Coupling as Coupling
 from jaxkin.joints.coupling import belt as belt
 from jaxkin.joints.coupling import differential as differential

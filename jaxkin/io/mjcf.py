@@ -27,6 +27,7 @@ from jaxkin.io.robot_model import (
     Shape,
     along,
     direction,
+    limits_between,
     numbers,
     placed,
     tag,
@@ -200,5 +201,5 @@ class _Reader:
         limited = said.get("limited", "auto")
         if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
             return ()
-        low, high = numbers(said["range"], 2, where) * unit - value
-        return ((float(low), float(high)),) if low < high else ()
+        low, high = map(float, numbers(said["range"], 2, where) * unit - value)
+        return limits_between(low, high) if low < high else ()
