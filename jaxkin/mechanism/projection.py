@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import closure_tolerance, nan_where_not_finite, padded, warn_of_float32
-from jaxkin.solve.correctors.nearest_pose import nearest_poses
+from jaxkin.solve.correctors.nearest_pose import NearestPoses
+from jaxkin.solve.execution.programs import project as nearest_poses
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import SEVERITY, Status
-from jaxkin.solve.system.from_linkage import group_joints, group_system
+from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -83,51 +85,68 @@ def project(
     linkage, options = mechanism.linkage, options or SolverOptions()
     warn_of_float32()
     rows = _given(mechanism, given)
-    poses = next(iter(rows.values())).shape[0]
     held = coordinates(linkage, tuple(hold)) if (hold := tuple(hold)) else {}
     factors = _weights(mechanism, weights or {})
-    numbers = {place: rows[linkage.joints[place[0]].name][:, place[1]] for place in factors}
-    finite = jnp.all(jnp.stack([jnp.isfinite(row) for row in numbers.values()]), axis=0)
-    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
-    worst, square, residual = jnp.zeros(poses, jnp.int32), jnp.zeros(poses), jnp.zeros(poses)
-    best = jnp.ones(poses, bool)
-    moved = dict(numbers)
+    xp = jnp if traced(rows) else np
+    every = [rows[joint.name] for joint in mechanism.all_joints]
+    finite = xp.isfinite(xp.concatenate(every, axis=1)).all(axis=1)
     tolerance = closure_tolerance(options.tolerance)
+    solved, found = [], []
     for number, loop_group in enumerate(linkage.structure.loop_groups):
         inside = tuple(place for place in held.values() if place[0] in loop_group.joints)
         system, columns = group_system(linkage, loop_group, inside, linkage.classes[number])
         joints = group_joints(linkage, linkage.solved_joints, loop_group)
-        safe = [jnp.where(finite, numbers[place], 0.0) for place in columns]
-        found = nearest_poses(
-            system,
-            options.of_program,
-            joints,
-            padded(safe),
-            jnp.array([factors[place] for place in columns]),
-            tolerance,
+        begun = padded([xp.where(finite, every[joint][:, k], 0.0) for joint, k in columns])
+        found.append(
+            nearest_poses(system, options, joints, begun, np.array([factors[place] for place in columns]), tolerance)
         )
-        for place, row in zip(columns, found.displacements, strict=True):
-            moved[place] = row[:poses]
-        worst = jnp.maximum(worst, rank[found.status[:poses]])
-        square, residual = square + found.square[:poses], residual + found.residual_norm[:poses] ** 2
-        best = best & found.nearest[:poses]
-        resting = [place for place in numbers if place[0] in loop_group.joints and place not in columns]
-        moved |= {place: jnp.zeros(poses) for place in resting}  # along the normal of a planar group
-    worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
-    status = jnp.array([each.value for each in SEVERITY], jnp.int32)[worst]
+        resting = tuple(place for place in factors if place[0] in loop_group.joints and place not in columns)
+        solved.append((columns, resting))
+    displacements, status, residual, distance, best = _collect(tuple(solved), every, finite, found)
     if linkage.ideal:  # what closed are the nearest joints that agree
         status = jnp.where(status == Status.CLOSED.value, Status.MISFIT.value, status)
-    displacements = tuple(
-        jnp.stack([moved[number, k] for k in range(joint.freedoms)], axis=1)
-        if joint.freedoms
-        else jnp.zeros((poses, 0))
-        for number, joint in enumerate(linkage.joints)
-    )
-    displacements, residual, distance = nan_where_not_finite((displacements, jnp.sqrt(residual), _root(square)), finite)
     names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
     inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
     motion = Motion(mechanism, inputs, displacements, status, residual, options=options)
-    return Projection(motion, distance, best & finite)
+    return Projection(motion, distance, best)
+
+
+@partial(jax.jit, static_argnums=0)
+def _collect(
+    solved: tuple[tuple[Columns, Columns], ...],
+    given: list[Float[Array, "poses _"]],
+    finite: Bool[Array, " poses"],
+    found: list[NearestPoses],
+) -> tuple[
+    tuple[Float[Array, "poses _"], ...],
+    Int[Array, " poses"],
+    Float[Array, " poses"],
+    Float[Array, " poses"],
+    Bool[Array, " poses"],
+]:
+    """Collect displacements of all joints, status, residual, distance and whether it is the nearest pose.
+
+    `solved` are the (joint, coordinate) of each loop group that were moved, and those that rest.
+    """
+    poses = len(finite)
+    moved = {(joint, k): row for joint, rows in enumerate(given) for k, row in enumerate(rows.T)}
+    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
+    worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE))
+    square = residual = jnp.zeros(poses, given[0].dtype)
+    best = finite
+    for (columns, resting), each in zip(solved, found, strict=True):
+        moved |= {place: row[:poses] for place, row in zip(columns, each.displacements, strict=True)}
+        moved |= dict.fromkeys(resting, jnp.zeros(poses, given[0].dtype))  # along the normal of a planar group
+        worst = jnp.maximum(worst, rank[each.status[:poses]])
+        square, residual = square + each.square[:poses], residual + each.residual_norm[:poses] ** 2
+        best = best & each.nearest[:poses]
+    status = jnp.array([each.value for each in SEVERITY], jnp.int32)[worst]
+    displacements = tuple(
+        jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
+        for joint, rows in enumerate(given)
+    )
+    result = nan_where_not_finite((displacements, jnp.sqrt(residual), _root(square)), finite)
+    return result[0], status, *result[1:], best
 
 
 def _root(square: Float[Array, " poses"]) -> Float[Array, " poses"]:

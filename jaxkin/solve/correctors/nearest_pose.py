@@ -61,7 +61,6 @@ class NearestPoses(NamedTuple):
     """Which poses are stationary: no closed pose beside them is nearer."""
 
 
-@partial(jax.jit, static_argnums=(0, 1))
 def nearest_poses(
     system: LoopSystem,
     options: SolverOptions,

@@ -24,6 +24,7 @@ from jaxkin.solve.closed_form.range_by_formula import (
     find_poses_by_formula,
     joint_displacements,
 )
+from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -100,6 +101,19 @@ def solve(
     # compiler options apply to whole programs only: inside a traced function, the search is part of its program
     poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
     return _displacements_program(system, joints, inputs, poses), _outcome(poses)
+
+
+def project(
+    system: LoopSystem,
+    options: SolverOptions,
+    joints: Joints,
+    given: Float[Array | np.ndarray, "columns poses"],
+    weights: Float[Array | np.ndarray, " columns"],
+    tolerance: ClosureTolerance,
+) -> NearestPoses:
+    """Find the closed poses nearest to `given` coordinates of all joints: see `correctors.nearest_pose`."""
+    known = not traced((joints, given, weights, tolerance, jax.device_put(np.zeros(0))))
+    return _projection_program(known)(system, options.of_program, joints, given, weights, tolerance)
 
 
 def compilations() -> int:
@@ -242,6 +256,12 @@ _turn_program = cache(lambda: jax.jit(find_poses_by_formula, static_argnames="sy
 def _poses_program(whole: bool):
     """Make the function that finds poses without displacements: a program of its own, or part of a traced one."""
     return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
+
+
+@cache
+def _projection_program(whole: bool):
+    """Make the program of the nearest closed poses: one of its own, or part of a traced one."""
+    return jax.jit(nearest_poses, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
 @cache
