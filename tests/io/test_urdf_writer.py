@@ -11,6 +11,7 @@ from jaxkin.io.yaml_subset import parse_yaml
 from reference.cassie import cassie_leg
 from reference.catalogue import GROUND, delta
 from reference.mechanisms import cardan_shafts, planar_fourbar, slider_crank
+from reference.pinocchio_models import with_balls
 from reference.round_trips import METRES, compare_moved, host_pose, scale_of, small_drive
 from reference.tied import press
 
@@ -76,19 +77,6 @@ def test_what_cannot_be_written_is_refused(tmp_path):
         with pytest.raises(ValueError, match=r"URDF cannot say the coupling .*'a"):
             jk.write_urdf(tied, tmp_path / "robot.urdf")
     assert not list(tmp_path.iterdir())
-
-
-def with_balls(pinocchio, model, balls):
-    """The model with joints that turn as balls, as those who wrote the format make it."""
-    made = pinocchio.Model()
-    for name, joint, parent, place in zip(
-        model.names[1:], model.joints[1:], model.parents[1:], model.jointPlacements[1:], strict=True
-    ):
-        kind = pinocchio.JointModelSpherical() if name in balls else joint
-        made.addJoint(parent, kind, place, name)
-    for frame in model.frames[1:]:
-        made.addFrame(frame)
-    return made
 
 
 PINOCCHIO = (planar_fourbar, slider_crank, cardan_shafts, delta, cassie_leg)
