@@ -219,6 +219,8 @@ def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarq
         steps = jnp.where(attempt.closing, options.rescue_steps, steps)
         return select_poses(left_open, levenberg_marquardt(problem, predicted, steps, target_residual), quick)
 
+    if problem.follow_limits is False:  # known when the program is made: it holds no damped corrector
+        return quick
     return lax.cond(any_in_lockstep(left_open) & problem.follow_limits, damped, lambda: quick)
 
 
