@@ -114,6 +114,7 @@ from jaxkin.mechanism.plan import Plan as Plan
 from jaxkin.mechanism.pose import Pose as Pose
 from jaxkin.mechanism.pose_error import PoseError as PoseError
 from jaxkin.mechanism.projection import Projection as Projection
+from jaxkin.mechanism.projection import project as project
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
 from jaxkin.mechanism.stream import Stream as Stream

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
     from jaxkin.mechanism.plan import Plan
     from jaxkin.mechanism.pose import Pose
-    from jaxkin.mechanism.projection import Projection
     from jaxkin.mechanism.reassembly import Reassembly
     from jaxkin.mechanism.stream import Stream
     from jaxkin.mechanism.targets import Key
@@ -177,19 +176,6 @@ class Mechanism:
         from jaxkin.mechanism.stream import Stream
 
         return Stream(self, drive, chunk, options_with(options, tolerance, method))
-
-    def project(
-        self,
-        coordinates: Mapping[str, Any],
-        *,
-        hold: Iterable[str] = (),
-        weights: Mapping[str, float | int] | None = None,
-        options: SolverOptions | None = None,
-    ) -> Projection:
-        """Move coordinates of joints to the nearest closed poses: see `jaxkin.mechanism.projection.project`."""
-        from jaxkin.mechanism.projection import project
-
-        return project(self, coordinates, hold=hold, weights=weights, options=options)
 
     def closure(self, coordinates: Mapping[str, object]) -> ClosureEquations:
         """Evaluate the closure equations of all loops and their Jacobian, for optimisers of your own.

@@ -1,4 +1,4 @@
-"""Project coordinates of all joints onto the nearest closed poses: `Mechanism.project`, and what it gives back."""
+"""Project coordinates of all joints onto the nearest closed poses: `project`, and what it gives back."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ def apart(one, other):
 
 def test_no_pose_of_the_whole_motion_is_nearer():
     given = random_rows(FOURBAR, 40)
-    found = FOURBAR.project(given)
+    found = jk.project(FOURBAR, given)
     assert np.all(found.motion.closed) and np.all(found.nearest)
     np.testing.assert_allclose(apart(given, found.motion.coordinates), found.distance, rtol=1e-12)
     every = FOURBAR.sweep({"A": np.linspace(-0.4, 0.4, 4001)})
@@ -41,11 +41,11 @@ def test_no_pose_of_the_whole_motion_is_nearer():
 
 def test_closed_poses_stay_and_held_coordinates_too():
     motion = FOURBAR.sweep({"A": np.linspace(0, 1, 7)})
-    found = FOURBAR.project(motion.coordinates)
+    found = jk.project(FOURBAR, motion.coordinates)
     for name, rows in motion.coordinates.items():
         np.testing.assert_allclose(found.motion.coordinates[name], rows, atol=1e-13)  # rounding
     given = random_rows(FOURBAR, 7)
-    held = FOURBAR.project(given, hold=["A"])
+    held = jk.project(FOURBAR, given, hold=["A"])
     np.testing.assert_array_equal(held.motion.coordinates["A"], given["A"])
     swept = FOURBAR.sweep({"A": given["A"][:, 0]})  # one freedom: nothing is left to choose
     for name, rows in swept.coordinates.items():
@@ -54,8 +54,8 @@ def test_closed_poses_stay_and_held_coordinates_too():
 
 def test_a_heavy_coordinate_moves_as_if_it_were_held():
     given = random_rows(FOURBAR, 5)
-    heavy = FOURBAR.project(given, weights={"A.phi": 1e4})
-    held = FOURBAR.project(given, hold=["A"])
+    heavy = jk.project(FOURBAR, given, weights={"A.phi": 1e4})
+    held = jk.project(FOURBAR, given, hold=["A"])
     np.testing.assert_allclose(heavy.motion.coordinates["D"], held.motion.coordinates["D"], atol=1e-6)  # 1 / 1e4^2
 
 
@@ -65,7 +65,7 @@ def test_what_moves_is_at_right_angles_to_the_closed_poses(make):
     """The condition of a nearest point, with a null space of all twelve equations that the solver does not use."""
     mechanism = make()
     given = random_rows(mechanism, 6, 0.05)
-    found = mechanism.project(given)
+    found = jk.project(mechanism, given)
     assert np.all(found.nearest)
     for pose in range(6):
         at = {name: np.asarray(rows)[pose] for name, rows in found.motion.coordinates.items()}
@@ -83,7 +83,7 @@ def test_derivatives_are_those_of_the_nearest_pose():
     start = RNG.uniform(-0.2, 0.2, (1, 4))  # far: the curvature of the closed poses counts
 
     def loss(row):
-        found = FOURBAR.project({name: row[:, k] for k, name in enumerate(names)})
+        found = jk.project(FOURBAR, {name: row[:, k] for k, name in enumerate(names)})
         return jnp.sin(found.motion.coordinates["B"]).sum() + found.motion.coordinates["D"].sum() ** 2
 
     slope = jax.grad(loss)(start)
@@ -97,24 +97,24 @@ def test_derivatives_are_those_of_the_nearest_pose():
 @pytest.mark.long  # compiles two programs
 def test_it_works_inside_jit_and_vmap():
     given = random_rows(FOURBAR, 3)
-    found = FOURBAR.project(given)
-    again = jax.jit(FOURBAR.project)(given)
+    found = jk.project(FOURBAR, given)
+    again = jax.jit(lambda rows: jk.project(FOURBAR, rows))(given)
     np.testing.assert_allclose(again.distance, found.distance, rtol=1e-12)
-    mapped = jax.vmap(lambda rows: FOURBAR.project({k: v[None] for k, v in rows.items()}).distance[0])(given)
+    mapped = jax.vmap(lambda rows: jk.project(FOURBAR, {k: v[None] for k, v in rows.items()}).distance[0])(given)
     np.testing.assert_allclose(mapped, found.distance, rtol=1e-12)
 
 
 def test_poses_that_are_no_numbers_or_cannot_close_are_data():
     given = random_rows(FOURBAR, 3)
     given["A"][1] = np.nan
-    found = FOURBAR.project(given)
+    found = jk.project(FOURBAR, given)
     assert [jk.Status(int(each)).name for each in found.motion.status] == ["CLOSED", "NONFINITE", "CLOSED"]
     assert np.isnan(found.motion.coordinates["D"][1]).all() and np.isnan(found.distance[1])
     assert not found.nearest[1]
     assert "2 of 3 poses close" in str(found)
     # the crank held in line with the ground, outwards, lets a rocker of 20 between rod of 30 not close
     short = planar_fourbar(np.pi / 3, ground=100.0, crank=60.0, coupler=40.0, rocker=60.0)
-    lost = short.project({"A": np.array([2.0])}, hold=["A"])
+    lost = jk.project(short, {"A": np.array([2.0])}, hold=["A"])
     assert jk.Status(int(lost.motion.status[0])) is jk.Status.UNREACHABLE
     assert not lost.nearest[0] and float(lost.motion.residual[0]) > 0.1
 
@@ -132,4 +132,4 @@ def test_poses_that_are_no_numbers_or_cannot_close_are_data():
 )
 def test_wrong_coordinates_are_refused(given, more, message):
     with pytest.raises(ValueError, match=message):
-        FOURBAR.project(given, **more)
+        jk.project(FOURBAR, given, **more)
