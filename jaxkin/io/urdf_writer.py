@@ -171,8 +171,8 @@ class _Writer:
         ball = joint.kind is JointKind.SPHERICAL
         if joint.freedoms and not ball:
             one = self._chain(number, 1, one, f"{joint.name} end")
-        frames = [self._frame(f"{joint.name} {side}", link, point) for side, link in ((1, one), (2, other))]
-        self.pairs.append((*frames, "3d" if ball else "6d"))
+        first, second = (self._frame(f"{joint.name} {side}", link, point) for side, link in ((1, one), (2, other)))
+        self.pairs.append((first, second, "3d" if ball else "6d"))
 
     def _frame(self, name: str, link: str, point: np.ndarray) -> str:
         """Write a frame on a link, a link that is fixed to it, with a name that no joint has either."""

@@ -145,8 +145,9 @@ def _collect(
         jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
         for joint, rows in enumerate(given)
     )
-    result = nan_where_not_finite((displacements, jnp.sqrt(residual), _root(square)), finite)
-    return result[0], status, *result[1:], best
+    norms = jnp.sqrt(residual), _root(square)
+    displacements, (residual, distance) = nan_where_not_finite((displacements, norms), finite)
+    return displacements, status, residual, distance, best
 
 
 def _root(square: Float[Array, " poses"]) -> Float[Array, " poses"]:
@@ -173,8 +174,8 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
             rows = (jnp if traced(values) else np).asarray(values, dtype)
         except (TypeError, ValueError):
             rows = np.zeros(())
-        rows = rows[:, None] if rows.ndim == 1 and freedoms == 1 else rows
-        if rows.ndim != 2 or rows.shape[1] != freedoms:
+        rows = rows.reshape(-1, 1) if rows.ndim == 1 and freedoms == 1 else rows
+        if rows.ndim != 2 or rows.shape[-1] != freedoms:
             raise ValueError(
                 f"joint {name!r} has {freedoms} coordinate{'s' * (freedoms != 1)} "
                 f"({', '.join(mechanism.joints[name].coordinates)}): expected an array (poses, {freedoms}), got shape "

@@ -202,7 +202,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
-    """Correct predicted states by Newton's method; what it leaves open by the damped corrector, with `follow_limits`."""
+    """Correct predicted states by Newton's method; what that leaves open by the damped one, if limits are followed."""
     options, predicted = problem.options, attempt.predicted
     target_residual = rounding_residual(predicted.x.dtype, TARGET_ROUNDINGS)
     state, closed, residual_norm = newton(problem, predicted, target_residual, extrapolate_residual=True)
