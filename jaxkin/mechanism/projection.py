@@ -173,9 +173,9 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
         try:
             rows = (jnp if traced(values) else np).asarray(values, dtype)
         except (TypeError, ValueError):
-            rows = np.zeros(())
+            rows = np.zeros((0, 0, 0))  # refused below
         rows = rows.reshape(-1, 1) if rows.ndim == 1 and freedoms == 1 else rows
-        if rows.ndim != 2 or rows.shape[-1] != freedoms:
+        if rows.ndim != 2 or rows.shape[1] != freedoms:
             raise ValueError(
                 f"joint {name!r} has {freedoms} coordinate{'s' * (freedoms != 1)} "
                 f"({', '.join(mechanism.joints[name].coordinates)}): expected an array (poses, {freedoms}), got shape "
