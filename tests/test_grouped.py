@@ -13,7 +13,8 @@ BOX = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
 
 
 @pytest.mark.parametrize(
-    "name", ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>", "Screw:1#2"]
+    "name",
+    ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>", "Screw:1#2"],
 )
 def test_instances_are_of_one_product(name):
     assert product(name) == "Screw"

@@ -187,6 +187,19 @@ def test_a_solid_several_times_in_one_place_is_one_part(tmp_path, levels):
     assert sum("is the same solid in the same place: left out" in note for note in part.notes) == 2**levels
 
 
+def test_a_part_too_far_away_for_single_precision_is_told(tmp_path):
+    """A part of 21 mm, 100 km away: 1e8 mm in single precision are right to 4 mm."""
+    file = tmp_path / "far.step"
+    place = re.search(r"#(\d+) = CARTESIAN_POINT\('',\(0\.,0\.,0\.\)\);", doubled(1))
+    assert place
+    moved = doubled(1).replace(place[0], f"#{place[1]} = CARTESIAN_POINT('',(1.E8,0.,0.));")
+    file.write_text(moved)
+    with pytest.warns(
+        UserWarning, match=r"times its size from the origin, so that its place is right to 0\.\d+ of its"
+    ):
+        read_step(file)
+
+
 @pytest.mark.long
 def test_a_file_that_takes_for_ever_is_given_up(tmp_path, capfd, monkeypatch):
     """The kernel follows a thousand million parts; here nothing keeps it from that but the time."""
