@@ -187,6 +187,20 @@ def test_a_solid_several_times_in_one_place_is_one_part(tmp_path, levels):
     assert sum("is the same solid in the same place: left out" in note for note in part.notes) == 2**levels
 
 
+def test_a_subassembly_without_a_name_is_called_as_its_product(tmp_path):
+    """Nested four deep; readers call an occurrence without a name by its number in the file, which tells nothing."""
+    file = tmp_path / "deep.step"
+    text = doubled(4)
+    nameless = re.sub(
+        r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\('(\d+)','one of two'", r"NEXT_ASSEMBLY_USAGE_OCCURRENCE('\1',''", text
+    )
+    file.write_text(nameless)
+    paths = {part.path for part in read_step(file)[0]}
+    assert {("level 3", "level 2", "level 1", "level 0"), ("level 3", "level 2#2", "level 1#2", "level 0#2")} < paths
+    file.write_text(text)
+    assert ("level 3", "one of two", "one of two", "one of two") in {part.path for part in read_step(file)[0]}
+
+
 def test_a_part_too_far_away_for_single_precision_is_told(tmp_path):
     """A part of 21 mm, 100 km away: 1e8 mm in single precision are right to 4 mm."""
     file = tmp_path / "far.step"
