@@ -166,6 +166,7 @@ def test_a_solid_twice_in_one_mesh_is_one_part(tmp_path):
     assert part.name == "part 1" and part.notes == ("'part 2' is the same solid in the same place: left out",)
 
 
+@pytest.mark.long
 def test_free_forms_end_when_no_face_is_found(tmp_path, monkeypatch):
     """Triangles on no surface at all: named in the report after so many trials, however many triangles there are."""
     monkeypatch.setattr(region_growing, "MAX_FAILURES", 20)
