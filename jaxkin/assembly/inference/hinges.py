@@ -8,8 +8,8 @@ from dataclasses import replace
 import networkx as nx
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
@@ -24,7 +24,7 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
     body, between = known.body, {}
     given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
     by_hand = {frozenset(body[part] for part in pair) for pair in given}
-    for pair in _neighbours(known.axes, body):
+    for pair in _neighbours([pair for pair in known.axes if not pair.threaded], body):
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in by_hand:
             between.setdefault(owners, []).append(pair)
@@ -86,9 +86,9 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
     make = pairs.cylindrical if free is None else pairs.revolute
-    # several links on one pin then turn about one axis, by however much their holes are off
-    middle = pair.one.point + ((hole.point - pair.one.point) @ pair.one.axis) * pair.one.axis
-    joint = make("-".join(parts), *parts, point=middle, axis=pair.one.axis)
+    line = _line(known, pair, owners)
+    middle = line.point + ((hole.point - line.point) @ line.axis) * line.axis
+    joint = make("-".join(parts), *parts, point=middle, axis=line.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
     ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
     sizes += [] if free is None else [("play", free)]
@@ -100,3 +100,29 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
     return [Inference(parts, evidence, replace(joint, evidence=evidence))]
+
+
+def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
+    """Find the bore whose axis the joint turns about, where those of the two bodies are not quite one.
+
+    It is an axis that parts of both bodies have alike, whatever is off it, such as a bolt. Else it is that of the pin:
+    several links on one pin then turn about one axis, by however much their holes are off. Else it is that of the bore
+    that is inside of the other one, as the eye is in a fork.
+    """
+    if pair.offset <= SAME_LENGTH * pair.other.radius:
+        return pair.one
+    body, near = known.body, (pair.offset + NEAR_LENGTH * pair.other.radius) / pair.one.radius
+    around = [bore for part in known.names if body[part] in owners for bore in known.bores[part]]
+    around = [bore for bore in around if bore.on_axis_of(pair.one, MAX_TILT, near)]
+    around = [bore for bore in around if shared_length(bore, pair.other) > -pair.other.radius]
+    for bore in around:
+        alike = [each for each in around if each.on_axis_of(bore, SAME_ANGLE, SAME_LENGTH)]
+        if {body[each.part] for each in alike} == owners:
+            return bore
+    if not pair.virtual:
+        return pair.one
+    reach = {
+        owner: [end for bore in around if body[bore.part] == owner for end in bore.reach(pair.one.axis)]
+        for owner in owners
+    }
+    return min((pair.one, pair.other), key=lambda bore: np.ptp(reach[body[bore.part]] or [0.0]))

@@ -18,7 +18,8 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
-from jaxkin.assembly.inference.screwed import screwed_bodies
+from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
+from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -43,10 +44,13 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
-    fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
-    fastening -= {name for each in rolling for name in (each.outer, each.inner)}
+    set_in = sleeves(known)
+    known.add(seated_sleeves(known, set_in))
+    fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
+    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | {each.part for each in set_in}
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
+    known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     every = with_hosts(stacks(known.axes, fastening, known.touching, known.order), known)

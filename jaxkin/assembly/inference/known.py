@@ -46,11 +46,15 @@ class Known:
         return bodies(self.names, self.fixed, [*self.rigid, *groups])
 
     def add(self, inferences: Sequence[Inference]) -> None:
-        """Take inferences of parts that are not one body already, one after another."""
+        """Take inferences of parts that are not one body already, one after another.
+
+        Parts that joints by hand or inferred joints join are left apart.
+        """
         body = self.body
+        jointed = [*self.by_hand, *(frozenset(each.parts) for each in self.found if each.joint)]
         for each in inferences:
             owners = {body[part] for part in each.parts}
-            if len(owners) > 1:
+            if len(owners) > 1 and not any({body[part] for part in pair} <= owners for pair in jointed):
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
                 body = {part: first if owner in owners else owner for part, owner in body.items()}
