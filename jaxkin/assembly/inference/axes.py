@@ -19,6 +19,9 @@ MAX_THREAD = 0.25
 """The same of screws in holes that are drawn as they are drilled for the thread: M3 to M10 have 0.17 to 0.21."""
 EQUAL_BORES = 0.1
 """Radii of two bores without a pin that are one axis differ by so much at most, over the larger one."""
+MAX_TAPPED = 0.35
+"""The same of a hole that a screw goes through and one that it is screwed into, where the screw is not drawn: M3 to M10
+have 0.22 to 0.28 by tables, and more with wide holes. Two such axes are asked for, and faces that touch."""
 MAX_OFFSET = 0.05
 """Distance of axes that count as one beside the clearance, over the radius."""
 _OTHER_RADIUS = 1.02
@@ -28,6 +31,10 @@ MIN_ENGAGED = 0.05
 in it."""
 MAX_GAP = 4.0
 """Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
+MAX_FAR = 20.0
+"""The same of parts that nothing else ties: plates on spacers that are not drawn."""
+MAX_LOOSE = 0.5
+"""Radial clearance over the radius of the hole of parts that nothing else ties: bushes that are not drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +70,11 @@ class CommonAxis:
         return not self.virtual and self.clearance < -MAX_INTERFERENCE * self.other.radius
 
     @property
+    def tapped(self) -> bool:
+        """Whether there is no pin, and the two bores are not equal: those of a screw that is not drawn."""
+        return self.virtual and abs(self.clearance) > EQUAL_BORES * max(self.one.radius, self.other.radius)
+
+    @property
     def parts(self) -> tuple[str, str]:
         return self.one.part, self.other.part
 
@@ -81,6 +93,25 @@ def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[C
     filled = {id(bore) for each in pins for bore in (each.one, each.other)}
     empty = [each for each in near if each.one.hole and each.other.hole and _equal(each)]
     return [*pins, *(each for each in empty if not {id(each.one), id(each.other)} & filled)]
+
+
+def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAxis]:
+    """Find pairs of bores on one axis that are too far from each other, or too loose, to be among the `near` ones."""
+    if len(bores) < 2:
+        return []
+    known, result = {(id(pair.one), id(pair.other)) for pair in near}, []
+    for pair in _coaxial(bores, None):
+        radius = pair.other.radius
+        if (id(pair.one), id(pair.other)) in known or pair.offset > MAX_OFFSET * radius:
+            continue
+        if pair.virtual:
+            far = abs(pair.clearance) <= EQUAL_BORES * radius and -engaged(pair) <= MAX_FAR * radius
+        else:
+            far = pair.other.hole and 0 <= pair.clearance <= MAX_LOOSE * radius and engaged(pair) > MIN_ENGAGED * radius
+        if far:
+            result.append(pair)
+    filled = {id(bore) for pair in (*near, *result) if not pair.virtual for bore in (pair.one, pair.other)}
+    return [pair for pair in result if not pair.virtual or not {id(pair.one), id(pair.other)} & filled]
 
 
 def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]:
@@ -111,9 +142,11 @@ def _fits(pair: CommonAxis, clearance: float | None) -> bool:
 
 
 def _equal(pair: CommonAxis) -> bool:
+    """Tell whether two bores without a pin belong to one axis: equal ones, or those of a screw that is not drawn."""
     radius = max(pair.one.radius, pair.other.radius)
-    same = abs(pair.clearance) <= EQUAL_BORES * radius and pair.offset <= MAX_OFFSET * radius
-    return same and -engaged(pair) <= MAX_GAP * radius
+    if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > MAX_TAPPED * radius:
+        return False
+    return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_GAP) * radius
 
 
 def engaged(pair: CommonAxis) -> float:

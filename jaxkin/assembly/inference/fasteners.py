@@ -120,22 +120,24 @@ def stacks(
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
 
 
-def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozenset[str], list[Bore]]:
-    """Find the parallel axes that two parts have in common, two or more, through fasteners or as bores without a
+def patterns(
+    found: Sequence[CommonAxis], every: Sequence[Stack], body: Mapping[str, str]
+) -> dict[frozenset[str], list[Bore]]:
+    """Find the parallel axes that two bodies have in common, two or more, through fasteners or as bores without a
     pin."""
     shared: dict[frozenset[str], list[Bore]] = {}
     through = [
         (frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)
     ]
-    empty = [(frozenset(pair.parts), pair.one) for pair in found if pair.virtual]
+    empty = [(frozenset(body[part] for part in pair.parts), pair.one) for pair in found if pair.virtual]
     for pair, bore in (*through, *empty):
         known = shared.setdefault(pair, [])
-        if all(_beside(bore, other) for other in known):
+        if all(beside(bore, other) for other in known):
             known.append(bore)
-    return {pair: axes for pair, axes in shared.items() if len(axes) > 1}
+    return {pair: axes for pair, axes in shared.items() if len(pair) > 1 and len(axes) > 1}
 
 
-def _beside(one: Bore, other: Bore) -> bool:
+def beside(one: Bore, other: Bore) -> bool:
     """Tell whether two axes are parallel and not the same."""
     offset = other.point - one.point
     apart2 = float(offset @ offset) - float(offset @ one.axis) ** 2

@@ -77,7 +77,9 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
         held = tuple(dict.fromkeys(body[part] for part in stack.held))
         return Stack(stack.fasteners, held, stack.axis, stack.guides)
 
-    shared = patterns(known.axes, list(map(of_bodies, every)))
+    flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
+    tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]
+    shared = patterns([*known.axes, *tapped], list(map(of_bodies, every)), body)
     return [each for each in bolted(shared, known.order) if len({body[part] for part in each.parts}) > 1]
 
 
@@ -126,8 +128,9 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     low, high, part = ends[widest]
     if len({body[each] for each in stack.held}) == 1:
         return part, "only"
+    turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
-    if not slides or all(low < one and other < high for one, other, _ in others):
+    if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
         return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
     looser = [fit for owner, fit in fits.items() if owner != tightest]

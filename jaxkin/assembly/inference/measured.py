@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.axes import CommonAxis, common_axes
+from jaxkin.assembly.inference.axes import CommonAxis, common_axes, far_axes
 from jaxkin.assembly.inference.bearings import Bearing, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
 from jaxkin.assembly.inference.embedded import depth_inside
@@ -44,6 +44,10 @@ class Measured:
         if clearance not in self._axes:
             self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         return self._axes[clearance]
+
+    def far_axes(self, clearance: float | None) -> list[CommonAxis]:
+        """Find the axes of parts that nothing else ties: see `far_axes`."""
+        return far_axes([bore for own in self.bores.values() for bore in own], self.axes(clearance))
 
     @cached_property
     def boxes(self) -> Float[np.ndarray, "parts 2 3"]:

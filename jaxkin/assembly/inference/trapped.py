@@ -20,6 +20,8 @@ REACH = 3.0
 MAX_PLAY = 3.0
 """Play of a hinge along its axis, over the radius, in all: a link between two lugs, with washers that are not drawn.
 What slides on purpose has a stroke of more."""
+MAX_LIFT = 0.5
+"""Distance from a face, over the radius, at which a screw or a pin with a head holds a part to it."""
 MAX_OVERLAP = 0.2
 """Faces that overlap by no more, over the radius, are drawn a little too thick."""
 MIN_MET = 0.02
@@ -73,6 +75,13 @@ def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | N
     """Return how far one body can slide in the other in all, forwards and backwards; None where nothing stops it."""
     ahead, behind = _gap(one, other, radius), _gap(other, one, radius)
     return None if ahead is None or behind is None else ahead + behind
+
+
+def nearest(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+    """Return how far one body is from being stopped by the other, on the side where that is less; None without
+    stops."""
+    gaps = [gap for gap in (_gap(one, other, radius), _gap(other, one, radius)) if gap is not None]
+    return min(gaps, default=None)
 
 
 def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
