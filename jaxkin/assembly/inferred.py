@@ -121,17 +121,25 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks.
 
-    Only where something moves: of a mechanism that is locked nothing is known to be of no use.
+    Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
+    body that would hold two others to each other which move by a joint are not both taken.
     """
     if not useful_freedoms(mechanism):
         return []
     idle = {*mechanism.mobility().idle}
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
-        if flat and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle:
+        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle:
+            continue
+        one, other = (owner[part] for part in joint.parts)
+        joined = {part: one if body == other else body for part, body in owner.items()}
+        if all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful):
             text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a slide that moves nothing else"
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+            owner = joined
     return result
 
 

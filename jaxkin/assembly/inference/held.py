@@ -92,7 +92,7 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
     body, result = known.body, []
     for stack in every:
         owners = {body[part] for part in stack.fasteners}
-        hosts = [part for part in stack.held if body[part] in owners]
+        hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
         slides = stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
         if slides and holder is None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, nearest, play
@@ -70,7 +71,12 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
             across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
             if not all(across):
                 continue  # faces along the axis keep it from turning: exact contacts say what is left
-            result += _hinge(known, pair, owners, any(pins), any(across), pair.one.part in fastening)
+            pinned = [each.one for each in found if not each.virtual]
+            guided = not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:])
+            if guided:
+                result.append(_guided(known, pair))
+            else:
+                result += _hinge(known, pair, owners, any(pins), any(across), pair.one.part in fastening)
     return result
 
 
@@ -137,6 +143,16 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
     return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+
+
+def _guided(known: Known, pair: CommonAxis) -> Hinge:
+    """Make a prismatic joint along two or more parallel pins with play, such as guide rods."""
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
+    sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
+    text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
+    evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
+    return Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.NONE)
 
 
 def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
