@@ -19,7 +19,6 @@ def roundness(outline: Float[np.ndarray, "corners 2"], centre: Float[np.ndarray,
     except QhullError:  # a sheet seen from its edge
         return 0.0
     corners = outline[hull.vertices]
-    if centre is None:
-        centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    inner = -(hull.equations[:, :2] @ centre + hull.equations[:, 2])
-    return float(inner.min() / np.linalg.norm(corners - centre, axis=1).max())
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2 if centre is None else centre
+    inner = -(hull.equations[:, :2] @ middle + hull.equations[:, 2])
+    return float(inner.min() / np.linalg.norm(corners - middle, axis=1).max())
