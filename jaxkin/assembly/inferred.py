@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
@@ -122,7 +123,8 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     cheeks.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
-    body that would hold two others to each other which move by a joint are not both taken.
+    body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
+    guide, though nothing that is drawn moves with it.
     """
     if not useful_freedoms(mechanism):
         return []
@@ -132,7 +134,7 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
-        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle:
+        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle or is_guide(mechanism, joint):
             continue
         one, other = (owner[part] for part in joint.parts)
         joined = {part: one if body == other else body for part, body in owner.items()}
