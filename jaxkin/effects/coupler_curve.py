@@ -169,8 +169,8 @@ def _evaluation(motion: Motion, drive: str, part: str, at: Place) -> Evaluate:
         swept = motion.mechanism.sweep({drive: padded}, options=motion.options)
         rates = velocities(swept, {drive: 1.0}), accelerations(swept, {drive: 1.0})
         rows = (swept.points(part, at), *(each.points(part, at) for each in rates))
-        found = [np.asarray(each, float)[: len(inputs)] for each in rows]
-        return _Curve(*found, np.asarray(swept.closed)[: len(inputs)])
+        point, slope, bend = (np.asarray(each, float)[: len(inputs)] for each in rows)
+        return _Curve(point, slope, bend, np.asarray(swept.closed)[: len(inputs)])
 
     return evaluate
 

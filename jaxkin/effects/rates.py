@@ -55,7 +55,7 @@ class Rates:
         return len(self.orders)
 
     @property
-    def displacements(self) -> Rows:
+    def displacements(self) -> tuple[Float[Array, "poses _"], ...]:
         """Rates of the displacements of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
         return self.orders[-1]
 
@@ -214,10 +214,11 @@ def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
     for name in given_rates:
         if name not in motion.inputs:
             raise ValueError(f"{name!r} is not driven in this motion{nearest(name, motion.inputs)}")
-    return {
-        name: given_rates[name].astype(values.dtype) if name in given_rates else np.zeros(values.shape, values.dtype)
-        for name, values in motion.inputs.items()
-    }
+    found: Inputs = {}
+    for name, values in motion.inputs.items():
+        known = name in given_rates
+        found[name] = given_rates[name].astype(values.dtype) if known else np.zeros(values.shape, values.dtype)
+    return found
 
 
 def _known(motion: Motion, part: str) -> str:

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin.linkage.joint_motion import Displacements
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.range.known_poses import known_displacements
 from jaxkin.solve.status import Status
@@ -26,8 +26,8 @@ from jaxkin.solve.system.loop_system import LoopSystem
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-Inputs = dict[str, Float[Array, " poses"]]
-Follow = Callable[[Inputs], Displacements]
+Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
+Follow = Callable[[Inputs], tuple[Float[Array, "poses _"], ...]]
 
 
 class KnownElement(NamedTuple):

@@ -289,7 +289,7 @@ class _Joint(NamedTuple):
         if not self.screws:
             return rows
         inverse = self.inverse if rows.ndim == 2 else self.inverse[:, :, None]
-        return sum(inverse[:, k] * rows[k] for k in range(len(self.screws)))
+        return jnp.sum(inverse * rows[None], axis=1)
 
     def at_point(self, wrench: Wrenches) -> Wrenches:
         """The wrench about the point of the joint."""

@@ -133,11 +133,11 @@ def drive_forces(
     check(motion, acting)
     mechanism = motion.mechanism
     drive, known = known_motion(motion)
-    rates = given_rates(motion, acting)
-    found = changes(drive, known, motion.inputs, rates)
+    speeds = given_rates(motion, acting)
+    found = changes(drive, known, motion.inputs, speeds)
     moving, acts = acting_on(mechanism.unit, False, mechanism.linkage, found, weights(acting))
     forces, powers = _forces(
-        drive, mechanism.unit, mechanism.linkage, known.status, moving, acts, found.along, rates and rates[0]
+        drive, mechanism.unit, mechanism.linkage, known.status, moving, acts, found.along, speeds and speeds[0]
     )
     return DriveForces(motion, forces, powers)
 

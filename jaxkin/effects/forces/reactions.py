@@ -157,9 +157,9 @@ def reactions(
     check(motion, acting)
     mechanism = motion.mechanism
     drive, known = known_motion(motion)
-    rates = given_rates(motion, acting)
+    speeds = given_rates(motion, acting)
     # at rest nothing is differentiated
-    found = unmoved(drive, known, motion.inputs) if rates is None else changes(drive, known, motion.inputs, rates)
+    found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
     moving, acts = acting_on(mechanism.unit, True, mechanism.linkage, found, weights(acting))
     places, forces, torques, drives, held = _balanced(
         drive, mechanism.unit, mechanism.linkage, known.status, moving, acts

@@ -20,7 +20,7 @@ from jaxkin.geometry.movements import MOVEMENTS, displaced_columns, is_length
 from jaxkin.geometry.rigid import Rigid, as_rigid, inverse, product
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.joints.joint import Joint
-from jaxkin.linkage.joint_motion import Displacements, joint_motion
+from jaxkin.linkage.joint_motion import joint_motion
 from jaxkin.linkage.linkage import Linkage
 
 Twist = Float[Array, "6 poses"]
@@ -91,10 +91,10 @@ class Places(NamedTuple):
         if part not in self.parts:
             return self.scale.arm(at[:, None])
         own = self.parts[part]
-        return self.scale.arm(sum(own[:, k] * at[k] for k in range(3)) + own[:, 3])
+        return self.scale.arm(turned(own, at) + own[:, 3])
 
 
-def places(linkage: Linkage, displacements: Displacements, chords: bool) -> Places:
+def places(linkage: Linkage, displacements: Sequence[Array], chords: bool) -> Places:
     """Place parts, and joints of the tree; with `chords` the other joints, too."""
     scale, parts, joints = Scale.of(linkage), {}, {}
     still = as_rigid(jnp.eye(4))
@@ -191,6 +191,11 @@ def cross(one: Float[Array, "3 _"], other: Float[Array, "3 _"]) -> Float[Array, 
     """The cross product pose by pose; either may have a last axis of one."""
     (a, b, c), (x, y, z) = one, other
     return jnp.stack([b * z - c * y, c * x - a * z, a * y - b * x])
+
+
+def turned(rotation: Float[Array, "3 _ _"], vector: Float[Array, "3 ..."]) -> Float[Array, "3 _"]:
+    """Rotate a vector by the first three columns of a matrix, pose by pose."""
+    return rotation[:, 0] * vector[0] + rotation[:, 1] * vector[1] + rotation[:, 2] * vector[2]
 
 
 def wrench_at(arm: Float[Array, "3 _"], force: Float[Array, "3 _"]) -> Float[Array, "6 _"]:

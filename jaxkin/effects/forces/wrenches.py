@@ -19,7 +19,7 @@ from jaxkin._traced import traced
 from jaxkin.effects.forces.changes import Changes, Rows
 from jaxkin.effects.forces.given import Applied, Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.forces.screws import Places, Twist, cross, places, twists_of_parts, velocity_at, wrench_at
+from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, twists_of_parts, velocity_at, wrench_at
 from jaxkin.effects.rates import tangents_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
@@ -127,9 +127,7 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
 
     def carried(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
         """R I R^T times a vector."""
-        own = sum(rotation[k] * vector[k] for k in range(3))
-        own = sum(inertia[:, k, None] * own[k] for k in range(3))
-        return sum(rotation[:, k] * own[k] for k in range(3))
+        return turned(rotation, turned(inertia[..., None], turned(rotation.swapaxes(0, 1), vector)))
 
     torque = carried(change[:3]) + cross(turning, carried(turning))
     wrench = wrench_at(arm, force - mass * lever * acceleration)
@@ -231,7 +229,7 @@ def _on_parts(moving: Moving, load: Force | Torque | Spring, lever: Any):
     vector = _vector(load.vector)
     if load.turns and load.part in moving.at.parts:
         rotation = moving.at.parts[load.part][:, :3]
-        vector = sum(rotation[:, k] * vector[k] for k in range(3))
+        vector = turned(rotation, vector)
     if isinstance(load, Force):
         yield load.part, wrench_at(moving.at.point(load.part, load.point), vector)
     else:
