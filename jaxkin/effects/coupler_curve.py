@@ -143,8 +143,10 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     evaluate = _evaluation(motion, drive, part, at)
     axes, flat = _axes(points)
     extent = float(np.nanmax(np.ptp(points[closed], axis=0)))
-    cusps = _cusps(evaluate, inputs, closed)
-    crossings = _crossings(evaluate, axes, inputs, points, extent, cusps) if flat and extent > 0 else ()
+    # a motion may pass inputs several times, and rest at them; the curve is a function of the input
+    own, first = np.unique(inputs[closed], return_index=True)
+    cusps = _cusps(evaluate, own)
+    crossings = _crossings(evaluate, axes, own, points[closed][first], extent, cusps) if flat and extent > 0 else ()
     return CouplerCurve(part, drive, inputs, points, cusps, crossings, axes if flat else None)
 
 
@@ -188,15 +190,14 @@ def _axes(points: Float[np.ndarray, "poses 3"]) -> tuple[Float[np.ndarray, "2 3"
     return directions[:2], flat
 
 
-def _cusps(evaluate: Evaluate, inputs: np.ndarray, closed: np.ndarray) -> tuple[Cusp, ...]:
+def _cusps(evaluate: Evaluate, inputs: np.ndarray) -> tuple[Cusp, ...]:
     """Refine the least speeds of the point, and keep those that are zero."""
-    here = evaluate(inputs[closed])
-    own, speed = inputs[closed], np.sum(here.slope**2, axis=1)
+    speed = np.sum(evaluate(inputs).slope ** 2, axis=1)
     beside = np.pad(speed, 1, constant_values=np.inf)
-    at = own[(speed <= beside[:-2]) & (speed <= beside[2:])]
-    if not len(at) or speed.max() == 0:
+    at = inputs[(speed <= beside[:-2]) & (speed <= beside[2:])]
+    if len(inputs) < 2 or speed.max() == 0:
         return ()
-    step = np.abs(np.diff(own)).max()
+    step = np.diff(inputs).max()
     begun = at.copy()
     for _ in range(NEWTON_STEPS):
         found = evaluate(at)
@@ -225,7 +226,7 @@ def _crossings(
     pairs = _cut_steps(points @ axes.T)
     if not len(pairs):
         return ()
-    step = np.abs(np.diff(inputs)).max()
+    step = np.diff(inputs).max()
     one, other = inputs[pairs].T + 0.5 * np.diff(inputs)[pairs].T
     begun = np.stack([one, other])
     at = begun.copy()
@@ -268,8 +269,7 @@ def _cut_steps(points: Float[np.ndarray, "poses 2"]) -> np.ndarray:
 
     for first in range(0, len(a), BLOCK):
         p, q = a[first : first + BLOCK, None], b[first : first + BLOCK, None]
-        with np.errstate(invalid="ignore"):  # poses that are not closed
-            cut = (side(p, q, a) * side(p, q, b) <= 0) & (side(a, b, p) * side(a, b, q) <= 0)
+        cut = (side(p, q, a) * side(p, q, b) <= 0) & (side(a, b, p) * side(a, b, q) <= 0)
         rows, columns = np.nonzero(cut)
         rows = rows + first
         later = columns > rows + 1
