@@ -58,9 +58,10 @@ def on_ball():
 
 
 WAY = np.linspace(0.1, 0.9, 7)
+SHORT = {"ground": 40.0, "crank": 20.0, "coupler": 25.0, "rocker": 30.0}
 CASES = {
     "four-bar": (mechanisms.planar_fourbar, {"A": WAY}),
-    "four-bar that does not turn": (lambda: mechanisms.planar_fourbar(1.0, 40.0, 20.0, 25.0, 30.0), {"A": 6 * WAY}),
+    "four-bar that does not turn": (lambda: mechanisms.planar_fourbar(1.0, **SHORT), {"A": 6 * WAY}),
     "RSSR": (mechanisms.rssr_linkage, {"A": WAY}),
     "Bennett": (mechanisms.bennett_linkage, {"A": WAY}),
     "Cardan": (mechanisms.cardan_shafts, {"in": WAY}),
