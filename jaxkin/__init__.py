@@ -29,6 +29,8 @@ from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
+from jaxkin.effects.coupler_curve import CouplerCurve as CouplerCurve
+from jaxkin.effects.coupler_curve import coupler_curve as coupler_curve
 from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium

@@ -1,50 +1,69 @@
-"""Velocities, accelerations and jerks: derivatives of the sweep along its drive, nested forward."""
+"""Velocities, accelerations and jerks: derivatives of a motion along its drive, nested forward."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import dtypes
 from jaxtyping import Array, Bool, Float
 
 from jaxkin._names import by_name, nearest
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
+from jaxkin.linkage.joint_motion import transforms
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
-from jaxkin.solve.options import SolverOptions, options_with
+from jaxkin.mechanism.sweep import nan_where_not_finite
+from jaxkin.solve.execution.programs import whole_program
 from jaxkin.solve.status import Status
+from jaxkin.topology.structure import Structure
 
-Inputs = dict[str, Float[Array, " poses"]]
 NAMES = {1: "Velocities", 2: "Accelerations", 3: "Jerks"}
 """By the order of the derivative with respect to time."""
+
+
+Rows = tuple[Float[Array, "poses _"], ...]
+"""For each joint of `mechanism.joints` the rates of its displacements, radians or lengths per time."""
 
 
 @dataclass(frozen=True, eq=False)
 class Rates:
     """Derivatives of a motion with respect to time, of one order. A pytree; every array has the poses first.
 
-    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which.
+    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. Those of parts
+    are computed when they are asked for.
     """
 
     motion: Motion
     inputs: Inputs
     """The given rates of the driven displacements."""
-    displacements: tuple[Float[Array, "poses _"], ...]
-    """Rates of the displacements of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
-    matrices: tuple[Float[Array, "poses 4 4"], ...]
-    """Rates of the transforms of all parts, in the order of `mechanism.parts`."""
-    lower: tuple[tuple[Float[Array, "poses 4 4"], ...], ...] = ()
-    """The same of lower orders, velocities first: those of jerks, whose angular part needs them."""
-    order: int = 1
-    """1 for velocities, 2 for accelerations, 3 for jerks."""
+    orders: tuple[Rows, ...]
+    """Rates of the displacements of all joints: velocities first, those of this order last."""
+
+    @property
+    def order(self) -> int:
+        """1 for velocities, 2 for accelerations, 3 for jerks."""
+        return len(self.orders)
+
+    @property
+    def displacements(self) -> tuple[Float[Array, "poses _"], ...]:
+        """Rates of the displacements of all joints, in the order of `mechanism.joints`: radians or lengths per time."""
+        return self.orders[-1]
+
+    @cached_property
+    def matrices(self) -> tuple[tuple[Float[Array, "poses 4 4"], ...], ...]:
+        """Derivatives of the transforms of all parts, in the order of `mechanism.parts`: those by order."""
+        linkage = self.motion.mechanism.linkage
+        return _of_parts(linkage.structure, linkage.joints, (self.motion.displacements, *self.orders))
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
@@ -59,7 +78,7 @@ class Rates:
     @cached_property
     def transforms(self) -> Mapping[str, Float[Array, "poses 4 4"]]:
         """The derivative of the displacement matrix of each part."""
-        return dict(zip(self.motion.mechanism.parts, self.matrices, strict=True))
+        return dict(zip(self.motion.mechanism.parts, self.matrices[-1], strict=True))
 
     def __str__(self) -> str:
         """A line a coordinate: its least and its greatest rate, and where."""
@@ -108,54 +127,35 @@ class Rates:
             )
 
         # the second derivative of R times R^T is [alpha] + [omega]^2, of which the skew part is [alpha]
-        found = skew_part(self.matrices[number])
-        if not self.lower:
+        *lower, found = (skew_part(matrices[number]) for matrices in self.matrices)
+        if len(lower) < 2:
             return found
         # the third one is [rate of alpha] + 2 [alpha][omega] + [omega][alpha] + [omega]^3
-        omega, alpha = (skew_part(matrices[number]) for matrices in self.lower)
+        omega, alpha = lower
         square = jnp.sum(omega**2, axis=1, keepdims=True)
         return found - 0.5 * jnp.cross(alpha, omega) + square * omega
 
 
-jax.tree_util.register_dataclass(
-    Rates, data_fields=["motion", "inputs", "displacements", "matrices", "lower"], meta_fields=["order"]
-)
+jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "orders"], meta_fields=[])
 
 
-def velocities(motion: Motion, rates: Mapping[str, Any], *, options: SolverOptions | None = None) -> Rates:
+def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
     """Velocities of all joints and parts in every pose of a motion, for given rates of its driven displacements.
 
     `rates` maps a driven "joint" or "joint.coordinate" to one number or one a pose, in radians or lengths per time;
-    driven coordinates that it does not name are at rest. Poses are found anew with `options`, by default those of the
-    motion. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a name that is not driven and for arrays of
-    another length.
+    driven coordinates that it does not name are at rest. They follow from the poses of the motion, which are not found
+    anew: J q' = 0 in all loops, of least norm where that leaves freedoms. Works inside `jit`, `vmap` and `grad`. Raises
+    ValueError for a name that is not driven and for arrays of another length.
     """
-    tangents = tangents_of(motion, rates)
-    place = placing(motion, options)
-    found = jax.jvp(place, (motion.inputs,), (tangents,))[1]
-    return Rates(motion, tangents, *_nan_where_nonfinite(motion, found, tangents))
+    return _rates(motion, tangents_of(motion, rates))
 
 
-def accelerations(
-    motion: Motion,
-    rates: Mapping[str, Any],
-    accelerations: Mapping[str, Any] | None = None,
-    *,
-    options: SolverOptions | None = None,
-) -> Rates:
+def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
     """Accelerations, for given rates and accelerations (none: constant rates) of the driven displacements.
 
     As `velocities`; second derivatives with respect to time.
     """
-    first = tangents_of(motion, rates)
-    second = tangents_of(motion, accelerations or {})
-    place = placing(motion, options)
-
-    def velocity(inputs: Inputs, tangents: Inputs):
-        return jax.jvp(place, (inputs,), (tangents,))[1]
-
-    found = jax.jvp(velocity, (motion.inputs, first), (first, second))[1]
-    return Rates(motion, second, *_nan_where_nonfinite(motion, found, first, second), order=2)
+    return _rates(motion, tangents_of(motion, rates), tangents_of(motion, accelerations or {}))
 
 
 def jerks(
@@ -163,45 +163,35 @@ def jerks(
     rates: Mapping[str, Any],
     accelerations: Mapping[str, Any] | None = None,
     jerks: Mapping[str, Any] | None = None,
-    *,
-    options: SolverOptions | None = None,
 ) -> Rates:
     """Jerks, for given rates, accelerations and jerks (none: zero) of the driven displacements.
 
     As `velocities`; third derivatives with respect to time.
     """
-    first, second, third = (tangents_of(motion, given or {}) for given in (rates, accelerations, jerks))
-    place = placing(motion, options)
-
-    def velocity(inputs: Inputs, tangents: Inputs):
-        return jax.jvp(place, (inputs,), (tangents,))[1]
-
-    def acceleration(inputs: Inputs, tangents: Inputs, changes: Inputs):
-        return jax.jvp(velocity, (inputs, tangents), (tangents, changes))[1]
-
-    found = jax.jvp(acceleration, (motion.inputs, first, second), (first, second, third))[1]
-    displacements, matrices = _nan_where_nonfinite(motion, found, first, second, third)
-    lower = (velocity(motion.inputs, first)[1], acceleration(motion.inputs, first, second)[1])
-    return Rates(motion, third, displacements, matrices, _nan_where_nonfinite(motion, lower, first, second), order=3)
+    return _rates(motion, *(tangents_of(motion, given or {}) for given in (rates, accelerations, jerks)))
 
 
-def placing(motion: Motion, options: SolverOptions | None) -> Callable[[Inputs], tuple]:
-    """The function from inputs to displacements of all joints and transforms of all parts, which is differentiated."""
-    options = options_with(options if options is not None else motion.options)
-
-    def place(inputs: Inputs):
-        found = sweep(motion.mechanism, inputs, options=options)
-        return found.displacements, tuple(found.transforms.values())
-
-    return place
+def _rates(motion: Motion, *given: Inputs) -> Rates:
+    """Compute the rates of all joints, of as many orders as are given."""
+    return Rates(motion, given[-1], _of_joints(*known_motion(motion), (motion.inputs, *given)))
 
 
-def _nan_where_nonfinite(motion: Motion, found, *given: Inputs):
-    """Set rates to NaN at poses that are NONFINITE, which the sweep replaces by others, and where given rates are."""
-    finite = motion.status != Status.NONFINITE.value
-    for rate in jax.tree.leaves(given):
+@partial(whole_program, static=(0,))
+def _of_joints(drive: KnownDrive, known: KnownMotion, inputs: tuple[Inputs, ...]) -> tuple[Rows, ...]:
+    """Compute the rates of all joints by order; NaN at poses that are NONFINITE, and where given rates are."""
+    finite = known.status != Status.NONFINITE.value
+    for rate in jax.tree.leaves(inputs[1:]):
         finite &= jnp.isfinite(rate)
-    return nan_where_not_finite(found, finite)
+    return nan_where_not_finite(derivatives(follow(drive, known), inputs), finite)
+
+
+@partial(whole_program, static=(0,))
+def _of_parts(
+    structure: Structure, joints: tuple[Joint, ...], orders: tuple[Rows, ...]
+) -> tuple[tuple[Float[Array, "poses 4 4"], ...], ...]:
+    """Differentiate the transforms of all parts, by order; NaN where the rate of any joint is."""
+    finite = jnp.all(jnp.stack([jnp.all(jnp.isfinite(rows), axis=1) for rows in orders[-1]]), axis=0)
+    return nan_where_not_finite(derivatives(partial(transforms, structure, joints), orders), finite)
 
 
 def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
@@ -210,22 +200,25 @@ def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
         raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     given = {}
     for key, rate in by_name(rates, "rates", f"{{{next(iter(motion.inputs))!r}: 1.0}}").items():
-        value = rate if isinstance(rate, jax.Array) else np.asarray(rate, float)
+        value = rate if isinstance(rate, jax.Array) else np.asarray(rate, dtypes.canonicalize_dtype(float))
         if value.ndim > 1 or (value.ndim == 1 and len(value) != len(motion)):
             raise ValueError(
                 f"the rate of {key!r} must be one number or one for each of the {len(motion)} poses, got shape "
                 f"{tuple(value.shape)}"
             )
-        given[key] = jnp.broadcast_to(jnp.asarray(value, float), len(motion))
+        # numbers of the host stay there: to make an array of the device takes longer
+        xp = jnp if isinstance(value, jax.Array) else np
+        given[key] = xp.broadcast_to(value.astype(dtypes.canonicalize_dtype(float)), len(motion))
     driven = resolve(motion.mechanism.linkage, given) if given else {}
-    given_rates = {name: jnp.asarray(entry.values) for name, entry in driven.items()}
+    given_rates = {name: entry.values for name, entry in driven.items()}
     for name in given_rates:
         if name not in motion.inputs:
             raise ValueError(f"{name!r} is not driven in this motion{nearest(name, motion.inputs)}")
-    return {
-        name: given_rates.get(name, jnp.zeros_like(values)).astype(values.dtype)
-        for name, values in motion.inputs.items()
-    }
+    found: Inputs = {}
+    for name, values in motion.inputs.items():
+        known = name in given_rates
+        found[name] = given_rates[name].astype(values.dtype) if known else np.zeros(values.shape, values.dtype)
+    return found
 
 
 def _known(motion: Motion, part: str) -> str:

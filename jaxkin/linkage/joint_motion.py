@@ -31,11 +31,11 @@ def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Flo
     """
     poses = displacements[0].shape[0]
     if not 0 < poses <= MAX_PADDED_POSES or traced((linkage, displacements)) or _on_several_devices(displacements):
-        return _transforms(linkage.structure, linkage.joints, displacements)
+        return transforms(linkage.structure, linkage.joints, displacements)
     length = 2 ** max(5, (poses - 1).bit_length())
     # on the host: there it costs a copy, not a program for every length
     padded = tuple(np.pad(np.asarray(q), ((0, length - poses), (0, 0)), mode="edge") for q in displacements)
-    found = _transforms(linkage.structure, linkage.joints, padded)
+    found = transforms(linkage.structure, linkage.joints, padded)
     return tuple(jnp.asarray(np.asarray(each)[:poses]) for each in found)
 
 
@@ -44,20 +44,30 @@ def _on_several_devices(displacements: Displacements) -> bool:
 
 
 @partial(jax.jit, static_argnums=0)
-def _transforms(
+def transforms(
     structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
 ) -> tuple[Float[Array, "poses 4 4"], ...]:
-    """Compute the displacements of all parts along the tree from the fixed parts: P_child = P_parent J, or P_parent
-    J^-1 where the tree passes the joint from part 2 to part 1."""
+    """Compute the displacements of all parts, as `part_transforms`, in a program for their number of poses."""
     poses, dtype = displacements[0].shape[0], displacements[0].dtype
-    found: dict[str, Rigid] = {}  # without the fixed parts
+    found = moving_parts(structure, joints, displacements)
+    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
+    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
+
+
+def moving_parts(
+    structure: Structure, joints: tuple[Joint, ...], displacements: tuple[Float[Array, "poses _"], ...]
+) -> dict[str, Rigid]:
+    """Compute the displacements of all parts that are not fixed along the tree from the fixed parts.
+
+    P_child = P_parent J, or P_parent J^-1 where the tree passes the joint from part 2 to part 1.
+    """
+    found: dict[str, Rigid] = {}
     for part, parent, joint, sign in structure.tree:
         moved = joint_motion(joints[joint], displacements[joint])
         moved = moved if sign > 0 else inverse(moved)
         # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
         found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
-    still = jnp.broadcast_to(jnp.eye(4, dtype=dtype), (poses, 4, 4))
-    return tuple(as_matrices(found[part]) if part in found else still for part in structure.part_names)
+    return found
 
 
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:

@@ -1,18 +1,20 @@
 """The balance of all parts by the forces of their joints, of least norm, in every pose.
 
+Along a tree from the fixed parts, each joint carries all that acts on the parts behind it. What the other joints, the
+chords, carry is unknown: six numbers each, as many as a loop has equations. So the wrench of each joint is
+w = w_0 + sum of +-x_c over the chords c, and every part is in balance for any x.
+
 A joint transmits any wrench but along its freedoms: with the unit twists S of its free coordinates, S^T w = t, where t
-is the load in these coordinates (springs, couplings; zero of a plain hinge). Driven coordinates count as not free: what
-is transmitted there is the drive force. So w = S (S^T S)^-1 t + P u with P = 1 - S (S^T S)^-1 S^T, for any u.
+is the load in these coordinates: that of springs, and the derivatives g of couplings times their forces f; zero of a
+plain hinge. Driven coordinates count as not free: what is transmitted there is the drive force. Of all x and f that
+satisfy these equations, those of least norm minimise
 
-Each part must be in balance. Among all u that achieve this the one of least norm is P X^T y, where X^T y are relative
-small displacements of the parts of a joint, and y solves the symmetric system
+    sum over joints of |P w|^2 + sum over couplings of f^2,    P = 1 - S (S^T S)^-1 S^T,
 
-    (sum over joints of X P X^T + sum over couplings of v v^T) y = -(all that acts).
-
-These are the forces of joints of equal stiffness: X P X^T is the stiffness of a joint. Rows are forces about the middle
-of the mechanism, torques over its size, six for each part that moves. A freedom that nothing drives makes the system
-singular. Its parts are held in the free coordinates of their joints, by a stiffness so small that it changes nothing
-else, and refinement removes the rest of its error: where such a freedom is in balance by itself that takes no force.
+where |P w| is taken about the point of the joint, torques over the size of the mechanism. These are the forces of
+joints of equal stiffness. The equations are enforced by a penalty and by multipliers (the augmented Lagrangian), with
+one factorisation of a positive definite matrix. A freedom that nothing drives may leave no x that satisfies them: then
+what violates them least, which is what would hold the freedom.
 """
 
 from __future__ import annotations
@@ -20,216 +22,346 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.effects.forces.screws import joint_screws, pulls_of, purified
-from jaxkin.geometry.movements import is_length
+from jaxkin.effects.forces.changes import Rows
+from jaxkin.effects.forces.screws import Places, Scale, Twist, cross, velocity_at
+from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.linear.ldl import factor_ldl
+from jaxkin.solve.linear.least_norm import factor_positive_definite
+from jaxkin.solve.range.poses import in_groups
 
-HOLD = 10.0
-"""Stiffness of the free coordinates over that of the others, in square roots of rounding: 1.5e-7 in float64. Less would
-leave fewer digits to what holds an undriven freedom, more to all else."""
-REFINEMENTS = 3
-"""Steps that remove the error of that stiffness: each by its ratio to the smallest eigenvalue of the balance, which is
-1e-3 or so away from singular poses."""
+PENALTY = 0.1
+"""Penalty of the equations over the norm, in one over square roots of rounding: 6.7e6 in float64. More would leave
+fewer digits to what is free, less would need more steps."""
+STEPS = 3
+"""Steps of the multipliers: each leaves of the error its ratio to the smallest eigenvalue of the balance times the
+penalty, which is 1e-4 or less away from singular poses."""
+DEPENDENT = 1e4
+"""What is added to S^T S, in units of rounding times its mean square, where coordinates of a joint may depend on each
+other."""
 
-Wrenches = Float[Array, "poses 6"]
-"""Torque over the size of the mechanism, then force: newtons."""
+GROUP = 512
+"""Poses that are solved at once: the matrices of so many stay in the cache."""
+
+Wrenches = Float[Array, "6 poses"]
+"""Torque over the size of the mechanism, then force: newtons. In this module about the middle of the mechanism."""
+
+
+class Tree(NamedTuple):
+    """How wrenches go through the joints (static): see `tree_of`."""
+
+    chords: tuple[int, ...]
+    """The joints that are not in the tree."""
+    shares: tuple[tuple[int, ...], ...]
+    """For each joint and chord by which sign the wrench of the chord goes through the joint: -1, 0 or 1."""
 
 
 class Balance(NamedTuple):
-    """The system of one motion: what each joint transmits, where, and how the parts are tied by it."""
+    """The joints in each pose: where they are, and what they let through."""
 
-    size: Float[Array, ""]
-    """Size of the mechanism, in its unit: the lever arm by which torques are divided."""
-    places: tuple[Float[Array, "poses 3"], ...]
-    """The point of each joint: the origin of its last frame, on part 2."""
-    screws: tuple[Float[Array, "poses 6 _"], ...]
-    """Unit twists of the coordinates of each joint about its point: angular, then linear velocity over the size."""
-    pulls: tuple[dict[int, Float[Array, "poses 6"]], ...]
-    """For each joint and free coordinate the wrench of a unit load in it: a column of S (S^T S)^-1."""
-    projectors: tuple[Float[Array, "poses 6 6"], ...]
-    """P of each joint."""
-    levers: tuple[Float[Array, "poses 6 6"], ...]
-    """X of each joint: from its point to the middle of the mechanism."""
+    scale: Scale | None
+    """None where the balance is solved, which needs none."""
+    arms: tuple[Float[Array, "3 poses"], ...]
+    """The point of each joint, the origin of its last frame on part 2: from the middle, over the size."""
+    screws: tuple[tuple[Twist, ...], ...]
+    """Unit twists of the coordinates of each joint. The angles of a ball without a drive are replaced by turns about
+    the axes of the world, which allow the same at every angle."""
     gradients: tuple[dict[tuple[int, int], Float[Array, " poses"]], ...]
     """For each coupling its derivatives by (joint, coordinate), lengths over the size."""
-    ties: tuple[dict[int, Float[Array, "poses 6"]], ...]
-    """For each coupling and joint the wrench S (S^T S)^-1 g of a unit of its force, g its derivatives."""
 
 
-def size_and_middle(linkage: Linkage) -> tuple[Float[Array, ""], Float[Array, "3"]]:
-    """Root mean square distance of the joints from their middle (1 where it is zero), and the middle."""
-    origins = jnp.concatenate([jnp.asarray(joint.frames_1, float)[:, :3, 3] for joint in linkage.joints])
-    middle = jnp.mean(origins, axis=0)
-    square = jnp.mean(jnp.sum((origins - middle) ** 2, axis=1))
-    return jnp.where(square > 0, jnp.sqrt(jnp.where(square > 0, square, 1.0)), 1.0), middle
+def balance(linkage: Linkage, at: Places, displacements: Rows, driven: Sequence[tuple[int, int]]) -> Balance:
+    """Find the joints in each pose, all of which have been placed; `driven` are (joint, coordinate)."""
+    arms = tuple(at.joints[number].point for number in range(len(linkage.joints)))
+    screws = []
+    for number, joint in enumerate(linkage.joints):
+        own = at.joints[number].coordinates(joint)
+        for first in _free_balls(joint, [k for k in range(joint.freedoms) if (number, k) in driven]):
+            for k, axis in enumerate(np.eye(3)):
+                turning = jnp.broadcast_to(jnp.asarray(axis)[:, None], arms[number].shape)
+                own[first + k] = jnp.concatenate([turning, cross(arms[number], turning)])
+        screws.append(tuple(own))
+    return Balance(at.scale, arms, tuple(screws), tuple(coupling_gradients(linkage, displacements, at.scale.size)))
 
 
-def balance(motion: Motion) -> Balance:
-    """Set up the system for all poses of a motion."""
-    linkage = motion.mechanism.linkage
-    size, middle = size_and_middle(linkage)
-    driven = driven_coordinates(motion)
-    gradients = coupling_gradients(motion, size)
-    places, screws, pulls, projectors, levers = [], [], [], [], []
-    for number, (joint, q) in enumerate(zip(linkage.joints, motion.displacements, strict=True)):
-        own = [k for k in range(joint.freedoms) if (number, k) in driven]
-        free = [k for k in range(joint.freedoms) if k not in own]
-        place, every = joint_screws(joint, q, motion.transforms[joint.parts[0]], size, own)
-        loose = every[:, :, np.array(free, int)]
-        pulled = pulls_of(loose)
-        places.append(place)
-        screws.append(every)
-        pulls.append({k: pulled[:, :, column] for column, k in enumerate(free)})
-        projectors.append(purified(jnp.eye(6) - jnp.einsum("pij,pkj->pik", pulled, loose)))
-        levers.append(_lever((place - middle) / size))
-    ties: list[dict[int, Array]] = [{} for _ in gradients]
-    for tie, gradient in zip(ties, gradients, strict=True):
-        for (number, k), slope in gradient.items():
-            if k in pulls[number]:
-                tie[number] = tie.get(number, 0.0) + slope[:, None] * pulls[number][k]
-    joints = (tuple(places), tuple(screws), tuple(pulls), tuple(projectors), tuple(levers))
-    return Balance(size, *joints, tuple(gradients), tuple(ties))
-
-
-def driven_coordinates(motion: Motion) -> dict[tuple[int, int], str]:
-    """Name of each driven coordinate, by joint and coordinate."""
-    found = {}
-    for name in motion.inputs:
-        joint, _, own = name.rpartition(".")
-        number = list(motion.mechanism.joints).index(joint)
-        found[number, motion.mechanism.all_joints[number].coordinates.index(own)] = name
+def _free_balls(joint: Joint, driven: Sequence[int]) -> list[int]:
+    """The first coordinate of each ball at the end of a joint that has no drive."""
+    first, found = 0, []
+    for place, movement in enumerate(joint.movements):
+        # further ones are not at the point of the joint: their angles stay
+        if MOVEMENTS[movement].ball and first not in driven and place == len(joint.movements) - 1:
+            found.append(first)
+        first += len(MOVEMENTS[movement].coordinates)
     return found
 
 
-def coupling_gradients(motion: Motion, size: Any) -> list[dict[tuple[int, int], Float[Array, " poses"]]]:
+def coupling_gradients(linkage: Linkage, displacements: Sequence[Array], size: Any) -> list[dict[Any, Array]]:
     """Derivative of each coupling by its coordinates, with lengths over the size."""
     found = []
-    joints = list(motion.mechanism.joints)
-    for coupling in motion.mechanism.linkage.couplings:
+    for coupling in linkage.couplings:
         rows = {}
         for name, factors in zip(coupling.coordinates, jnp.asarray(coupling.coefficients, float), strict=True):
-            joint, _, own = name.rpartition(".")
-            number = joints.index(joint)
-            index = motion.mechanism.all_joints[number].coordinates.index(own)
-            q = motion.displacements[number][:, index]
+            number, index = coordinate(linkage, name)
+            q = displacements[number][:, index]
             slope = sum(power * factor * q ** (power - 1) for power, factor in enumerate(factors, start=1))
-            rows[number, index] = slope * (size if is_length(own) else 1.0)
+            rows[number, index] = slope * (size if is_length(linkage.joints[number].coordinates[index]) else 1.0)
         found.append(rows)
     return found
 
 
-def _lever(arm: Float[Array, "poses 3"]) -> Float[Array, "poses 6 6"]:
-    """The matrix that takes a wrench at a point to the origin of the arm: its torque grows by arm cross force."""
-    x, y, z = arm.T
-    none = jnp.zeros_like(x)
-    cross = jnp.stack([none, -z, y, z, none, -x, -y, x, none], axis=1).reshape(-1, 3, 3)
-    one = jnp.broadcast_to(jnp.eye(3), cross.shape)
-    return jnp.concatenate(
-        [jnp.concatenate([one, cross], axis=2), jnp.concatenate([jnp.zeros_like(cross), one], axis=2)], axis=1
-    )
+def tree_of(linkage: Linkage) -> Tree:
+    """Find the chords of the tree that places the parts, and through which joints their wrenches go."""
+    inside = {joint: (part, sign) for part, _, joint, sign in linkage.structure.tree}
+    parent = {part: before for part, before, _, _ in linkage.structure.tree}
+    chords = tuple(number for number in range(len(linkage.joints)) if number not in inside)
+
+    def ancestry(part: str) -> set[str]:
+        return {part, *(ancestry(parent[part]) if part in parent else ())}
+
+    shares = []
+    for number in range(len(linkage.joints)):
+        if number not in inside:
+            shares.append(tuple(int(number == chord) for chord in chords))
+            continue
+        child, sign = inside[number]
+        own = []
+        for chord in chords:
+            one, other = (child in ancestry(part) for part in linkage.joints[chord].parts)
+            own.append(-sign * (int(other) - int(one)))
+        shares.append(tuple(own))
+    return Tree(chords, tuple(shares))
 
 
 class Transmitted(NamedTuple):
     """What joints and couplings transmit."""
 
     wrenches: tuple[Wrenches, ...]
-    """Of each joint at its point, by part 1 on part 2: all of it."""
-    held: tuple[Wrenches, ...]
-    """The share of it that holds freedoms which nothing drives."""
+    """Of each joint, by part 1 on part 2: all of it."""
+    held: tuple[Float[Array, "_ poses"], ...]
+    """For each joint the load in its coordinates that holds freedoms which nothing drives, over the size for angles."""
     couplings: tuple[Float[Array, " poses"], ...]
     """Force of each coupling, newtons: its derivatives times this are the loads in its coordinates."""
 
 
 def solve(
-    linkage: Linkage, found: Balance, acting: Float[Array, "poses parts 6"], loaded: dict[int, Wrenches]
+    linkage: Linkage,
+    found: Balance,
+    driven: Sequence[tuple[int, int]],
+    acting: dict[str, Wrenches],
+    loaded: dict[tuple[int, int], Float[Array, " poses"]],
 ) -> Transmitted:
     """Solve for what the joints transmit, of least norm.
 
-    `acting` is what acts on each part about the middle, `loaded` the wrenches of loads in free coordinates, by joint.
+    `acting` is what acts on each part about the middle, `loaded` are loads in free coordinates, newtons.
     """
-    rows = {part: row for row, part in enumerate(part for part in linkage.parts if part not in linkage.fixed)}
-    ends = [(rows.get(joint.parts[0]), rows.get(joint.parts[1])) for joint in linkage.joints]
-    poses, count = acting.shape[0], len(rows)
-
-    def onto(number: int, wrench: Any, target: Any) -> Any:
-        """Add the wrench of a joint at its point to its parts, opposite ones."""
-        about_middle = jnp.einsum("pij,pj->pi", found.levers[number], wrench)
-        for row, sign in zip(ends[number], (-1.0, 1.0), strict=True):
-            if row is not None:
-                target = target.at[:, row].add(sign * about_middle)
-        return target
-
-    def apart(number: int, y: Any) -> Any:
-        """Displacement of part 2 of a joint relative to part 1, at its point."""
-        moved = jnp.zeros((poses, 6))
-        for row, sign in zip(ends[number], (-1.0, 1.0), strict=True):
-            if row is not None:
-                moved = moved + sign * y.reshape(poses, count, 6)[:, row]
-        return jnp.einsum("pji,pj->pi", found.levers[number], moved)
-
-    right = -acting[:, np.array([linkage.parts.index(part) for part in rows], int)]
-    for number, wrench in loaded.items():
-        right = onto(number, -wrench, right)
-    columns = []
-    for tie in found.ties:
-        column = jnp.zeros((poses, count, 6))
-        for number, wrench in tie.items():
-            column = onto(number, wrench, column)
-        columns.append(column.reshape(poses, 6 * count))
-    matrix = _assembled(found.levers, found.projectors, ends, count)
-    free = _assembled(found.levers, [jnp.eye(6) - each for each in found.projectors], ends, count)
-    for column in columns:
-        matrix = matrix + column[:, :, None] * column[:, None, :]
-    hold = HOLD * float(jnp.finfo(matrix.dtype).eps) ** 0.5
-    y, last = _solve_held(matrix, hold * free, right.reshape(poses, 6 * count))
-    strengths = tuple(jnp.einsum("pi,pi->p", column, y) for column in columns)
-    wrenches, held = [], []
-    for number, projector in enumerate(found.projectors):
-        moved = hold * apart(number, last)
-        held.append(moved - jnp.einsum("pij,pj->pi", projector, moved))
-        wrench = jnp.einsum("pij,pj->pi", projector, apart(number, y)) + held[-1] + loaded.get(number, 0.0)
-        for tie, strength in zip(found.ties, strengths, strict=True):
-            wrench = wrench + strength[:, None] * tie.get(number, 0.0)
-        wrenches.append(wrench)
-    return Transmitted(tuple(wrenches), tuple(held), strengths)
+    poses = found.arms[0].shape[1]
+    acting = {part: jnp.broadcast_to(wrench, (6, poses)) for part, wrench in acting.items()}
+    loaded = {at: jnp.broadcast_to(load, (poses,)) for at, load in loaded.items()}
+    given = found._replace(scale=None), acting, loaded
+    return in_groups(lambda group: _solve(linkage, driven, *group), given, GROUP)
 
 
-def _assembled(
-    levers: Sequence[Array], projectors: Sequence[Array], ends: Sequence[tuple[int | None, int | None]], count: int
-) -> Float[Array, "poses n n"]:
-    """The sum over joints of X P X^T, as the stiffness of all parts."""
-    poses = levers[0].shape[0]
-    matrix = jnp.zeros((poses, count, count, 6, 6))
-    for lever, projector, pair in zip(levers, projectors, ends, strict=True):
-        stiffness = jnp.einsum("pij,pjk,plk->pil", lever, projector, lever)
-        for row, sign in zip(pair, (-1.0, 1.0), strict=True):
-            for column, other in zip(pair, (-1.0, 1.0), strict=True):
-                if row is not None and column is not None:
-                    matrix = matrix.at[:, row, column].add(sign * other * stiffness)
-    return matrix.transpose(0, 1, 3, 2, 4).reshape(poses, 6 * count, 6 * count)
+def _solve(
+    linkage: Linkage,
+    driven: Sequence[tuple[int, int]],
+    found: Balance,
+    acting: dict[str, Wrenches],
+    loaded: dict[tuple[int, int], Float[Array, " poses"]],
+) -> Transmitted:
+    """Solve for a group of poses."""
+    tree, poses = tree_of(linkage), found.arms[0].shape[1]
+    free = [
+        [k for k in range(each.freedoms) if (number, k) not in driven] for number, each in enumerate(linkage.joints)
+    ]
+    joints = [_Joint.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
+    none = jnp.zeros(poses)
+    loads = [[loaded.get((number, k), none) for k in own] for number, own in enumerate(free)]
+    ties = [[[each.get((number, k), none) for k in own] for number, own in enumerate(free)] for each in found.gradients]
+    carried_by = carried(linkage, acting, poses)
+    count = 6 * len(tree.chords)
+    kappa = PENALTY / float(jnp.finfo(found.arms[0].dtype).eps) ** 0.5
+
+    chords = len(tree.chords)
+
+    def wrenches(z: Float[Array, "n poses"]) -> list[Wrenches]:
+        of_chords = z[:count].reshape(chords, 6, poses)
+        return [
+            carried_by.get(number, 0.0)
+            + sum((share * of_chords[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
+            for number, shares in enumerate(tree.shares)
+        ]
+
+    def missing(z: Float[Array, "n poses"], every: Sequence[Wrenches]) -> list[Float[Array, "_ poses"]]:
+        """S^T w - t - g f of each joint."""
+        forced = [
+            [sum((tie[number][k] * f for tie, f in zip(ties, z[count:], strict=True)), none) for k in range(len(own))]
+            for number, own in enumerate(free)
+        ]
+        return [
+            jnp.stack([a - b - c for a, b, c in zip(joint.along(w), load, force, strict=True)])
+            if load
+            else jnp.zeros((0, poses))
+            for joint, w, load, force in zip(joints, every, loads, forced, strict=True)
+        ]
+
+    def step(_: Any, given: Any) -> Any:
+        z, every, left, multipliers = given
+        pulls = [mu + kappa * joint.metric(r) for joint, mu, r in zip(joints, multipliers, left, strict=True)]
+        slopes = [joint.slope(w, pull) for joint, w, pull in zip(joints, every, pulls, strict=True)]
+        rows = [
+            sum((shares[c] * slope for shares, slope in zip(tree.shares, slopes, strict=True) if shares[c]), none)
+            for c in range(chords)
+        ]
+        for tie, f in zip(ties, z[count:], strict=True):
+            work = (g * p for own, pull in zip(tie, pulls, strict=True) for g, p in zip(own, pull, strict=True))
+            rows.append((f - sum(work, none))[None])
+        z = z - factored(jnp.concatenate(rows))
+        every = wrenches(z)
+        left = missing(z, every)
+        return (
+            z,
+            every,
+            left,
+            [mu + kappa * joint.metric(r) for joint, mu, r in zip(joints, multipliers, left, strict=True)],
+        )
+
+    z = jnp.zeros((count + len(ties), poses))
+    every = wrenches(z)
+    left = missing(z, every)
+    if len(z):
+        factored = factor_positive_definite(_matrix(tree, joints, ties, kappa, poses))
+        # a compiled loop, before which all else is computed once: XLA would compute it anew in every step
+        begun = z, every, left, [jnp.zeros((len(own), poses)) for own in free]
+        z, every, left, _ = lax.fori_loop(0, STEPS, step, begun)
+    held = []
+    for own, forces, joint in zip(free, left, linkage.joints, strict=True):
+        rows = [none] * joint.freedoms
+        for k, column in enumerate(own):
+            rows[column] = forces[k]
+        held.append(jnp.stack(rows) if rows else jnp.zeros((0, poses)))
+    return Transmitted(tuple(every), tuple(held), tuple(z[count:]))
 
 
-def _solve_held(
-    matrix: Float[Array, "poses n n"], held: Float[Array, "poses n n"], right: Float[Array, "poses n"]
-) -> tuple[Float[Array, "poses n"], Float[Array, "poses n"]]:
-    """Solve matrix y = right, semidefinite, with `held` added: (matrix + held) (y_k+1 - y_k) = right - matrix y_k.
+def carried(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, Wrenches]:
+    """What each joint of the tree carries, by part 1 on part 2, of all that acts behind it."""
+    none = jnp.zeros((6, poses))
+    behind = {part: acting.get(part, none) for part, *_ in linkage.structure.tree}
+    found = {}
+    for part, before, joint, sign in reversed(linkage.structure.tree):
+        found[joint] = -sign * behind[part]
+        if before in behind:
+            behind[before] = behind[before] + behind[part]
+    return found
 
-    Returns the last y, and the last step, by which `held` makes up for what the matrix cannot balance.
-    """
-    factor = jnp.linalg.cholesky(matrix + held)
 
-    def solved(rows: Array) -> Array:
-        below = jax.scipy.linalg.solve_triangular(factor, rows[..., None], lower=True)
-        return jax.scipy.linalg.solve_triangular(factor, below, lower=True, trans=1)[..., 0]
+class _Joint(NamedTuple):
+    """A joint in each pose: the norm of its wrenches, and what it lets through, about the middle of the mechanism."""
 
-    step = y = solved(right)
-    for _ in range(REFINEMENTS):
-        step = solved(right - jnp.einsum("pij,pj->pi", matrix, y))
-        y = y + step
-    return y, step
+    arm: Float[Array, "3 poses"]
+    screws: list[Twist]
+    """Unit twists of its free coordinates."""
+    inverse: Float[Array, "free free poses"]
+    """(S^T S)^-1."""
+
+    @staticmethod
+    def of(arm: Float[Array, "3 poses"], every: Sequence[Twist], free: Sequence[int]) -> _Joint:
+        own, poses = [every[k] for k in free], arm.shape[1]
+        if not own:
+            return _Joint(arm, [], jnp.zeros((0, 0, poses)))
+        # the norm is taken at the point of the joint
+        rows = jnp.stack([jnp.concatenate([s[:3], velocity_at(s, arm)]) for s in own])
+        unit = jnp.broadcast_to(jnp.eye(len(own))[..., None], (len(own), len(own), poses))
+        return _Joint(arm, own, factor_ldl(rows, DEPENDENT * float(jnp.finfo(arm.dtype).eps))(unit))
+
+    def along(self, wrench: Wrenches) -> list[Float[Array, " poses"]]:
+        """S^T w."""
+        return [jnp.sum(s * wrench, axis=0) for s in self.screws]
+
+    def metric(self, rows: Float[Array, "free *sides poses"]) -> Float[Array, "free *sides poses"]:
+        """(S^T S)^-1 times rows."""
+        if not self.screws:
+            return rows
+        inverse = self.inverse if rows.ndim == 2 else self.inverse[:, :, None]
+        return jnp.sum(inverse * rows[None], axis=1)
+
+    def at_point(self, wrench: Wrenches) -> Wrenches:
+        """The wrench about the point of the joint."""
+        return jnp.concatenate([wrench[:3] - cross(self.arm, wrench[3:]), wrench[3:]])
+
+    def slope(self, wrench: Wrenches, pull: Float[Array, "_ poses"]) -> Wrenches:
+        """Derivative of |P w|^2 / 2 by the wrench, and of the multipliers of S^T w."""
+        own = self.at_point(wrench)
+        found = jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
+        if not self.screws:
+            return found
+        weights = pull - self.metric(jnp.stack(self.along(wrench)))
+        return found + sum((weight * s for weight, s in zip(weights, self.screws, strict=True)), jnp.zeros_like(found))
+
+    def stiffness(self, kappa: float) -> Float[Array, "6 6 poses"]:
+        """Second derivative of |P w|^2 / 2, and of the penalty of S^T w."""
+        x, y, z = self.arm
+        none = jnp.zeros_like(x)
+        lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, -1)
+        eye = jnp.broadcast_to(jnp.eye(3)[..., None], lever.shape)
+        outer = (1 + jnp.sum(self.arm**2, axis=0)) * eye - self.arm[:, None] * self.arm[None]
+        norm = jnp.concatenate(
+            [jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)], axis=0
+        )
+        if not self.screws:
+            return norm
+        rows = jnp.stack(self.screws)
+        weighted = (kappa - 1) * self.metric(rows)
+        return norm + sum(s[:, None] * w[None] for s, w in zip(rows, weighted, strict=True))
+
+
+def _matrix(
+    tree: Tree, joints: Sequence[_Joint], ties: Sequence[Sequence[Sequence[Array]]], kappa: float, poses: int
+) -> Float[Array, "n n poses"]:
+    """The second derivative by all unknowns: wrenches of the chords, then forces of the couplings."""
+    stiff = [joint.stiffness(kappa) if any(own) else None for joint, own in zip(joints, tree.shares, strict=True)]
+    chords, none = len(tree.chords), jnp.zeros((6, 6, poses))
+    blocks: list[list[Any]] = []
+    for one in range(chords):
+        row = []
+        for other in range(chords):
+            parts = [
+                own[one] * own[other] * each
+                for own, each in zip(tree.shares, stiff, strict=True)
+                if each is not None and own[one] * own[other]
+            ]
+            row.append(sum(parts, none))
+        blocks.append(row)
+    found = jnp.concatenate([jnp.concatenate(row, axis=1) for row in blocks]) if blocks else jnp.zeros((0, 0, poses))
+    if not ties:
+        return found
+    # a coupling enters the equations of its coordinates by -g f
+    sides, own = [], []
+    for tie in ties:
+        weighted = [joint.metric(jnp.stack(g)) if g else None for joint, g in zip(joints, tie, strict=True)]
+        side = [jnp.zeros((6, poses))] * chords
+        for joint, weights, shares in zip(joints, weighted, tree.shares, strict=True):
+            if weights is not None:
+                along = sum(w * s for w, s in zip(weights, joint.screws, strict=True))
+                side = [x - kappa * share * along if share else x for x, share in zip(side, shares, strict=True)]
+        sides.append(jnp.concatenate(side) if side else jnp.zeros((0, poses)))
+        row = []
+        for number, other in enumerate(ties):
+            work = (
+                w * g
+                for each, gs in zip(weighted, other, strict=True)
+                if each is not None
+                for w, g in zip(each, gs, strict=True)
+            )
+            row.append(sum(work, jnp.zeros(poses)) * kappa + (1.0 if number == len(own) else 0.0))
+        own.append(jnp.stack(row))
+    across = jnp.stack(sides, axis=1)
+    return jnp.concatenate(
+        [jnp.concatenate([found, across], axis=1), jnp.concatenate([across.swapaxes(0, 1), jnp.stack(own)], axis=1)]
+    )

@@ -1,74 +1,66 @@
-"""How parts and joints move: derivatives of the sweep by each driven displacement, and by time."""
+"""How the joints move: derivatives of a motion by each driven displacement, and by time."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.effects.rates import placing, tangents_of
-from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow
+from jaxkin.solve.execution.programs import whole_program
 
-
-class Change(NamedTuple):
-    """A derivative of the sweep, of one order."""
-
-    displacements: tuple[Float[Array, "poses _"], ...]
-    """Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""
-    transforms: Float[Array, "poses parts 3 4"]
-    """Of the displacement matrices of all parts, in the order of `mechanism.parts`."""
+Rows = tuple[Float[Array, "poses _"], ...]
+"""Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""
 
 
 class Changes(NamedTuple):
-    """Derivatives of the sweep: for virtual work by each driven displacement, for motion by time."""
+    """A motion and its derivatives: for virtual work by each driven displacement, for motion by time."""
 
-    along: dict[str, Change]
+    displacements: Rows
+    along: dict[str, Rows]
     """First derivatives by each driven displacement, by its name."""
-    inputs: dict[str, Float[Array, " poses"]] | None = None
-    """The given rates, by name; None at rest."""
-    velocity: Change | None = None
-    acceleration: Change | None = None
+    velocity: Rows | None = None
+    """None at rest."""
+    acceleration: Rows | None = None
 
 
-def changes(motion: Motion, rates: Mapping[str, Any] | None, accelerations: Mapping[str, Any] | None) -> Changes:
-    """Differentiate the sweep by each input, and where rates are given also by time; ValueError as `jk.accelerations`.
+@partial(whole_program, static=(0,))
+def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[Inputs, Inputs] | None) -> Changes:
+    """Differentiate a motion by each input, and where rates are given also by time.
 
-    With u_i the inputs and T what they place, T' = sum of dT/du_i u_i', and T'' is the derivative of all dT/du_i along
-    the rates, times u_i', plus dT/du_i u_i''. So one pass yields all of them.
+    `rates` are first and second derivatives of the inputs. With u the one input and q what it moves, q' = dq/du u', and
+    q'' is the derivative of dq/du along u', times u', plus dq/du u'': one pass yields all of them.
     """
-    place = placing(motion, None)
-    names = list(motion.inputs)
+    names, place = list(inputs), follow(drive, known)
 
-    def placed(inputs: dict[str, Array]) -> Change:
-        displacements, transforms = place(inputs)
-        return Change(displacements, jnp.stack([each[:, :3] for each in transforms], axis=1))
-
-    def along(inputs: dict[str, Array]) -> dict[str, Change]:
-        def by(chosen: Any) -> Change:
+    def along(inputs: Inputs) -> tuple[Rows, dict[str, Rows]]:
+        def by(chosen: Any) -> tuple[Rows, Rows]:
             ones = {name: chosen[k] * jnp.ones_like(inputs[name]) for k, name in enumerate(names)}
-            return jax.jvp(placed, (inputs,), (ones,))[1]
+            return jax.jvp(place, (inputs,), (ones,))
 
         if len(names) == 1:
-            return {names[0]: by((1.0,))}
-        every = jax.vmap(by)(jnp.eye(len(names)))
-        return {name: jax.tree.map(lambda rows, k=k: rows[k], every) for k, name in enumerate(names)}
+            here, change = by((1.0,))
+            return here, {names[0]: change}
+        every = jax.vmap(lambda chosen: by(chosen)[1])(jnp.eye(len(names)))
+        return place(inputs), {name: tuple(rows[k] for rows in every) for k, name in enumerate(names)}
 
     if rates is None:
-        return Changes(along(motion.inputs))
-    first, second = tangents_of(motion, rates), tangents_of(motion, accelerations or {})
-    each, again = jax.jvp(along, (motion.inputs,), (first,))
-    velocity = [jax.tree.map(lambda rows, name=name: _times(rows, first[name]), each[name]) for name in names]
-    bent = [jax.tree.map(lambda rows, name=name: _times(rows, first[name]), again[name]) for name in names]
-    pushed = [jax.tree.map(lambda rows, name=name: _times(rows, second[name]), each[name]) for name in names]
-    return Changes(each, first, _sum(velocity), _sum(bent + pushed))
+        return Changes(*along(inputs))
+    first, second = rates
+    if len(names) > 1:
+        return Changes(*along(inputs), *derivatives(place, (inputs, first, second)))
+    (here, each), (_, again) = jax.jvp(along, (inputs,), (first,))
+    (name,) = names
+    once, twice = first[name][:, None], second[name][:, None]
+    velocity = tuple(rows * once for rows in each[name])
+    bent = tuple(rows * once + own * twice for rows, own in zip(again[name], each[name], strict=True))
+    return Changes(here, each, velocity, bent)
 
 
-def _times(rows: Array, factors: Float[Array, " poses"]) -> Array:
-    return rows * factors.reshape(len(factors), *[1] * (rows.ndim - 1))
-
-
-def _sum(every: list[Change]) -> Change:
-    return jax.tree.map(lambda *rows: sum(rows[1:], rows[0]), *every)
+@partial(whole_program, static=(0,))
+def unmoved(drive: KnownDrive, known: KnownMotion, inputs: Inputs) -> Changes:
+    """Take the poses of a motion alone, without derivatives by inputs and time."""
+    return Changes(follow(drive, known)(inputs), {})

@@ -1,23 +1,43 @@
-"""Forces and torques that a drive needs, by virtual work along the derivatives of the sweep."""
+"""Forces and torques that a drive needs, by virtual work along the derivatives of the motion."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
-from jaxkin.effects.forces.changes import Changes, changes
+from jaxkin.effects.forces.balance import carried
+from jaxkin.effects.forces.changes import Rows, changes
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed, units_of
+from jaxkin.effects.forces.screws import relative_twist
+from jaxkin.effects.forces.wrenches import (
+    STANDARD_GRAVITY,
+    Acting,
+    Loads,
+    Moving,
+    Wrench,
+    acting_on,
+    check,
+    given_rates,
+    metres_of,
+    units_of,
+    weights,
+)
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.units import METRES
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.status import Status
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +118,9 @@ def drive_forces(
     """Find the force or torque in each driven coordinate that holds a mechanism, or moves it as prescribed.
 
     At rest without `rates`: along a small change of a driven coordinate its force does the work that all that acts does
-    not, Q_i = -sum over parts of C . dT/du_i. With `rates` and `accelerations` of the driven displacements (none: zero)
-    as in `jk.accelerations`, the inertia of the parts and dampers act too.
+    not: minus the sum over parts of wrench times twist, the twist for a unit rate of the coordinate. With `rates` and
+    `accelerations` of the driven displacements (none: zero) as in `jk.accelerations`, the inertia of the parts and
+    dampers act too.
 
     `masses` are those of `jk.masses`, None for parts without mass; `gravity` is in m/s^2, world axes; `applied` are
     made by `jk.force`, `jk.torque`, `jk.spring`, `jk.joint_spring` and `jk.joint_load`. Joints are without friction.
@@ -110,23 +131,54 @@ def drive_forces(
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
-    moving = changes(motion, rates, accelerations)
-    found = loads(motion, acting, moving)
-    forces, powers = {}, {}
-    for name in motion.inputs:
-        force = -_work_along(motion, found, moving, name)
-        power = force * moving.inputs[name] if moving.inputs else jnp.zeros_like(force)
-        forces[name] = nan_unless_closed(motion, force / units_of(motion, name)[1])
-        powers[name] = nan_unless_closed(motion, power)
+    mechanism = motion.mechanism
+    drive, known = known_motion(motion)
+    speeds = given_rates(motion, acting)
+    found = changes(drive, known, motion.inputs, speeds)
+    moving, acts = acting_on(mechanism.unit, False, mechanism.linkage, found, weights(acting))
+    forces, powers = _forces(
+        drive, mechanism.unit, mechanism.linkage, known.status, moving, acts, found.along, speeds and speeds[0]
+    )
     return DriveForces(motion, forces, powers)
 
 
-def _work_along(motion: Motion, found: Loads, moving: Changes, name: str) -> Float[Array, " poses"]:
-    """The work of all loads along a driven coordinate: joules per radian, or per unit of the mechanism."""
-    change = moving.along[name]
-    work = jnp.sum(found.works * change.transforms, axis=(1, 2, 3))
-    for (joint, index), load in found.joints.items():
-        own = motion.mechanism.all_joints[joint]
-        metre = units_of(motion, f"{own.name}.{own.coordinates[index]}")[1]
-        work = work + metre * load * change.displacements[joint][:, index]
+@partial(whole_program, static=(0, 1))
+def _forces(
+    drive: KnownDrive,
+    unit: str,
+    linkage: Linkage,
+    status: Int[Array, " poses"],
+    moving: Moving,
+    acts: Loads,
+    along: dict[str, Rows],
+    rates: Inputs | None,
+) -> tuple[Inputs, Inputs]:
+    """Compute force and power of each driven coordinate."""
+    sent = carried(linkage, acts.parts, len(status))
+    closed = status == Status.CLOSED.value
+    forces, powers = {}, {}
+    for name, joint, index in drive.driven:
+        force = _held_along(linkage, unit, acts, moving, sent, along[name])
+        power = force * rates[name] if rates is not None else jnp.zeros_like(force)
+        metre = metres_of(linkage.joints[joint].coordinates[index], unit)
+        forces[name] = jnp.where(closed, force / metre, jnp.nan)
+        powers[name] = jnp.where(closed, power, jnp.nan)
+    return forces, powers
+
+
+def _held_along(
+    linkage: Linkage, unit: str, acts: Loads, moving: Moving, sent: dict[int, Wrench], along: Rows
+) -> Float[Array, " poses"]:
+    """What holds all loads along a driven coordinate: joules per radian, or per unit of the mechanism.
+
+    What acts on the parts is carried by the joints of the tree, each of which gives way along its coordinates.
+    """
+    lever = moving.at.scale.size * METRES[unit]
+    work = jnp.zeros(len(along[0]))
+    for number, wrench in sent.items():
+        twist = relative_twist(linkage.joints[number], moving.at.joints[number], along[number], moving.at.scale)
+        work = work + lever * jnp.sum(wrench * twist, axis=0)
+    for (joint, index), load in acts.joints.items():
+        metre = metres_of(linkage.joints[joint].coordinates[index], unit)
+        work = work - metre * load * along[joint][:, index]
     return work

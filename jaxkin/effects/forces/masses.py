@@ -81,17 +81,6 @@ class Masses:
         """Sum of all masses, kilograms."""
         return jnp.sum(self.mass)
 
-    def second_moments(self) -> Float[Array, "parts 4 4"]:
-        """Compute the integral of p p^T over the mass of each part, p = (x, y, z, 1): kilograms and the unit.
-
-        With it the kinetic energy of a part whose displacement T changes is 1/2 tr(T' J T'^T).
-        """
-        metre = METRES[self.unit]
-        spread = 0.5 * jnp.trace(self.inertia, axis1=1, axis2=2)[:, None, None] * jnp.eye(3) - self.inertia
-        centre = jnp.concatenate([self.centre, jnp.ones((len(self.parts), 1), self.centre.dtype)], axis=1)
-        about = jnp.pad(spread / metre**2, ((0, 0), (0, 1), (0, 1)))
-        return about + self.mass[:, None, None] * centre[:, :, None] * centre[:, None, :]
-
     def __str__(self) -> str:
         width = max(map(len, self.parts), default=0)
         lines = [f"Masses of {len(self.parts)} parts, {float(self.total):.6g} kg in all, centres in {self.unit or 'm'}"]

@@ -4,27 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Float
+from jaxtyping import Array, Float, Int
 
 from jaxkin._named import Named
 from jaxkin._names import nearest
-from jaxkin.effects.forces.balance import Balance, balance, driven_coordinates, size_and_middle, solve
-from jaxkin.effects.forces.changes import changes
+from jaxkin.effects.forces.balance import balance, solve
+from jaxkin.effects.forces.changes import changes, unmoved
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
-from jaxkin.effects.forces.wrenches import STANDARD_GRAVITY, Acting, Loads, check, loads, nan_unless_closed, units_of
+from jaxkin.effects.forces.wrenches import (
+    STANDARD_GRAVITY,
+    Acting,
+    Loads,
+    Moving,
+    acting_on,
+    check,
+    given_rates,
+    units_of,
+    weights,
+)
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.status import Status
 
 MAX_LINES = 12
 """Joints that a printed result or a picture names at most: more do not fit on a screen."""
@@ -86,7 +101,7 @@ class Reactions:
 
     def _what_is_held(self, most: float) -> list[str]:
         """Say which coordinates without a drive would have to be held, for forces up to `most`."""
-        lever = float(size_and_middle(self.motion.mechanism.linkage)[0]) * METRES[self.motion.mechanism.unit]
+        lever = float(Scale.of(self.motion.mechanism.linkage).size) * METRES[self.motion.mechanism.unit]
         found = []
         for name, joint in self.motion.mechanism.joints.items():
             for k, own in enumerate(joint.coordinates):
@@ -140,71 +155,59 @@ def reactions(
     """
     acting = Acting(masses, gravity, applied, rates, accelerations)
     check(motion, acting)
-    moving = None if rates is None else changes(motion, rates, accelerations)
-    places, forces, torques, drives, held = _balanced(motion, loads(motion, acting, moving))
-    joints = list(motion.mechanism.joints)
+    mechanism = motion.mechanism
+    drive, known = known_motion(motion)
+    speeds = given_rates(motion, acting)
+    # at rest nothing is differentiated
+    found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
+    moving, acts = acting_on(mechanism.unit, True, mechanism.linkage, found, weights(acting))
+    places, forces, torques, drives, held = _balanced(
+        drive, mechanism.unit, mechanism.linkage, known.status, moving, acts
+    )
 
-    def named(rows: Sequence[Array], known: bool = False) -> Named[Array]:
-        return Named("joint", zip(joints, rows if known else (nan_unless_closed(motion, x) for x in rows), strict=True))
+    def named(rows: Sequence[Array]) -> Named[Array]:
+        return Named("joint", zip(mechanism.joints, rows, strict=True))
 
-    drives = {name: nan_unless_closed(motion, drives[name]) for name in motion.inputs}
-    return Reactions(motion, named(places, known=True), named(forces), named(torques), drives, named(held))
+    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held))
 
 
 Rows = tuple[Float[Array, "poses _"], ...]
 
 
-@jax.jit
-def _balanced(motion: Motion, acting: Loads) -> tuple[Rows, Rows, Rows, dict[str, Float[Array, " poses"]], Rows]:
+@partial(whole_program, static=(0, 1))
+def _balanced(
+    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], moving: Moving, acts: Loads
+) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
     """Points of the joints, forces, torques about the points, forces of the drives, and what holds the rest."""
-    linkage, metre = motion.mechanism.linkage, METRES[motion.mechanism.unit]
-    found = balance(motion)
-    loaded: dict[int, Array] = {}
-    for (joint, k), load in acting.joints.items():
-        if k in found.pulls[joint]:
-            scaled = load / _lever_arm(motion, found, joint, k)
-            loaded[joint] = loaded.get(joint, 0.0) + scaled[:, None] * found.pulls[joint][k]
-    sent = solve(linkage, found, _wrenches(motion, found, acting, metre), loaded)
-    driven = driven_coordinates(motion)
+    metre, closed = METRES[unit], status == Status.CLOSED.value
+    driven = {(joint, k): name for name, joint, k in drive.driven}
+    found = balance(linkage, moving.at, moving.displacements, list(driven))
+    size, middle = moving.at.scale
+
+    def lever(joint: int, k: int) -> Any:
+        """Metres by which a force of the balance makes the load in a coordinate: the size for angles, 1 for lengths."""
+        return 1.0 if is_length(linkage.joints[joint].coordinates[k]) else size * metre
+
+    loaded = {at: load / lever(*at) for at, load in acts.joints.items() if at not in driven}
+    sent = solve(linkage, found, list(driven), acts.parts, loaded)
     drives = {}
     for (joint, k), name in driven.items():
-        along = jnp.einsum("pi,pi->p", sent.wrenches[joint], found.screws[joint][:, :, k])
+        along = jnp.sum(sent.wrenches[joint] * found.screws[joint][k], axis=0)
         for gradient, strength in zip(found.gradients, sent.couplings, strict=True):
             along = along - strength * gradient.get((joint, k), 0.0)
-        drives[name] = along * _lever_arm(motion, found, joint, k) - acting.joints.get((joint, k), 0.0)
-    held = []
-    for joint, (wrench, screws) in enumerate(zip(sent.held, found.screws, strict=True)):
-        arms = [0.0 if (joint, k) in driven else _lever_arm(motion, found, joint, k) for k in range(screws.shape[2])]
-        held.append(jnp.einsum("pi,pik->pk", wrench, screws) * jnp.asarray(arms))
-    forces = tuple(wrench[:, 3:] for wrench in sent.wrenches)
-    torques = tuple(found.size * metre * wrench[:, :3] for wrench in sent.wrenches)
-    return found.places, forces, torques, drives, tuple(held)
+        drives[name] = jnp.where(closed, along * lever(joint, k) - acts.joints.get((joint, k), 0.0), jnp.nan)
 
+    def rows(values: Array) -> Float[Array, "poses _"]:
+        return jnp.where(closed, values, jnp.nan).T
 
-def _lever_arm(motion: Motion, found: Balance, joint: int, k: int) -> Any:
-    """Metres by which a force of the balance makes the load in a coordinate: the size for angles, 1 for lengths."""
-    own = motion.mechanism.all_joints[joint]
-    if is_length(own.coordinates[k]):
-        return 1.0
-    return found.size * METRES[motion.mechanism.unit]
-
-
-def _wrenches(motion: Motion, found: Balance, acting: Loads, metre: float) -> Float[Array, "poses parts 6"]:
-    """What acts on each part about the middle of the mechanism: torque over size, force.
-
-    With the matrix C of `wrenches` and the displacement (R, t) of the part, force and torque about the origin are
-    F = C_4 / metre and the vector of C R^T - R C^T, plus t cross C_4.
-    """
-    middle = size_and_middle(motion.mechanism.linkage)[1]
-    place = jnp.stack([motion.transforms[part][:, :3] for part in motion.mechanism.parts], axis=1)
-    turning = jnp.einsum("npij,npkj->npik", acting.works[..., :3], place[..., :3])
-    skew = jnp.stack(
-        [
-            turning[..., 2, 1] - turning[..., 1, 2],
-            turning[..., 0, 2] - turning[..., 2, 0],
-            turning[..., 1, 0] - turning[..., 0, 1],
-        ],
-        axis=-1,
+    held = tuple(
+        rows(jnp.stack([row * lever(joint, k) for k, row in enumerate(each)]) if len(each) else each)
+        for joint, each in enumerate(sent.held)
     )
-    torque = skew + jnp.cross(place[..., 3] - middle, acting.works[..., 3])
-    return jnp.concatenate([torque / found.size, acting.works[..., 3]], axis=-1) / metre
+    forces = tuple(rows(wrench[3:]) for wrench in sent.wrenches)
+    torques = tuple(
+        rows(size * metre * (wrench[:3] - cross(arm, wrench[3:])))
+        for arm, wrench in zip(found.arms, sent.wrenches, strict=True)
+    )
+    points = tuple((size * arm + middle[:, None]).T for arm in found.arms)
+    return points, forces, torques, drives, held

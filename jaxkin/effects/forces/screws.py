@@ -1,81 +1,204 @@
-"""The freedoms of a joint in each pose: unit twists of its coordinates, and what they let through."""
+"""Where the parts of a mechanism are in each pose, and how they move: twists, along the tree from the fixed parts.
+
+Twists are (angular velocity; velocity of the point of the body at the middle of the mechanism), in world axes, lengths
+over the size of the mechanism: also in coordinates that are lengths. The poses are the last axis. Behind an elementary
+motion with the unit twist S and the rates q', q'', a body with the twist V and its derivative V' gets
+
+    V + S q',    V' + S q'' + [V, S] q',    [V, S] = (w x w_S; w x v_S + v x w_S).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import jax.numpy as jnp
+from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
-from jaxkin.geometry.rigid import as_rigid, inverse, product
+from jaxkin.geometry.movements import MOVEMENTS, displaced_columns, is_length
+from jaxkin.geometry.rigid import Rigid, as_rigid, inverse, product
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.joint_motion import joint_motion
+from jaxkin.linkage.linkage import Linkage
 
-TINY = 1e4
-"""What is added to S^T S, in units of rounding, where coordinates of a joint may depend on each other."""
+Twist = Float[Array, "6 poses"]
+"""Angular velocity, then linear velocity over the size of the mechanism."""
 
 
-def joint_screws(
-    joint: Joint, q: Float[Array, "poses _"], part_1: Float[Array, "poses 4 4"], size: Any, driven: Collection[int] = ()
-) -> tuple[Float[Array, "poses 3"], Float[Array, "poses 6 _"]]:
-    """The point of a joint in each pose, and the unit twists of its coordinates about this point, in world axes.
+class Scale(NamedTuple):
+    """Where moments are taken, and the lever arm by which they are divided."""
 
-    Twists are those of part 2 relative to part 1. Lengths count over `size` in linear velocities, and in the
-    coordinates that are lengths. The angles of a ball without a drive are replaced by turns about the axes of the
-    world, which allow the same at every angle.
-    """
-    found = jnp.moveaxis(part_1[:, :3], 0, -1)
-    twists: list[Any] = []
+    size: Float[Array, ""]
+    """Root mean square distance of the joints from their middle, in the unit of the mechanism; 1 where it is zero."""
+    middle: Float[Array, "3"]
+    """The middle of the joints in the assembled pose, world coordinates."""
+
+    @staticmethod
+    def of(linkage: Linkage) -> Scale:
+        """Find size and middle of a linkage."""
+        origins = jnp.concatenate([jnp.asarray(joint.frames_1, float)[:, :3, 3] for joint in linkage.joints])
+        middle = jnp.mean(origins, axis=0)
+        square = jnp.mean(jnp.sum((origins - middle) ** 2, axis=1))
+        return Scale(jnp.where(square > 0, jnp.sqrt(jnp.where(square > 0, square, 1.0)), 1.0), middle)
+
+    def arm(self, points: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
+        """Vectors from the middle to points of the world, over the size."""
+        return (points - self.middle[:, None]) / self.size
+
+    def of_coordinates(self, joint: Joint) -> list[Any]:
+        """The unit of each coordinate of a joint: the size for lengths, 1 for angles."""
+        return [self.size if is_length(name) else 1.0 for name in joint.coordinates]
+
+
+class Motions(NamedTuple):
+    """The elementary motions of a joint in each pose."""
+
+    point: Float[Array, "3 poses"]
+    """The origin of the last frame, on part 2, from the middle over the size."""
+    twists: tuple[Twist, ...]
+    """Unit twist of each, from part 1 to part 2; their coordinates are those of `driven_by`."""
+
+    def coordinates(self, joint: Joint) -> list[Twist]:
+        """Unit twists of the coordinates: a coordinate may drive several motions, whose twists add up."""
+        none = jnp.zeros((6, self.point.shape[1]))
+        each = list(zip(driven_by(joint), self.twists, strict=True))
+        return [sum((twist for own, twist in each if own == k), none) for k in range(joint.freedoms)]
+
+
+def driven_by(joint: Joint) -> list[int]:
+    """Number of the coordinate of each elementary motion of a joint, from part 1 to part 2."""
+    first, found = 0, []
+    for movement in joint.movements:
+        found += [first + element.coordinate for element in MOVEMENTS[movement].elements]
+        first += len(MOVEMENTS[movement].coordinates)
+    return found
+
+
+class Places(NamedTuple):
+    """A mechanism in each pose."""
+
+    scale: Scale
+    parts: dict[str, Rigid]
+    """Displacements of the parts that are not fixed, in the unit of the mechanism."""
+    joints: dict[int, Motions]
+    """The joints that were asked for, by number; those of the tree always."""
+
+    def point(self, part: str, at: Any) -> Float[Array, "3 _"]:
+        """Place a point of a part, given where it is in the assembled pose: from the middle, over the size."""
+        at = jnp.asarray(at, float)
+        if part not in self.parts:
+            return self.scale.arm(at[:, None])
+        own = self.parts[part]
+        return self.scale.arm(turned(own, at) + own[:, 3])
+
+
+def places(linkage: Linkage, displacements: Sequence[Array], chords: bool) -> Places:
+    """Place parts, and joints of the tree; with `chords` the other joints, too."""
+    scale, parts, joints = Scale.of(linkage), {}, {}
+    still = as_rigid(jnp.eye(4))
+    for part, parent, number, sign in linkage.structure.tree:
+        joint, q = linkage.joints[number], displacements[number]
+        before = parts.get(parent, still)
+        if sign > 0:
+            joints[number], parts[part] = joint_motions(joint, q, before, scale)
+        else:
+            parts[part] = lax.optimization_barrier(product(before, inverse(joint_motion(joint, q))))
+            joints[number] = joint_motions(joint, q, parts[part], scale)[0]
+    for number, joint in enumerate(linkage.joints):
+        if chords and number not in joints:
+            joints[number] = joint_motions(joint, displacements[number], parts.get(joint.parts[0], still), scale)[0]
+    return Places(scale, parts, joints)
+
+
+def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale: Scale) -> tuple[Motions, Rigid]:
+    """Find the elementary motions of a joint in each pose, and the displacement of part 2, from that of part 1."""
+    found = jnp.broadcast_to(part_1, (3, 4, q.shape[0]))
+    twists: list[Twist] = []
     first = 0
     for number, (movement, frame) in enumerate(zip(joint.movements, joint.frames_1, strict=True)):
         if number:
             found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
         found = product(found, as_rigid(jnp.asarray(frame, float)))
-        own: dict[int, list[Any]] = {}
         for element in MOVEMENTS[movement].elements:
-            axis, at = found[:, element.axis], found[:, 3]
-            turning = jnp.zeros_like(axis) if element.kind == "translate" else axis
-            if MOVEMENTS[movement].ball and first not in driven:
-                turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
-            pitch = 0.0 if element.kind == "rotate" else jnp.asarray(joint.pitch, float) / (2 * jnp.pi) / size
-            along = axis if element.kind == "translate" else pitch * axis
-            own.setdefault(element.coordinate, []).append((turning, along, at))
-            value = q[:, first + element.coordinate]
-            advance = None
-            if element.kind != "rotate":
-                advance = value if element.kind == "translate" else value * pitch * size
-            turn = None if element.kind == "translate" else (jnp.cos(value), jnp.sin(value))
+            axis, value = found[:, element.axis], q[:, first + element.coordinate]
+            advance = turn = None
+            turning = moving = jnp.zeros_like(axis)
+            if element.kind != "translate":
+                turning, turn = axis, tuple(cos_sin(value))
+                moving = jnp.cross(scale.arm(found[:, 3]), axis, axis=0)
+            if element.kind == "translate":
+                moving, advance = axis, value
+            elif element.kind == "screw":
+                pitch = jnp.asarray(joint.pitch, float) / (2 * jnp.pi)
+                moving, advance = moving + pitch / scale.size * axis, value * pitch
+            twists.append(jnp.concatenate([turning, moving]))
             columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
             found = jnp.stack(columns, axis=1)
-        twists += [own[k] for k in range(len(own))]
-        first += len(own)
-    place = found[:, 3]
-    rows = [
-        # a coordinate may drive several motions: their twists add up
-        sum(
-            jnp.concatenate([turning, along + jnp.cross(turning, (place - at) / size, axis=0)])
-            for turning, along, at in each
-        )
-        for each in twists
-    ]
-    screws = jnp.stack(rows, axis=-1) if rows else jnp.zeros((6, q.shape[0], 0))
-    return place.T, jnp.moveaxis(screws, 1, 0)
+        first += len(MOVEMENTS[movement].coordinates)
+    last = as_rigid(jnp.asarray(joint.frames_2[-1], float)) if len(joint.frames_2) else as_rigid(jnp.eye(4))
+    # found once: XLA would find the whole chain anew wherever it is used
+    return lax.optimization_barrier((Motions(scale.arm(found[:, 3]), tuple(twists)), product(found, inverse(last))))
 
 
-def pulls_of(screws: Float[Array, "poses 6 free"]) -> Float[Array, "poses 6 free"]:
-    """S (S^T S)^-1: the wrench of least norm that has a unit load in one coordinate and none in the others."""
-    if not screws.shape[2]:
-        return screws
-    gram = jnp.einsum("pik,pil->pkl", screws, screws)
-    tiny = TINY * jnp.finfo(screws.dtype).eps
-    return jnp.moveaxis(jnp.linalg.solve(gram + tiny * jnp.eye(gram.shape[-1]), jnp.moveaxis(screws, 1, 2)), 1, 2)
+def relative_twist(joint: Joint, own: Motions, rates: Float[Array, "poses _"], scale: Scale) -> Twist:
+    """Twist of part 2 of a joint relative to part 1, for rates of its coordinates in the unit of the mechanism."""
+    units = scale.of_coordinates(joint)
+    terms = (twist * (rates[:, k] / units[k]) for k, twist in zip(driven_by(joint), own.twists, strict=True))
+    return sum(terms, jnp.zeros((6, rates.shape[0])))
 
 
-def purified(projectors: Float[Array, "poses 6 6"]) -> Float[Array, "poses 6 6"]:
-    """Bring matrices to the projectors that they nearly are: 3 P^2 - 2 P^3 squares the errors of the eigenvalues.
+def twists_of_parts(
+    linkage: Linkage, at: Places, first: Sequence[Array], second: Sequence[Array] | None = None
+) -> tuple[dict[str, Twist], dict[str, Twist]]:
+    """Twists of all parts that are not fixed, and their derivatives, for rates of all joints, first and second.
 
-    What `TINY` leaves in the directions of freedoms would be a stiffness beside that of `balance.HOLD`.
+    Rates are in radians and the unit of the mechanism, (poses, coordinates); without second ones there are no
+    derivatives.
     """
-    square = projectors @ projectors
-    return 3 * square - 2 * square @ projectors
+    none = jnp.zeros((6, first[0].shape[0]))
+    twists: dict[str, Twist] = {}
+    changes: dict[str, Twist] = {}
+    for part, parent, number, sign in linkage.structure.tree:
+        joint, own = linkage.joints[number], at.joints[number]
+        before = twists.get(parent, none)
+        twists[part] = lax.optimization_barrier(before + sign * relative_twist(joint, own, first[number], at.scale))
+        if second is None:
+            continue
+        here = before if sign > 0 else twists[part]
+        units = at.scale.of_coordinates(joint)
+        change = none
+        for k, twist in zip(driven_by(joint), own.twists, strict=True):
+            rate = first[number][:, k] / units[k]
+            change = change + twist * (second[number][:, k] / units[k]) + bracket(here, twist) * rate
+            here = here + twist * rate
+        changes[part] = lax.optimization_barrier(changes.get(parent, none) + sign * change)
+    return twists, changes
+
+
+def bracket(one: Twist, other: Twist) -> Twist:
+    """The derivative of a twist that is carried by a body with another one: [one, other]."""
+    return jnp.concatenate([cross(one[:3], other[:3]), cross(one[:3], other[3:]) + cross(one[3:], other[:3])])
+
+
+def velocity_at(twist: Twist, arm: Float[Array, "3 _"]) -> Float[Array, "3 poses"]:
+    """Velocity of a point of a body, over the size."""
+    return twist[3:] + cross(twist[:3], arm)
+
+
+def cross(one: Float[Array, "3 _"], other: Float[Array, "3 _"]) -> Float[Array, "3 _"]:
+    """The cross product pose by pose; either may have a last axis of one."""
+    (a, b, c), (x, y, z) = one, other
+    return jnp.stack([b * z - c * y, c * x - a * z, a * y - b * x])
+
+
+def turned(rotation: Float[Array, "3 _ _"], vector: Float[Array, "3 ..."]) -> Float[Array, "3 _"]:
+    """Rotate a vector by the first three columns of a matrix, pose by pose."""
+    return rotation[:, 0] * vector[0] + rotation[:, 1] * vector[1] + rotation[:, 2] * vector[2]
+
+
+def wrench_at(arm: Float[Array, "3 _"], force: Float[Array, "3 _"]) -> Float[Array, "6 _"]:
+    """The wrench of a force, newtons, at a point: torque over the size, force."""
+    torque = cross(arm, force)
+    return jnp.concatenate([torque, jnp.broadcast_to(force, torque.shape)])

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import jax
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._traced import traced
-from jaxkin.effects.forces.balance import balance
+from jaxkin.effects.forces.balance import Balance, balance
+from jaxkin.effects.forces.screws import places
+from jaxkin.mechanism.known_motion import known_motion
 from jaxkin.mechanism.motion import Motion
 
 COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
@@ -51,27 +52,49 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
         status=motion.status[chosen],
         residual=motion.residual[chosen],
     )
-    system = jax.tree.map(np.asarray, jax.jit(balance)(some))
-    found = [_at(some, system, pose) for pose in range(len(chosen))]
+    drive, known = known_motion(some)
+    driven = tuple((joint, k) for _, joint, k in drive.driven)
+    linkage = motion.mechanism.linkage
+    at = places(linkage, known.displacements, chords=True)
+    system = jax.tree.map(np.asarray, balance(linkage, at, known.displacements, driven))
+    found = [_at(some, system, driven, pose) for pose in range(len(chosen))]
     return min(found, key=lambda each: each[0])[1]
 
 
-def _at(motion: Motion, system: Any, pose: int) -> tuple[int, tuple[Undetermined, ...]]:
+def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Wrenches that a joint transmits at its point, a basis (6, n); those of its free coordinates; and its lever."""
+    x, y, z = system.arms[joint][:, pose]
+    lever = np.eye(6)
+    lever[:3, 3:] = [[0, -z, y], [z, 0, -x], [-y, x, 0]]
+    screws = lever.T @ np.stack([system.screws[joint][k][:, pose] for k in free] or [np.zeros(6)], axis=1)
+    left, values, right = np.linalg.svd(screws, full_matrices=True)
+    rank = int((values > RANK * values.max(initial=0.0)).sum())
+    loads = left[:, :rank] / values[:rank] @ right[:rank]
+    return left[:, rank:], loads, lever
+
+
+def _at(
+    motion: Motion, system: Balance, driven: tuple[tuple[int, int], ...], pose: int
+) -> tuple[int, tuple[Undetermined, ...]]:
     """Number of open reactions at a pose of a `Balance`, and where they are."""
     linkage = motion.mechanism.linkage
     moving = [part for part in linkage.parts if part not in linkage.fixed]
-    columns, owner, bases = [], [], []
+    columns, owner, bases, levers = [], [], [], []
+    pulls: dict[tuple[int, int], np.ndarray] = {}
     for number, joint in enumerate(linkage.joints):
-        values, vectors = np.linalg.eigh(system.projectors[number][pose])
-        basis = vectors[:, values > 0.5]
-        columns.append(_on_parts(joint.parts, moving, system.levers[number][pose] @ basis))
+        free = [k for k in range(joint.freedoms) if (number, k) not in driven]
+        basis, loads, lever = _joint_at(system, number, free, pose)
+        pulls |= {(number, k): loads[:, column] for column, k in enumerate(free)}
+        columns.append(_on_parts(joint.parts, moving, lever @ basis))
         owner += [number] * basis.shape[1]
         bases.append(basis)
-    for tie in system.ties:
+        levers.append(lever)
+    for gradient in system.gradients:
         column = np.zeros((6 * len(moving), 1))
-        for number, wrench in tie.items():
-            lever = system.levers[number][pose]
-            column += _on_parts(linkage.joints[number].parts, moving, lever @ wrench[pose][:, None])
+        for (number, k), slope in gradient.items():
+            if (number, k) in pulls:
+                wrench = slope[pose] * levers[number] @ pulls[number, k]
+                column += _on_parts(linkage.joints[number].parts, moving, wrench[:, None])
         columns.append(column)
         owner.append(-1)
     matrix = np.concatenate([np.zeros((6 * len(moving), 0)), *columns], axis=1)

@@ -1,30 +1,36 @@
-"""The work of all that acts: weight, inertia, forces, springs.
+"""All that acts on the parts in each pose: weight, inertia, forces, torques, springs, as wrenches.
 
-The displacement of a part is a matrix T (world coordinates, from the assembled pose). What acts on the part is kept as
-the matrix C of the same shape (3, 4) whose product with a small change of T is its work: sum of C_ij dT_ij, in joules.
-A force F on a point p has C = F (p, 1)^T, a torque M has 1/2 [M] R in the first columns, where [M] x = M cross x; mass
-that moves has -T'' J, with J the second moments of the part (`Masses.second_moments`).
+Wrenches are (torque about the middle of the mechanism over its size; force), in newtons and world axes, so that their
+product with a twist (`screws`), times the size, is power. The poses are the last axis.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin._names import nearest
-from jaxkin.effects.forces.changes import Changes
+from jaxkin._traced import traced
+from jaxkin.effects.forces.changes import Changes, Rows
 from jaxkin.effects.forces.given import Applied, Force, JointLoad, Spring, Torque
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, twists_of_parts, velocity_at, wrench_at
+from jaxkin.effects.rates import tangents_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.known_motion import Inputs
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.programs import whole_program
 
-Works = Float[Array, "poses parts 3 4"]
-"""C of each part: joules for a change of its displacement matrix, whose last column is in the unit of the mechanism."""
+Wrench = Float[Array, "6 _"]
+"""Torque over the size of the mechanism, then force: newtons. The last axis is the poses, or one for all poses."""
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.81)
 
@@ -32,7 +38,8 @@ STANDARD_GRAVITY = (0.0, 0.0, -9.81)
 class Loads(NamedTuple):
     """All that acts in each pose, but for drives and joints."""
 
-    works: Works
+    parts: dict[str, Wrench]
+    """On each part on which something acts and that is not fixed."""
     joints: dict[tuple[int, int], Float[Array, " poses"]]
     """Loads in coordinates (joint, coordinate): newton metres, newtons."""
 
@@ -47,26 +54,84 @@ class Acting(NamedTuple):
     accelerations: Mapping[str, Any] | None = None
 
 
-def loads(motion: Motion, acting: Acting, moving: Changes | None) -> Loads:
+class Weights(NamedTuple):
+    """What acts, as numbers that a program is given."""
+
+    masses: Masses | None
+    gravity: Float[Array | np.ndarray, "3"]
+    applied: tuple[Applied, ...]
+
+
+class Moving(NamedTuple):
+    """Where the parts are, and how they move."""
+
+    at: Places
+    displacements: Rows
+    velocity: Rows | None
+    """Rates of all joints; None at rest."""
+    twists: dict[str, Twist]
+    """Of all parts that are not fixed; none at rest."""
+    changes: dict[str, Twist]
+    """Their derivatives."""
+
+    @staticmethod
+    def of(linkage: Linkage, found: Changes, chords: bool) -> Moving:
+        """Place the parts, and find their twists."""
+        at = places(linkage, found.displacements, chords)
+        if found.velocity is None:
+            return Moving(at, found.displacements, None, {}, {})
+        twists = twists_of_parts(linkage, at, found.velocity, found.acceleration)
+        return Moving(at, found.displacements, found.velocity, *twists)
+
+
+@partial(whole_program, static=(0, 1))
+def acting_on(unit: str, chords: bool, linkage: Linkage, found: Changes, acting: Weights) -> tuple[Moving, Loads]:
+    """Place the parts, and find all that acts on them; with `chords`, place all joints and not only those of the tree.
+
+    This is a program of its own: XLA would compute parts of the derivatives anew wherever they are used.
+    """
+    moving = Moving.of(linkage, found, chords)
+    return moving, loads(linkage, unit, acting, moving)
+
+
+def loads(linkage: Linkage, unit: str, acting: Weights, moving: Moving) -> Loads:
     """Find all that acts in each pose, inertia and dampers where the parts move."""
-    masses, metre = acting.masses, METRES[motion.mechanism.unit]
-    place = jnp.stack([motion.transforms[part][:, :3] for part in motion.mechanism.parts], axis=1)
-    works = jnp.zeros_like(place)
-    if masses is not None:
-        moments = masses.second_moments()
-        weight = metre * _gravity(acting.gravity)[:, None] * moments[:, 3:4]
-        works = works + weight[None]
-        if moving is not None and moving.acceleration is not None:
-            works = works - metre**2 * jnp.einsum("npij,pjk->npik", moving.acceleration.transforms, moments)
+    found: dict[str, Any] = {}
+    lever = moving.at.scale.size * METRES[unit]
+    if acting.masses is not None:
+        for part in moving.at.parts:
+            found[part] = _of_mass(moving, acting.masses, acting.gravity, part, lever)
     in_joints: dict[tuple[int, int], Array] = {}
-    for each in applied_of(acting):
+    for each in acting.applied:
         if isinstance(each, JointLoad):
-            at, load = _in_joint(motion, moving, each)
-            in_joints[at] = in_joints.get(at, jnp.zeros(len(motion))) + load
+            at, load = _in_joint(linkage, unit, moving, each)
+            in_joints[at] = in_joints.get(at, 0.0) + load
         else:
-            for part, work in _on_parts(motion, moving, each, metre):
-                works = works.at[:, motion.mechanism.parts.index(part)].add(work)
-    return Loads(works, in_joints)
+            for part, wrench in _on_parts(moving, each, lever):
+                if part in moving.at.parts:
+                    found[part] = found.get(part, 0.0) + wrench
+    return Loads(found, in_joints)
+
+
+def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any) -> Wrench:
+    """Weight and inertia of a part: m (g - a) at its centre, -(I w' + w x I w)."""
+    number = masses.parts.index(part)
+    mass, arm = masses.mass[number], moving.at.point(part, masses.centre[number])
+    force = mass * gravity[:, None]
+    if part not in moving.twists:
+        return wrench_at(arm, force)
+    twist, change = moving.twists[part], moving.changes[part]
+    turning = twist[:3]
+    acceleration = velocity_at(change, arm) + cross(turning, velocity_at(twist, arm))
+    rotation, inertia = moving.at.parts[part][:, :3], masses.inertia[number]
+
+    def carried(vector: Float[Array, "3 poses"]) -> Float[Array, "3 poses"]:
+        """R I R^T times a vector."""
+        return turned(rotation, turned(inertia[..., None], turned(rotation.swapaxes(0, 1), vector)))
+
+    torque = carried(change[:3]) + cross(turning, carried(turning))
+    wrench = wrench_at(arm, force - mass * lever * acceleration)
+    return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
 
 
 def applied_of(acting: Acting) -> tuple[Applied, ...]:
@@ -98,85 +163,124 @@ def check(motion: Motion, acting: Acting) -> None:
         )
     if masses is None and not applied:
         raise ValueError("nothing acts: give jk.masses(mechanism, density), or applied=[jk.force(...)], or both")
+    poses = len(motion)
+    for each in applied:
+        for name, axes in _PER_POSE[type(each)].items():
+            values = getattr(each, name)
+            if np.ndim(values) > axes and len(values) != poses:
+                raise ValueError(
+                    f"{_name_of(each)} must be given once or for each of the {poses} poses, got {len(values)} rows"
+                )
+        if isinstance(each, JointLoad):
+            _loaded(mechanism.linkage, each)
     if acting.rates is None and acting.accelerations is not None:
         raise ValueError("accelerations were given without rates: write rates={'A': 0.0} for a start from rest")
 
 
-def _gravity(given: Any) -> Float[Array, "3"]:
-    found = jnp.asarray(given, float)
-    if found.shape != (3,):
+def weights(acting: Acting) -> Weights:
+    """Make arrays of what acts; ValueError for a gravity that is no vector."""
+    given = acting.gravity
+    gravity = given if traced(given) else np.asarray(given, float)
+    if gravity.shape != (3,):
         raise ValueError(f"gravity must be three numbers, m/s^2, as (0, 0, -9.81), got {given!r}")
-    return found
+    return Weights(acting.masses, gravity, applied_of(acting))
 
 
-def _rows(motion: Motion, values: Any, what: str, axes: int) -> Array:
-    """One entry a pose; ValueError where there are others."""
-    values = jnp.asarray(values, float)
-    if values.ndim > axes and len(values) != len(motion):
-        raise ValueError(f"{what} must be given once or for each of the {len(motion)} poses, got {len(values)} rows")
-    return jnp.broadcast_to(values, (len(motion), *values.shape[values.ndim - axes :]))
+def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
+    """First and second derivatives of all inputs; None at rest; ValueError as `jk.accelerations`."""
+    if acting.rates is None:
+        return None
+    return tangents_of(motion, acting.rates), tangents_of(motion, acting.accelerations or {})
 
 
-def _on_parts(motion: Motion, moving: Changes | None, load: Force | Torque | Spring, metre: float):
-    """Yield parts and the matrices C of a load on them."""
+_PER_POSE = {
+    Force: {"vector": 1},
+    Torque: {"vector": 1},
+    Spring: {"stiffness": 0, "length": 0, "damping": 0},
+    JointLoad: {"load": 0, "stiffness": 0, "rest": 0, "damping": 0},
+}
+"""Kind of load -> names of its numbers, which may have one row a pose, and number of axes of a row."""
+
+
+def _name_of(load: Applied) -> str:
+    """Name a load in a message."""
     if isinstance(load, Spring):
-        yield from _of_spring(motion, moving, load, metre)
+        return f"the spring of {load.parts[0]!r} and {load.parts[1]!r}"
+    return f"the load in {load.coordinate!r}" if isinstance(load, JointLoad) else f"the load on {load.part!r}"
+
+
+def _rows(values: Any) -> Array:
+    """Numbers of a load with the poses last, or with a last axis of one where they are given once."""
+    values = jnp.asarray(values, float)
+    return values[None] if values.ndim == 0 else values
+
+
+def _vector(values: Any) -> Float[Array, "3 _"]:
+    """A vector of a load with the poses last, or with a last axis of one where it is given once."""
+    values = jnp.asarray(values, float)
+    return values[:, None] if values.ndim == 1 else values.T
+
+
+def _on_parts(moving: Moving, load: Force | Torque | Spring, lever: Any):
+    """Yield parts and the wrenches of a load on them."""
+    if isinstance(load, Spring):
+        yield from _of_spring(moving, load, lever)
         return
-    rotation = motion.transforms[load.part][:, :3, :3]
-    vector = _rows(motion, load.vector, f"the load on {load.part!r}", 1)
-    if load.turns:
-        vector = jnp.einsum("pij,pj->pi", rotation, vector)
+    vector = _vector(load.vector)
+    if load.turns and load.part in moving.at.parts:
+        rotation = moving.at.parts[load.part][:, :3]
+        vector = turned(rotation, vector)
     if isinstance(load, Force):
-        yield load.part, metre * vector[:, :, None] * _homogeneous(load.point)
+        yield load.part, wrench_at(moving.at.point(load.part, load.point), vector)
     else:
-        turned = 0.5 * jnp.cross(vector[:, :, None], rotation, axisa=1, axisb=1, axisc=1)
-        yield load.part, jnp.pad(turned, ((0, 0), (0, 0), (0, 1)))
+        yield load.part, jnp.concatenate([vector / lever, jnp.zeros_like(vector)])
 
 
-def _of_spring(motion: Motion, moving: Changes | None, load: Spring, metre: float):
-    """Yield the two parts of a spring and its matrices C on them."""
-    one, other = load.parts
-    apart = motion.points(other, load.points[1]) - motion.points(one, load.points[0])
-    square = jnp.sum(apart**2, axis=1)
+def _of_spring(moving: Moving, load: Spring, lever: Any):
+    """Yield the two parts of a spring and its wrenches on them."""
+    ends = [moving.at.point(part, point) for part, point in zip(load.parts, load.points, strict=True)]
+    apart = lever * (ends[1] - ends[0])
+    square = jnp.sum(apart**2, axis=0)
     distance = jnp.sqrt(jnp.where(square > 0, square, 1.0))  # no direction where the points meet, and no derivative
-    along = jnp.where(square > 0, 1.0, 0.0)[:, None] * apart / distance[:, None]
-    what = f"the spring of {one!r} and {other!r}"
-    stiffness, length, damping = (_rows(motion, x, what, 0) for x in (load.stiffness, load.length, load.damping))
-    pull = stiffness[:, None] * metre * (apart - length[:, None] * along)
-    if moving is not None and moving.velocity is not None:
-        rates = [
-            moving.velocity.transforms[:, motion.mechanism.parts.index(part)] @ jnp.append(jnp.asarray(point), 1.0)
-            for part, point in zip(load.parts, load.points, strict=True)
-        ]
-        change = rates[1] - rates[0]
-        pull = pull + (damping * metre * jnp.sum(along * change, axis=1))[:, None] * along
-    yield one, metre * pull[:, :, None] * _homogeneous(load.points[0])
-    yield other, -metre * pull[:, :, None] * _homogeneous(load.points[1])
+    along = jnp.where(square > 0, 1.0, 0.0) * apart / distance
+    length = _rows(load.length) * lever / moving.at.scale.size
+    pull = _rows(load.stiffness) * (apart - length * along)
+    if moving.twists:
+        none = jnp.zeros((6, 1))
+        one, other = (
+            velocity_at(moving.twists.get(part, none), end) for part, end in zip(load.parts, ends, strict=True)
+        )
+        pull = pull + _rows(load.damping) * lever * jnp.sum(along * (other - one), axis=0) * along
+    yield load.parts[0], wrench_at(ends[0], pull)
+    yield load.parts[1], wrench_at(ends[1], -pull)
 
 
-def _homogeneous(point: Any) -> Float[Array, "1 1 4"]:
-    return jnp.append(jnp.asarray(point, float), 1.0)[None, None, :]
-
-
-def _in_joint(
-    motion: Motion, moving: Changes | None, load: JointLoad
-) -> tuple[tuple[int, int], Float[Array, " poses"]]:
-    """The load in a coordinate: newton metres, newtons."""
-    joint, index = coordinate(motion.mechanism.linkage, load.coordinate)
-    owner = motion.mechanism.all_joints[joint]
-    if any(index in group and len(group) > 1 for group in owner.driven_together):
+def _loaded(linkage: Linkage, load: JointLoad) -> tuple[int, int]:
+    """Joint and coordinate of a load; ValueError where it is an angle of a ball."""
+    joint, index = coordinate(linkage, load.coordinate)
+    if any(index in group and len(group) > 1 for group in linkage.joints[joint].driven_together):
         raise ValueError(
             f"{load.coordinate!r} is an angle of a ball, which has no axis of its own: write jk.torque or jk.spring"
         )
-    metre = METRES[motion.mechanism.unit] if is_length(owner.coordinates[index]) else 1.0
-    what = f"the load in {load.coordinate!r}"
-    given, stiffness, rest, damping = (
-        _rows(motion, x, what, 0) for x in (load.load, load.stiffness, load.rest, load.damping)
-    )
-    found = given - stiffness * metre * (motion.displacements[joint][:, index] - rest)
-    if moving is not None and moving.velocity is not None:
-        found = found - damping * metre * moving.velocity.displacements[joint][:, index]
+    return joint, index
+
+
+def _in_joint(
+    linkage: Linkage, unit: str, moving: Moving, load: JointLoad
+) -> tuple[tuple[int, int], Float[Array, " poses"]]:
+    """The load in a coordinate: newton metres, newtons."""
+    joint, index = _loaded(linkage, load)
+    metre = metres_of(linkage.joints[joint].coordinates[index], unit)
+    given, stiffness, rest, damping = (_rows(x) for x in (load.load, load.stiffness, load.rest, load.damping))
+    found = given - stiffness * metre * (moving.displacements[joint][:, index] - rest)
+    if moving.velocity is not None:
+        found = found - damping * metre * moving.velocity[joint][:, index]
     return (joint, index), found
+
+
+def metres_of(coordinate: str, unit: str) -> float:
+    """Metres in the unit of a coordinate of a joint; 1 for angles."""
+    return METRES[unit] if is_length(coordinate) else 1.0
 
 
 def units_of(motion: Motion, name: str) -> tuple[str, float]:

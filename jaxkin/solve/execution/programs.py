@@ -6,7 +6,8 @@ Only the program of the displacements is differentiated. Where the numbers are k
 
 from __future__ import annotations
 
-from functools import cache, partial
+from collections.abc import Callable
+from functools import cache, partial, wraps
 from typing import Any, NamedTuple
 
 import jax
@@ -273,6 +274,22 @@ _turn_program = cache(lambda: jax.jit(find_poses_by_formula, static_argnames="sy
 def _poses_program(whole: bool):
     """Make the function that finds poses without displacements: a program of its own, or part of a traced one."""
     return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
+
+
+def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
+    """Compile a function of arrays with the options of the solver, which are those of whole programs.
+
+    `static` are the places of its arguments that are hashed, and not arrays. Where numbers are traced, the function is
+    part of another program, and compiled as that is.
+    """
+    part = jax.jit(function, static_argnums=static)
+    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options()))
+
+    @wraps(function)
+    def call(*given):
+        return (part if traced(given) or traced(jax.device_put(np.zeros(0))) else whole())(*given)
+
+    return call
 
 
 @cache

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array
+from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.gram import Damping, Matrix, add_damping, gram_matrix
 
@@ -22,7 +22,13 @@ def factor_cholesky(jacobian: Matrix, damping: Damping) -> Callable[[Array], Arr
     """Factorise, and return the function that solves for right-hand sides (rows, poses) or (rows, sides, poses)."""
     n = jacobian.shape[0]
     gram = add_damping(gram_matrix(jacobian), damping + ROUNDING_MARGIN * n * float(jnp.finfo(jacobian.dtype).eps))
-    lower = lax.linalg.cholesky(jnp.moveaxis(gram, -1, 0), symmetrize_input=False)
+    return factor_by_library(gram)
+
+
+def factor_by_library(matrix: Float[Array, "n n poses"]) -> Callable[[Array], Array]:
+    """Factorise positive definite matrices, and return the function that solves as that of `factor_cholesky`."""
+    n = len(matrix)
+    lower = lax.linalg.cholesky(jnp.moveaxis(matrix, -1, 0), symmetrize_input=False)
 
     def solve(right: Array) -> Array:
         sides = jnp.moveaxis(right.reshape(n, -1, right.shape[-1]), -1, 0)

@@ -17,16 +17,22 @@ from jaxkin.solve.linear.gram import Damping, Matrix, mean_square
 
 def factor_ldl(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
     """Factorise, and return the function that solves for right-hand sides (rows, poses) or (rows, sides, poses)."""
-    n = jacobian.shape[0]
     absolute = damping * mean_square(jnp.sum(jacobian * jacobian, axis=1))
+
+    def entry(i: int, j: int) -> Array:
+        own = jnp.sum(jacobian[i] * jacobian[j], axis=0)
+        return own + absolute if i == j else own
+
+    return factor_entries(entry, len(jacobian))
+
+
+def factor_entries(entry: Callable[[int, int], Array], n: int) -> Callable[[Array], Array]:
+    """Factorise a positive definite matrix by its entries (i, j), i >= j, of `n` rows; returns as `factor_ldl`."""
     lower: dict[tuple[int, int], Array] = {}
     pivots: list[Array] = []
     for j in range(n):
-        column = [jnp.sum(jacobian[i] * jacobian[j], axis=0) for i in range(j, n)]
-        column = [
-            entry - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i, entry in enumerate(column, j)
-        ]
-        pivots.append(column[0] + absolute)
+        column = [entry(i, j) - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i in range(j, n)]
+        pivots.append(column[0])
         for i in range(j + 1, n):
             lower[i, j] = column[i - j] / pivots[j]
 

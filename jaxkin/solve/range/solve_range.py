@@ -90,11 +90,16 @@ def shard(
 
 
 def displacements(
-    system: LoopSystem, joints: Joints, inputs: Float[Array, "driven poses"], poses: Poses
+    system: LoopSystem,
+    joints: Joints,
+    inputs: Float[Array, "driven poses"],
+    poses: Poses,
+    group: int | None = DERIVATIVE_GROUP,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
-    Displacements are in radians and lengths of the mechanism. A pose that did not close has derivatives of zero.
+    Displacements are in radians and lengths of the mechanism. A pose that did not close has derivatives of zero. On
+    CPUs, poses are taken in groups of `group`; None for all at once.
     """
     geometry, lengths = scaled_geometry(system, joints)
 
@@ -105,7 +110,7 @@ def displacements(
         return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
-    size = DERIVATIVE_GROUP if jax.default_backend() == "cpu" else max(1, inputs.shape[1])
+    size = group if group is not None and jax.default_backend() == "cpu" else max(1, inputs.shape[1])
     found = in_groups(read, given, size) if system.free else read(given)
     return unwrap_ball_angles(system, found) if system.balls else found
 

@@ -55,17 +55,6 @@ def test_a_part_that_was_weighed_keeps_the_centre_and_the_shape_of_its_solid():
     np.testing.assert_allclose(moved.inertia[1], 0.5 * np.eye(3))
 
 
-def test_second_moments_are_those_of_point_masses():
-    """Of equal points, the sum of m p p^T over them, from mass, centre and inertia of all together."""
-    points = np.random.default_rng(5).normal(size=(6, 3)) * 40.0
-    centre = points.mean(axis=0)
-    off = (points - centre) * 1e-3
-    inertia = 0.1 * (np.sum(off**2) * np.eye(3) - off.T @ off)
-    found = jk.masses(pendulum(), given={"arm": jk.Mass(0.6, centre, inertia)}).second_moments()[1]
-    ones = np.hstack([points, np.ones((6, 1))])
-    np.testing.assert_allclose(found, 0.1 * ones.T @ ones, rtol=1e-12, atol=1e-12)
-
-
 def test_masses_by_jax():
     mechanism = pendulum(box())
 

@@ -1,19 +1,21 @@
 """Twists of joints against those that the host finds for loops, and the virtual work of a screw; to rounding."""
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.effects.forces.screws import joint_screws
+from jaxkin.effects.forces.screws import Scale, joint_motions, places, twists_of_parts
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import frame
 from jaxkin.joints.joint import joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.screws import chain
-from reference.mechanisms import Z
+from jaxkin.linkage.joint_motion import moving_parts
+from reference.mechanisms import Z, cardan_shafts, planar_fourbar, rssr_linkage
 
-SIZE = 40.0
+SIZE, MIDDLE = 40.0, np.array([3.0, -20.0, 11.0])
 
 
 @pytest.mark.parametrize("movements", [*((name,) for name in MOVEMENTS), ("T_z_phi", "T_theta_phi_psi")])
@@ -23,13 +25,57 @@ def test_unit_twists_are_those_of_the_chain(movements):
     made = joint("j", ("one", "two"), JointKind.REVOLUTE, movements, frames, pitch=5.0)
     q = numbers.normal(size=made.freedoms)
     reached, expected = chain(movements, made.frames_1, q, 5.0)
-    driven = range(made.freedoms)
-    place, found = joint_screws(made, jnp.asarray(q)[None], jnp.eye(4)[None], SIZE, driven)
-    at = (reached @ frames[-1])[:3, 3]
-    np.testing.assert_allclose(place[0], at, atol=1e-12)
-    velocity = (expected[3:] + np.cross(expected[:3], at, axisa=0, axisc=0)) / SIZE
-    scale = np.array([SIZE if is_length(name) else 1.0 for name in made.coordinates])
-    np.testing.assert_allclose(found[0], np.concatenate([expected[:3], velocity]) * scale, atol=1e-12)
+    scale = Scale(jnp.asarray(SIZE), jnp.asarray(MIDDLE))
+    found, part_2 = joint_motions(made, jnp.asarray(q)[None], jnp.eye(4)[:3, :, None], scale)
+    np.testing.assert_allclose(part_2[..., 0], reached[:3], atol=1e-12)
+    np.testing.assert_allclose(found.point[:, 0], ((reached @ frames[-1])[:3, 3] - MIDDLE) / SIZE, atol=1e-12)
+    velocity = (expected[3:] + np.cross(expected[:3], MIDDLE, axisa=0, axisc=0)) / SIZE
+    units = np.array([SIZE if is_length(name) else 1.0 for name in made.coordinates])
+    every = np.array(found.coordinates(made)).reshape(made.freedoms, 6).T
+    np.testing.assert_allclose(every, np.concatenate([expected[:3], velocity]) * units, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "RSSR", "Cardan", "nut"])
+def test_twists_of_parts_are_derivatives_of_their_places(name):
+    """[w] R = R', and v + w x r = r' for the velocity at the middle; the same once more for the derivative of both."""
+    mechanism = {
+        "four-bar": planar_fourbar,
+        "RSSR": rssr_linkage,
+        "Cardan": cardan_shafts,
+        "nut": lambda: jk.Mechanism.build(
+            fixed=["base"],
+            joints=[
+                jk.screw("S", "nut", "base", point=(1, 2, 3), axis=(1, 0, 1), pitch=4.0),
+                jk.universal("U", "nut", "arm", point=(4, 0, 0), axis1=(1, 0, 0), axis2=(0, 1, 0)),
+            ],
+        ),
+    }[name]()
+    linkage, numbers = mechanism.linkage, np.random.default_rng(5)
+    q, first, second = (
+        tuple(jnp.asarray(numbers.normal(size=(1, each.freedoms))) for each in linkage.joints) for _ in range(3)
+    )
+
+    def motion(t):
+        return tuple(a + t * b + 0.5 * t * t * c for a, b, c in zip(q, first, second, strict=True))
+
+    at = places(linkage, q, chords=False)
+    twists, changes = twists_of_parts(linkage, at, first, second)
+    size, middle = at.scale
+    for part, place in at.parts.items():
+        np.testing.assert_allclose(place, moving_parts(linkage.structure, linkage.joints, q)[part], atol=1e-12)
+
+        def moved(t, part=part):
+            return moving_parts(linkage.structure, linkage.joints, motion(t))[part][..., 0]
+
+        def twist(t, moved=moved):
+            """From the matrix T' T^-1 of the twist about the origin."""
+            here, change = moved(t), jax.jacfwd(moved)(t)
+            spin = change[:, :3] @ here[:, :3].T
+            w = jnp.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+            return jnp.concatenate([w, (change[:, 3] - spin @ here[:, 3] + jnp.cross(w, middle)) / size])
+
+        np.testing.assert_allclose(twists[part][:, 0], twist(0.0), atol=1e-10)
+        np.testing.assert_allclose(changes[part][:, 0], jax.jacfwd(twist)(0.0), atol=1e-9)
 
 
 @pytest.mark.long

@@ -1,0 +1,123 @@
+"""Differentiate the displacements of a motion whose poses are known: the closure is solved at them to first order.
+
+A sweep that is differentiated finds its poses anew. Here the poses are those of the motion, and only the derivative of
+the closure (`jaxkin.solve.range.implicit_derivative`) is computed: for velocities one linear system a pose. Nested
+derivatives are those of a sweep, too, and so are derivatives with respect to lengths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float, Int
+
+from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.solve.range.known_poses import known_displacements
+from jaxkin.solve.status import Status
+from jaxkin.solve.system.from_linkage import Columns
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
+
+Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
+Follow = Callable[[Inputs], tuple[Float[Array, "poses _"], ...]]
+
+
+class KnownElement(NamedTuple):
+    """A structure element that the drive moves (static)."""
+
+    system: LoopSystem
+    columns: Columns
+    inputs: tuple[str, ...]
+    """Its inputs, in the order of `system.driven`."""
+    refined: bool
+    """Whether the poses are those of least residual of other joints, and are closed here first."""
+
+
+class KnownDrive(NamedTuple):
+    """What follows from the drive of a motion, without numbers (static)."""
+
+    freedoms: tuple[int, ...]
+    """Of every joint."""
+    driven: tuple[tuple[str, int, int], ...]
+    """Name, joint and coordinate of every input."""
+    elements: tuple[KnownElement, ...]
+
+
+class KnownMotion(NamedTuple):
+    """The numbers of a motion that its derivatives follow from."""
+
+    joints: tuple[Joints, ...]
+    """Of every structure element of the `KnownDrive`."""
+    displacements: tuple[Float[Array, "poses _"], ...]
+    status: Int[Array, " poses"]
+
+
+def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
+    """Collect what the derivatives of a motion follow from."""
+    plan = plan_drive(motion.mechanism.linkage, tuple(motion.inputs))
+    names = list(plan.driven)
+    elements = tuple(
+        KnownElement(each.system, each.columns, tuple(names[i] for i in each.inputs), each.given is not None)
+        for each in (plan.elements if len(motion) else ())
+    )
+    driven = tuple((name, *place) for name, place in plan.driven.items())
+    joints = tuple(each.joints for each in plan.elements)[: len(elements)]
+    return KnownDrive(plan.freedoms, driven, elements), KnownMotion(joints, motion.displacements, motion.status)
+
+
+def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
+    """Return the displacements of all joints as a function of the inputs, to be differentiated at those of the motion.
+
+    The function returns the displacements that are known; its derivatives are zero at poses that did not close.
+    """
+    # least-residual poses are closed by the ideal joints, whose derivatives they have
+    status = jnp.where(known.status == Status.MISFIT.value, Status.CLOSED.value, known.status)
+    finite = known.status != Status.NONFINITE.value
+    at = tuple(jnp.where(finite[:, None], lax.stop_gradient(rows), 0.0) for rows in known.displacements)
+
+    def place(inputs: Inputs) -> tuple[Float[Array, "poses _"], ...]:
+        columns = {}
+        for name, joint, k in drive.driven:
+            given = inputs[name]
+            columns[joint, k] = at[joint][:, k] + jnp.where(finite, given - lax.stop_gradient(given), 0.0)
+        for element, joints in zip(drive.elements, known.joints, strict=True):
+            rows = jnp.stack([at[joint][:, k] for joint, k in element.columns])
+            given = [jnp.where(finite, inputs[name], 0.0) for name in element.inputs]
+            given = jnp.stack(given) if given else jnp.zeros((0, len(finite)), rows.dtype)
+            found = known_displacements(element.system, joints, given, rows, status, element.refined)
+            columns |= dict(zip(element.columns, found, strict=True))
+        return tuple(
+            jnp.stack([columns.get((joint, k), rows[:, k]) for k in range(rows.shape[1])], axis=1)
+            if rows.shape[1]
+            else rows
+            for joint, rows in enumerate(at)
+        )
+
+    return place
+
+
+def derivatives(function: Callable, given: tuple) -> tuple:
+    """Differentiate a function of one variable along its curve: `given` are its value and its derivatives by time.
+
+    Returns the derivatives of the function by time, as many as are given, without the function itself.
+    """
+
+    def upto(order: int) -> Callable:
+        if order == 0:
+            return lambda value: (function(value),)
+
+        def found(*given):
+            every, changes = jax.jvp(upto(order - 1), given[:-1], given[1:])
+            return *every, changes[-1]
+
+        return found
+
+    return upto(len(given) - 1)(*given)[1:]
