@@ -265,7 +265,7 @@ def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Contai
     for joint, row in zip(mechanism.all_joints, rows, strict=True):
         elements, start = [], 0
         for movement in joint.movements:
-            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements]
+            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements if e.law is None]
             start += len(MOVEMENTS[movement].coordinates)
         for kind, k in elements:
             name = f"{joint.name}.{joint.coordinates[k]}"

@@ -8,7 +8,8 @@ from typing import Any
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
+from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.rigid import as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 
@@ -33,20 +34,20 @@ def joint_screws(
             found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
         found = product(found, as_rigid(jnp.asarray(frame, float)))
         own: dict[int, list[Any]] = {}
+        curve = joint.curves[number] if joint.curves else None
+        point = None if curve is None else curve.spline(jnp).at(q[:, first], jnp)
         for element in MOVEMENTS[movement].elements:
             axis, at = found[:, element.axis], found[:, 3]
-            turning = jnp.zeros_like(axis) if element.kind == "translate" else axis
+            slides, turns = rates(element, jnp.asarray(joint.pitch, float) / size, point)
+            if element.law == "turn":  # the parameter of a curve is a length, and counts over `size`
+                turns = turns * size
+            turning = turns * axis
             if MOVEMENTS[movement].ball and first not in driven:
                 turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
-            pitch = 0.0 if element.kind == "rotate" else jnp.asarray(joint.pitch, float) / (2 * jnp.pi) / size
-            along = axis if element.kind == "translate" else pitch * axis
-            own.setdefault(element.coordinate, []).append((turning, along, at))
+            own.setdefault(element.coordinate, []).append((turning, slides * axis, at))
             value = q[:, first + element.coordinate]
-            advance = None
-            if element.kind != "rotate":
-                advance = value if element.kind == "translate" else value * pitch * size
-            turn = None if element.kind == "translate" else (jnp.cos(value), jnp.sin(value))
-            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
+            how_far = amount(element, value, jnp.asarray(joint.pitch, float), point, _cos_sin)
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = jnp.stack(columns, axis=1)
         twists += [own[k] for k in range(len(own))]
         first += len(own)
@@ -61,6 +62,10 @@ def joint_screws(
     ]
     screws = jnp.stack(rows, axis=-1) if rows else jnp.zeros((6, q.shape[0], 0))
     return place.T, jnp.moveaxis(screws, 1, 0)
+
+
+def _cos_sin(angle: Array) -> tuple[Array, Array]:
+    return jnp.cos(angle), jnp.sin(angle)
 
 
 def pulls_of(screws: Float[Array, "poses 6 free"]) -> Float[Array, "poses 6 free"]:

@@ -142,6 +142,16 @@ class LoopSystem:
         first = self._first_columns[joint]
         return range(first, first + freedoms(self.movements[joint]))
 
+    @cached_property
+    def curves(self) -> tuple[tuple[int, int], ...]:
+        """(joint, frame) of each movement that travels along a curve, in order."""
+        return tuple(
+            (joint, frame)
+            for joint, movements in enumerate(self.movements)
+            for frame, name in enumerate(movements)
+            if MOVEMENTS[name].has_curve
+        )
+
     @property
     def columns(self) -> int:
         """Number of coordinates."""
@@ -263,5 +273,5 @@ class LoopSystem:
             for name, _, column, _ in chain:
                 for element in MOVEMENTS[name].elements:
                     if column + element.coordinate == driven:
-                        return element.kind == "rotate" and not MOVEMENTS[name].ball
+                        return element.kind == "rotate" and element.law is None and not MOVEMENTS[name].ball
         return False
