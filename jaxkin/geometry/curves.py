@@ -19,6 +19,10 @@ from jaxtyping import Array, Float
 
 Given = Array | np.ndarray
 
+ROUNDING = 1e-12
+"""Distance over the size of a curve, and angle, that are rounding: some thousand roundings of float64, since the points
+of a curve may lie far from the origin of their axes."""
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -110,6 +114,13 @@ class Spline:
     start: Float[Given, ""]
     """Parameter of the contact in the assembled pose, from which `at` counts."""
     closed: bool
+
+    @property
+    def begins_at_contact(self) -> bool:
+        """Whether the curve is at the origin for the parameter 0, along x, to rounding: numbers only."""
+        at = self.at(0.0)
+        size = float(np.abs(self.table[0]).max()) + float(self.knots[-1])
+        return max(abs(at.x) / size, abs(at.y) / size, abs(at.sin)) <= ROUNDING and bool(at.cos > 0)
 
     def at(self, q: Float[Given | float, "*poses"], xp: Any = np) -> CurvePoint:
         """Evaluate the curve at parameters counted from the assembled pose.

@@ -236,7 +236,7 @@ def symmetry_of(surface: str) -> str:
 
 
 def is_length(coordinate: str) -> bool:
-    """Check by its name, such as "z" or "phi2", whether a coordinate of a joint is a length (x, y, z, s), not an angle."""
+    """Check by its name, such as "z" or "phi2", whether a coordinate is a length (x, y, z, s) and no angle."""
     return coordinate.rstrip("0123456789") in ("x", "y", "z", "s")
 
 

@@ -8,19 +8,18 @@ on each other; nothing rolls.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._names import nearest
-from jaxkin._traced import traced
-from jaxkin.geometry.pose import Pose, frame
-from jaxkin.joints.axis_frame import Triple, axis_frame
+from jaxkin.joints.axis_frame import Triple
 from jaxkin.joints.evidence import BY_HAND, Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.profile_plane import Contact, Plane, contact_at, profile_plane
 from jaxkin.joints.profiles import Placed, check_simple, nearest_to, placed_profile, tangent_to, touching
 
 Profile = Any
@@ -32,8 +31,6 @@ TOUCHES = 5e-6
 digits, as of `mobility.alignment.SIX_DIGITS`. A spline through fifty points of a smooth cam is nearer to it."""
 _TOLD = 1e-12
 """Distance, over the size of the profile, from which on such a move is told: above rounding."""
-_PERPENDICULAR = 1e-6
-"""Largest cosine between the axis of the plane and a direction that is to lie in the plane, as of other joints."""
 
 
 def point_on_curve(
@@ -59,9 +56,9 @@ def point_on_curve(
 
     Raises ValueError for fewer than four points, equal or infinite ones, and directions that are not in the plane.
     """
-    plane = _plane(name, point, axis, direction)
+    plane = profile_plane(name, point, axis, direction)
     curve = placed_profile(name, "profile", profile, np.zeros(3), closed)
-    contact = _on_profile(curve, nearest_to(curve, plane.local(name, "point2", point2)))
+    contact = contact_at(curve, nearest_to(curve, plane.local(name, "point2", point2)))
     return _follows(name, (part1, part2), JointKind.POINT_ON_CURVE, plane, curve, contact, 0.0, point2, limits)
 
 
@@ -104,7 +101,7 @@ def cam(
         if (given is None) == (follower == of):
             what = f"needs {label}" if given is None else f"has no {label}, got {given!r}"
             raise ValueError(f"joint {name!r}: a follower {follower!r} {what}")
-    plane = _plane(name, point, axis, direction)
+    plane = profile_plane(name, point, axis, direction)
     curve = placed_profile(name, "profile", profile, np.zeros(3), closed)
     check_simple(name, "profile", curve)
     at = plane.local(name, "point2", point2)
@@ -116,8 +113,8 @@ def cam(
                 f"joint {name!r}: no tangent of the profile is parallel to the face, "
                 f"direction2={np.asarray(direction2).tolist()}"
             )
-        return _flat(name, (part1, part2), plane, curve, _on_profile(curve, found), at, limits)
-    contact, size = _on_profile(curve, nearest_to(curve, at)), 0.0
+        return _flat(name, (part1, part2), plane, curve, contact_at(curve, found), at, limits)
+    contact, size = contact_at(curve, nearest_to(curve, at)), 0.0
     if radius is not None:
         size = _radius(name, radius)
         size = size if contact.away(at)[1] >= 0 else -size
@@ -152,7 +149,7 @@ def curve_on_curve(
     `mechanism.close()` closes it. `jk.curve_contacts(motion)` tells where they would pass through each other. Raises
     ValueError for profiles that cross themselves or have no common normal there, and as `point_on_curve`.
     """
-    plane, plane2 = _plane(name, point, axis, direction), _plane(name, point2, axis, direction2, "2")
+    plane, plane2 = profile_plane(name, point, axis, direction), profile_plane(name, point2, axis, direction2, "2")
     tilted = plane.pose[:3, :3].T @ plane2.pose[:3, :3]
     x, y = plane.local(name, "point2", point2)
     place2 = np.array([x, y, np.arctan2(tilted[1, 0], tilted[0, 0])])
@@ -170,7 +167,7 @@ def curve_on_curve(
             + (f"near contact={np.asarray(contact).tolist()}" if contact is not None else "where they are nearest")
             + "; move a part to where they touch, or give another contact=(x, y, z) near that place"
         )
-    one, other = (_on_profile(curve, q) for curve, q in zip(curves, found, strict=True))
+    one, other = (contact_at(curve, q) for curve, q in zip(curves, found, strict=True))
     misfit = float(one.away(other.point)[1])
     size = min(curve.size for curve in curves)
     touches = abs(misfit) <= TOUCHES * size
@@ -192,87 +189,19 @@ def curve_on_curve(
     return _with_ends(made, limits)
 
 
-class _Contact(NamedTuple):
-    """A point of a profile in coordinates of the plane."""
-
-    q: float
-    """Parameter, from the first point of the profile."""
-    point: Float[np.ndarray, "2"]
-    tangent: Float[np.ndarray, "2"]
-
-    def away(self, point: Float[np.ndarray, "2"]) -> Float[np.ndarray, "2"]:
-        """How far a point of the plane is from here along the tangent, and along the normal to its left."""
-        x, y = point - self.point
-        cos, sin = self.tangent
-        return np.array([cos * x + sin * y, cos * y - sin * x])
-
-    def beside(self, height: float) -> Float[np.ndarray, "2"]:
-        """Return the point at a height along the normal to the left."""
-        return self.point + height * np.array([-self.tangent[1], self.tangent[0]])
-
-
-class _Plane(NamedTuple):
-    """The plane of a profile."""
-
-    pose: Pose
-    """Its axes in the world: x along `direction`, z along `axis`."""
-
-    def local(self, name: str, label: str, point: Triple) -> Float[np.ndarray, "2"]:
-        """Find the coordinates (x, y) of a point; how far it is off the plane does not matter."""
-        origin = np.asarray(axis_frame(name, point, (0.0, 0.0, 1.0), point_label=label))[:3, 3]
-        return (self.pose[:3, :2].T @ (origin - self.pose[:3, 3])).astype(float)
-
-    def direction(self, name: str, label: str, given: Triple) -> Float[np.ndarray, "2"]:
-        """Find the unit direction (x, y) of a direction in the plane; ValueError where it is not in the plane."""
-        along = np.asarray(axis_frame(name, (0.0, 0.0, 0.0), given, label))[:3, 2]
-        if abs(float(along @ self.pose[:3, 2])) > _PERPENDICULAR:
-            raise ValueError(
-                f"joint {name!r}: {label} must be perpendicular to the axis of the profile, the cosine between them "
-                f"is {float(along @ self.pose[:3, 2]):.3g}"
-            )
-        flat = self.pose[:3, :2].T @ along
-        return flat / np.linalg.norm(flat)
-
-    def frame(self, contact: _Contact, height: float = 0.0) -> Pose:
-        """Make the frame at a height beside a contact, with x along its tangent."""
-        found = np.eye(4)
-        found[:2, 3] = contact.beside(height)
-        found[:2, 0] = contact.tangent
-        found[:2, 1] = -contact.tangent[1], contact.tangent[0]
-        return self.pose @ found
-
-
-def _plane(name: str, point: Triple, axis: Triple, direction: Triple | None, suffix: str = "") -> _Plane:
-    if traced(point, axis, direction):
-        raise ValueError(
-            f"joint {name!r}: the place of a profile is traced, and where the parts touch is found from numbers: make "
-            "the joint outside of jit and grad, and move it by mechanism.with_points or with_frames"
-        )
-    pose = np.asarray(axis_frame(name, point, axis, point_label=f"point{suffix}"))
-    if direction is None:
-        return _Plane(pose)
-    x = _Plane(pose).direction(name, f"direction{suffix}", direction)
-    return _Plane(frame(pose[:3, 3], pose[:3, 2], pose[:3, :2] @ x))
-
-
 def _radius(name: str, radius: Any) -> float:
     if isinstance(radius, bool) or not isinstance(radius, int | float | np.number) or not 0 < radius < np.inf:
         raise ValueError(f"joint {name!r}: the radius of a roller must be a positive number, got {radius!r}")
     return float(radius)
 
 
-def _on_profile(curve: Placed, q: float) -> _Contact:
-    at = curve.spline.at(np.array(q))
-    return _Contact(q, np.array([at.x, at.y], float), np.array([at.cos, at.sin], float))
-
-
 def _follows(
     name: str,
     parts: tuple[str, str],
     kind: JointKind,
-    plane: _Plane,
+    plane: Plane,
     curve: Placed,
-    contact: _Contact,
+    contact: Contact,
     height: float,
     point2: Triple,
     limits: GivenLimits | None,
@@ -295,9 +224,9 @@ def _follows(
 def _flat(
     name: str,
     parts: tuple[str, str],
-    plane: _Plane,
+    plane: Plane,
     curve: Placed,
-    contact: _Contact,
+    contact: Contact,
     face: Float[np.ndarray, "2"],
     limits: GivenLimits | None,
 ) -> Joint:

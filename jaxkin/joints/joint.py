@@ -90,6 +90,15 @@ class Joint:
         return tuple(None if curve is None else curve.spline() for curve in curves)
 
     @property
+    def coincides(self) -> bool:
+        """Whether the joint is closed as assembled: the same frames on both parts, and each curve begins in its frame.
+
+        Numbers only; it is not where lengths or profiles were changed.
+        """
+        begun = all(spline is None or spline.begins_at_contact for spline in self.splines)
+        return begun and bool(np.array_equal(self.frames_1, self.frames_2))
+
+    @property
     def contact_state(self) -> ContactState | None:
         """The contact state (Tables 1 and 2) of the joint; None for a joint that is no contact state."""
         return _CONTACT_STATES.get((self.kind, self.movements))

@@ -145,7 +145,7 @@ class ClosedLoops:
             self._scaled(couplings[number], [f"{every[j].name}.{every[j].coordinates[k]}" for j, k in self.columns])
             for number in loop_group.couplings
         ]
-        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values()) and not any(
+        self.coincide = all(joint.coincides for joint in joints.values()) and not any(
             offset for *_, offset in self.couplings
         )
         """Whether each joint has the same frame on both of its parts, and no coupling an offset. Then the assembled

@@ -77,7 +77,8 @@ def loop_geometry(
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
 
-    Frames, pitches and curves have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
+    Frames, pitches and curves have one entry a joint, in the unit of the mechanism; the constants are those of
+    `scaled_frames`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
     frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2))
