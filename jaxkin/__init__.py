@@ -27,6 +27,9 @@ from jaxkin.effects.clashes import Clashes as Clashes
 from jaxkin.effects.clashes import clashes as clashes
 from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
+from jaxkin.effects.curve_contacts import CurveContact as CurveContact
+from jaxkin.effects.curve_contacts import CurveContacts as CurveContacts
+from jaxkin.effects.curve_contacts import curve_contacts as curve_contacts
 from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium

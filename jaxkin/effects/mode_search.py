@@ -91,8 +91,8 @@ class PoseFeatures:
     def at(self, q: Row) -> Float[np.ndarray, " entries"]:
         """Compute the entries of all frames, lengths over the characteristic length, at scaled coordinates."""
         places, rows = self.loops.travel(q).places, []
-        for index, (_, before, after, _) in self.loops.chains.items():
-            for part, frame in zip(self.loops.ends[index], (before[0], after[-1]), strict=True):
+        for index, each in self.loops.chains.items():
+            for part, frame in zip(self.loops.ends[index], (each.frames_1[0], each.frames_2[-1]), strict=True):
                 rows.append((places[part] @ frame)[:3].ravel())
         return np.concatenate(rows)
 
