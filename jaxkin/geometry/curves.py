@@ -65,7 +65,7 @@ class Curve:
         if not self.closed:  # beyond an end in lengths of the last chord
             beyond = xp.maximum(number - (len(local) - 1), 0.0)
             start = start + xp.minimum(number, 0.0) * widths[0] + beyond * widths[-1]
-        return Spline(knots, xp.stack(table), start, self.closed)
+        return Spline(knots, xp.stack(table), xp.asarray(start), self.closed)
 
     def counted_from(self, q: float) -> Curve:
         """Return the same curve for the frame that stands at parameter `q` of this one: host numbers."""
