@@ -120,7 +120,7 @@ class Spline:
         """Whether the curve is at the origin for the parameter 0, along x, to rounding: numbers only."""
         at = self.at(0.0)
         size = float(np.abs(self.table[0]).max()) + float(self.knots[-1])
-        return max(abs(at.x) / size, abs(at.y) / size, abs(at.sin)) <= ROUNDING and bool(at.cos > 0)
+        return bool(max(abs(at.x) / size, abs(at.y) / size, abs(at.sin)) <= ROUNDING and at.cos > 0)
 
     def at(self, q: Float[Given | float, "*poses"], xp: Any = np) -> CurvePoint:
         """Evaluate the curve at parameters counted from the assembled pose.

@@ -39,7 +39,8 @@ def amount(
 
     `pitch` is the advance of a screw per turn, `point` the point of the curve at the parameter, for motions with a law.
     """
-    if element.law is not None and point is not None:
+    if element.law is not None:
+        point = _known(point)
         if element.law == "turn":
             return None, (point.cos, element.sense * point.sin)
         return element.sense * (point.x if element.law == "x" else point.y), None
@@ -51,12 +52,19 @@ def amount(
 
 def rates(element: ElementaryMotion, pitch: Any, point: CurvePoint | None) -> tuple[Any, Any]:
     """Compute the derivatives of the length and of the angle of a motion with respect to its coordinate."""
-    if element.law is not None and point is not None:
+    if element.law is not None:
+        point = _known(point)
         if element.law == "turn":
             return 0.0, element.sense * point.turning
         return element.sense * (point.dx if element.law == "x" else point.dy), 0.0
     advance = 0.0 if element.kind == "rotate" else 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
     return advance, 0.0 if element.kind == "translate" else 1.0
+
+
+def _known(point: CurvePoint | None) -> CurvePoint:
+    if point is None:
+        raise ValueError("a motion along a curve needs the curve")
+    return point
 
 
 def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:

@@ -8,7 +8,7 @@ on each other; nothing rolls.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -68,7 +68,7 @@ def cam(
     part2: str,
     *,
     profile: Profile,
-    follower: Literal["knife", "roller", "flat"],
+    follower: str,
     point2: Triple,
     radius: float | int | None = None,
     direction2: Triple | None = None,
@@ -81,8 +81,8 @@ def cam(
     """Make a cam, part 1, with a follower, part 2, that keeps touching its profile.
 
     `profile`, `point`, `axis`, `direction` and `closed` say where the profile is, as of `point_on_curve`. `point2` is a
-    point of the follower as assembled: the edge of a knife, the centre of a roller of the given `radius`, or any point
-    of a flat face along `direction2`. A roller touches at the point of the profile nearest to its centre, on the side
+    point of the follower as assembled: the edge of a "knife", the centre of a "roller" of the given `radius`, or any
+    point of a "flat" face along `direction2`. A roller touches at the point of the profile nearest to its centre, on the side
     where its centre is; a flat face where the tangent is parallel to it, nearest to it. Coordinates: s, how far the
     contact is along the profile, in lengths of the chords between its points, many turns counted on; and phi, the turn
     of part 2 against the tangent (90 degrees less or more the pressure angle), or z, how far a flat face has slid along

@@ -10,22 +10,23 @@ TURN = np.linspace(0.0, 2 * np.pi, 73)
 ANGLE = 2 * np.pi * np.arange(180) / 180
 
 
-def clover(waves=3.0, count=3, radius=30.0):
+def clover(waves=6.0, count=3, radius=30.0):
     """A round cam with waves: r = radius + waves cos(count angle), whose curvature has a closed form."""
     far = radius + waves * np.cos(count * ANGLE)
     return far[:, None] * np.stack([np.cos(ANGLE), np.sin(ANGLE)], axis=1)
 
 
-def curvature(angle, waves=3.0, count=3, radius=30.0):
+def curvature(angle, waves=6.0, count=3, radius=30.0):
     r = radius + waves * np.cos(count * angle)
     dr, ddr = -waves * count * np.sin(count * angle), -waves * count**2 * np.cos(count * angle)
     return (r**2 + 2 * dr**2 - r * ddr) / (r**2 + dr**2) ** 1.5
 
 
-def on_cam(follower, waves=3.0, radius=None):
+def on_cam(follower, waves=6.0, radius=None):
     """A follower that slides along x, where the clover has a crest as assembled."""
     reach = 30.0 + waves + (radius or 0.0)
-    more = {"radius": radius} if radius else {"direction2": (0, 1, 0)}
+    more = {"profile": clover(waves), "follower": follower, "point2": (reach, 0, 0)}
+    more |= {"radius": radius} if radius else {"direction2": (0, 1, 0)}
     return jk.Mechanism.build(
         fixed=["ground"],
         joints=[
@@ -39,32 +40,102 @@ def on_cam(follower, waves=3.0, radius=None):
     )
 
 
+HOLLOW = -1.0 / curvature(np.pi / 3)
+"""Radius of curvature in a hollow of the clover: 19 mm."""
+
+
 def test_a_roller_that_fits_into_the_hollows():
-    motion = on_cam("roller", 3.0, 10.0).sweep({"shaft": TURN}, throw=True)
+    motion = on_cam("roller", radius=10.0).sweep({"shaft": TURN}, throw=True)
     found = jk.curve_contacts(motion)
-    assert found.holds and "possible" in str(found)
+    assert found.holds and "possible" in str(found) and "curve contact" not in str(motion)
     contact = found.contacts[0]
     # curvature in crests and hollows: the spline's, to the second order of 1 mm between points
     assert contact.curvature.max() == pytest.approx(curvature(0.0), rel=1e-3)
-    assert contact.curvature.min() == pytest.approx(curvature(np.pi / 3), rel=1e-2)
+    assert contact.curvature.min() == pytest.approx(-1 / HOLLOW, rel=1e-3)
     np.testing.assert_allclose(contact.clearance, 1 + 10.0 * contact.curvature, rtol=1e-12)
+    # the contact passes all of the profile once
+    assert np.ptp(np.unwrap(contact.parameter, period=length())) == pytest.approx(length(), rel=1e-9)
 
 
-def test_a_roller_larger_than_a_hollow_is_undercut():
-    """The hollows have a radius of curvature of 1 / 0.0658 = 15 mm: a roller of 20 mm touches their flanks."""
-    hollow = -1.0 / curvature(np.pi / 3)
-    assert 14 < hollow < 65
-    motion = on_cam("roller", 3.0, hollow * 1.3).sweep({"shaft": TURN})
+def length():
+    points = clover()
+    return np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).sum()
+
+
+def test_a_roller_larger_than_a_hollow():
+    """It would have to pass through the flanks before its contact is in the hollow, where it is undercut."""
+    radius = 1.3 * HOLLOW
+    motion = on_cam("roller", radius=radius).sweep({"shaft": TURN[:13]})
     found = jk.curve_contacts(motion)
-    contact = found.contacts[0]
+    contact, closed = found.contacts[0], np.asarray(motion.closed)
     assert not found.holds
-    closed = np.asarray(motion.closed)
-    assert (np.nanmin(contact.depth) >= 0 and np.nanmax(contact.depth) > 0) or not closed.all()
-    if closed.all():
-        assert "is undercut" in str(found) and "would have a roller pass through the profile" in str(motion)
+    # the depth is the radius less the distance of the roller's middle from the profile, found by brute force
+    pose = int(np.nanargmax(contact.depth))
+    middle = 36.0 + radius + float(motion.coordinates["guide"][pose, 0])
+    fine = np.linspace(0, 2 * np.pi, 200_000) + TURN[pose]
+    far = 30.0 + 6.0 * np.cos(3 * (fine - TURN[pose]))
+    apart = np.hypot(far * np.cos(fine) - middle, far * np.sin(fine))
+    # the samples of the profile are 0.13 mm apart: the square of half of that, over the radius
+    assert contact.depth[pose] == pytest.approx(radius - apart.min(), abs=1e-3)
+    assert contact.depth[pose] > 0.05
+    assert "would have a roller pass through the profile" in str(motion)
+    # where the contact is in the hollow the pitch curve is undercut; or the motion ends before, at its cusp
+    undercut = contact.clearance[closed] < 0
+    assert undercut.any() == ("is undercut" in str(found))
+    assert undercut.any() or not closed.all()
 
 
 def test_a_flat_face_across_a_hollow():
-    """A face rests on two crests; the contact in the hollow between them is deep below it."""
-    motion = on_cam("flat", waves=0.5).sweep({"shaft": TURN}, throw=True)
-    assert jk.curve_contacts(motion).holds  # 30 > 8 * 0.5: convex all around
+    """A face touches a profile where it is convex; it would have to pass through the crests beside a hollow."""
+    assert jk.curve_contacts(on_cam("flat", waves=1.5).sweep({"shaft": TURN}, throw=True)).holds
+    motion = on_cam("flat").sweep({"shaft": TURN[:13]})
+    found, closed = jk.curve_contacts(motion), np.asarray(motion.closed)
+    contact = found.contacts[0]
+    assert not found.holds or not closed.all()
+    # the height of the cam over all points, against that of the contact
+    fine = np.linspace(0, 2 * np.pi, 200_000)
+    far = 30.0 + 6.0 * np.cos(3 * fine)
+    for pose in np.flatnonzero(closed):
+        over = (far * np.cos(fine + TURN[pose])).max() - 36.0 - float(motion.coordinates["guide"][pose, 0])
+        # the samples of the profile are 0.13 mm apart
+        assert contact.depth[pose] == pytest.approx(over, abs=1e-3)
+
+
+def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
+    radius = 1.3 * HOLLOW
+    round_one = radius * np.stack([np.cos(ANGLE), np.sin(ANGLE)], axis=1)
+    mechanism = jk.Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            jk.revolute("shaft", "ground", "cam", point=(0, 0, 0), axis=Z),
+            jk.curve_on_curve(
+                "contact", "cam", "follower", profile=clover(), profile2=round_one, point2=(36.0 + radius, 0, 0)
+            ),
+            jk.prismatic("guide", "ground", "follower", axis=(1, 0, 0)),
+        ],
+    )
+    motion = mechanism.sweep({"shaft": TURN[:13]})
+    alike = on_cam("roller", radius=radius).sweep({"shaft": TURN[:13]})
+    both = np.asarray(motion.closed & alike.closed)
+    assert both.sum() > 6
+    np.testing.assert_allclose(
+        motion.coordinates["guide"][both], alike.coordinates["guide"][both], atol=1e-5
+    )  # both splines
+    one, other = (jk.curve_contacts(each).contacts[0] for each in (motion, alike))
+    np.testing.assert_allclose(one.depth[both], other.depth[both], atol=5e-2)  # by corners of polygons
+    assert (one.depth[both] > 0).any()
+    assert "would have a curve pass through the profile" in str(motion)
+
+
+def test_drawn_and_saved(tmp_path):
+    found = jk.curve_contacts(on_cam("roller", radius=10.0).sweep({"shaft": TURN}))
+    assert found.plot(tmp_path / "contacts.png").stat().st_size > 1000
+    table = found.save(tmp_path / "contacts.csv").read_text().splitlines()
+    assert len(table) == len(TURN) + 1 and table[0].startswith('pose,"contact parameter"')
+
+
+def test_mechanisms_without_curves_are_refused():
+    hinge = jk.revolute("A", "ground", "arm", point=(0, 0, 0), axis=Z)
+    motion = jk.Mechanism.build(fixed=["ground"], joints=[hinge]).sweep({"A": [0.0, 1.0]})
+    with pytest.raises(ValueError, match="no joints along curves"):
+        jk.curve_contacts(motion)

@@ -7,6 +7,9 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from jaxkin.geometry.curves import Curve
+from jaxkin.geometry.movements import displaced
+from jaxkin.geometry.rigid import as_matrices, as_rigid
+from jaxkin.joints.screws import chain
 
 Q = np.linspace(-9.0, 12.0, 60)
 """Several times around the closed curve, and beyond both ends of the open one."""
@@ -72,3 +75,29 @@ def test_derivatives_with_respect_to_points_are_differences(closed):
     found = jnp.sum(jax.grad(ends)(jnp.asarray(given.points)) * direction)
     # the square of the step, and rounding over the step
     assert float(found) == pytest.approx(float(differences), rel=1e-7)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_a_frame_travels_along_the_curve_with_x_along_the_tangent(closed):
+    """T_s is a translation by the point of the spline and a turn to its tangent; T_s_back is the inverse of T_s."""
+    given = curve(closed, place=(0.0, 0.0, 0.0))
+    s = float(given.spline().start) + Q
+    point, tangent = by_scipy(given, s), by_scipy(given, s, 1)
+    angle = np.arctan2(tangent[:, 1], tangent[:, 0])
+    wanted = np.tile(np.eye(4), (len(Q), 1, 1))
+    wanted[:, 0, 0] = wanted[:, 1, 1] = np.cos(angle)
+    wanted[:, 1, 0], wanted[:, 0, 1] = np.sin(angle), -np.sin(angle)
+    wanted[:, :2, 3] = point
+    identity = as_rigid(jnp.eye(4))
+    for movement, matrices in (("T_s", wanted), ("T_s_back", np.linalg.inv(wanted))):
+        moved = as_matrices(displaced(identity, movement, jnp.asarray(Q)[None], 0.0, given))
+        # rounding of cubics that go on far beyond the ends of the open curve
+        np.testing.assert_allclose(moved, matrices, rtol=1e-12, atol=1e-11)
+        for q, matrix in zip(Q[20:30], matrices[20:30], strict=True):
+            step, splines = 1e-6, (given.spline(),)
+            pose, screw = chain([movement], np.eye(4)[None], np.array([q]), splines=splines)
+            np.testing.assert_allclose(pose, matrix, atol=1e-12)
+            ends = [chain([movement], np.eye(4)[None], np.array([q + by]), splines=splines)[0] for by in (-step, step)]
+            twist = (ends[1] - ends[0]) / (2 * step) @ np.linalg.inv(pose)
+            found = [twist[2, 1], twist[0, 2], twist[1, 0], *twist[:3, 3]]
+            np.testing.assert_allclose(screw[:, 0], found, atol=1e-7)  # differences

@@ -45,7 +45,7 @@ def disc_profile(count: int, radius=25.0, eccentricity=8.0, angle=0.0) -> Array:
 
 
 def cam_roller_arm(theta, xp=np, radius=25.0, eccentricity=8.0, roller=6.0, pivot=40.0, arm=35.0):
-    """Angle of an arm, pivoted at (pivot, 0), to a roller on an eccentric disc: the rocker of a four-bar, upper side."""
+    """Angle of an arm, pivoted at (pivot, 0), to a roller on top of an eccentric disc: the rocker of a four-bar."""
     x, y = eccentricity * xp.cos(theta) - pivot, eccentricity * xp.sin(theta)
     far = xp.sqrt(x * x + y * y)
     corner = (far**2 + arm**2 - (radius + roller) ** 2) / (2 * far * arm)
