@@ -82,11 +82,11 @@ def cam(
 
     `profile`, `point`, `axis`, `direction` and `closed` say where the profile is, as of `point_on_curve`. `point2` is a
     point of the follower as assembled: the edge of a "knife", the centre of a "roller" of the given `radius`, or any
-    point of a "flat" face along `direction2`. A roller touches at the point of the profile nearest to its centre, on the side
-    where its centre is; a flat face where the tangent is parallel to it, nearest to it. Coordinates: s, how far the
-    contact is along the profile, in lengths of the chords between its points, many turns counted on; and phi, the turn
-    of part 2 against the tangent (90 degrees less or more the pressure angle), or z, how far a flat face has slid along
-    the tangent. Part 2 may be the roller itself, on a hinge of the follower.
+    point of a "flat" face along `direction2`. A roller touches at the point of the profile nearest to its centre, on
+    the side where its centre is; a flat face where the tangent is parallel to it, nearest to it. Coordinates: s, how
+    far the contact is along the profile, in lengths of the chords between its points, counted on over many turns; and
+    phi, the turn of part 2 against the tangent (its changes are those of the pressure angle), or z, how far a flat face
+    has slid along the tangent. Part 2 may be the roller itself, on a hinge of the follower.
 
     A follower that does not touch in the assembled pose, by more than rounding, leaves the mechanism open:
     `mechanism.close()` closes it. `jk.curve_contacts(motion)` tells undercut and where the follower would have to pass

@@ -75,7 +75,7 @@ class Joint:
 
     @property
     def driven_together(self) -> tuple[tuple[int, ...], ...]:
-        """Indices of the coordinates in tuples that can only be driven together: the angles of a ball are one turn."""
+        """Indices of the coordinates in tuples that belong together: the angles of a ball are one turn."""
         groups: list[tuple[int, ...]] = []
         for movement in self.movements:
             first = sum(map(len, groups))

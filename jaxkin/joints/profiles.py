@@ -50,8 +50,9 @@ def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "
     """
     if traced(given):
         raise ValueError(
-            f"joint {name!r}: {label} is traced, and where the parts touch is found from numbers: make the joint outside "
-            f"of jit and grad, and give traced points by mechanism.with_points({{({name!r}, {label!r}): points}})"
+            f"joint {name!r}: {label} is traced, and where the parts touch is found from numbers: make the joint "
+            "outside of jit and grad, and give traced points by "
+            f"mechanism.with_points({{({name!r}, {label!r}): points}})"
         )
     try:
         points = np.array(given, float)

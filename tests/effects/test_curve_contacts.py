@@ -31,9 +31,7 @@ def on_cam(follower, waves=6.0, radius=None):
         fixed=["ground"],
         joints=[
             jk.revolute("shaft", "ground", "cam", point=(0, 0, 0), axis=Z),
-            jk.cam(
-                "contact", "cam", "follower", profile=clover(waves), follower=follower, point2=(reach, 0, 0), **more
-            ),
+            jk.cam("contact", "cam", "follower", **more),
             jk.prismatic("guide", "ground", "follower", axis=(1, 0, 0)),
         ],
         unit="mm",
@@ -49,9 +47,9 @@ def test_a_roller_that_fits_into_the_hollows():
     found = jk.curve_contacts(motion)
     assert found.holds and "possible" in str(found) and "curve contact" not in str(motion)
     contact = found.contacts[0]
-    # curvature in crests and hollows: the spline's, to the second order of 1 mm between points
-    assert contact.curvature.max() == pytest.approx(curvature(0.0), rel=1e-3)
-    assert contact.curvature.min() == pytest.approx(-1 / HOLLOW, rel=1e-3)
+    # curvature of the spline, of the second order: h^2 / 12 = 0.1 mm^2 times its second derivative
+    assert contact.curvature.max() == pytest.approx(curvature(0.0), rel=3e-3)
+    assert contact.curvature.min() == pytest.approx(-1 / HOLLOW, rel=3e-3)
     np.testing.assert_allclose(contact.clearance, 1 + 10.0 * contact.curvature, rtol=1e-12)
     # the contact passes all of the profile once
     assert np.ptp(np.unwrap(contact.parameter, period=length())) == pytest.approx(length(), rel=1e-9)
@@ -63,9 +61,9 @@ def length():
 
 
 def test_a_roller_larger_than_a_hollow():
-    """It would have to pass through the flanks before its contact is in the hollow, where it is undercut."""
+    """It rests on both flanks of a hollow where that faces it, and would have to pass through one from there on."""
     radius = 1.3 * HOLLOW
-    motion = on_cam("roller", radius=radius).sweep({"shaft": TURN[:13]})
+    motion = on_cam("roller", radius=radius).sweep({"shaft": TURN[:19]})
     found = jk.curve_contacts(motion)
     contact, closed = found.contacts[0], np.asarray(motion.closed)
     assert not found.holds
@@ -86,9 +84,9 @@ def test_a_roller_larger_than_a_hollow():
 
 
 def test_a_flat_face_across_a_hollow():
-    """A face touches a profile where it is convex; it would have to pass through the crests beside a hollow."""
+    """It rests on two crests where a hollow faces it, and would have to pass through the next crest from there on."""
     assert jk.curve_contacts(on_cam("flat", waves=1.5).sweep({"shaft": TURN}, throw=True)).holds
-    motion = on_cam("flat").sweep({"shaft": TURN[:13]})
+    motion = on_cam("flat").sweep({"shaft": TURN[:19]})
     found, closed = jk.curve_contacts(motion), np.asarray(motion.closed)
     contact = found.contacts[0]
     assert not found.holds or not closed.all()
@@ -114,8 +112,8 @@ def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
             jk.prismatic("guide", "ground", "follower", axis=(1, 0, 0)),
         ],
     )
-    motion = mechanism.sweep({"shaft": TURN[:13]})
-    alike = on_cam("roller", radius=radius).sweep({"shaft": TURN[:13]})
+    motion = mechanism.sweep({"shaft": TURN[:19]})
+    alike = on_cam("roller", radius=radius).sweep({"shaft": TURN[:19]})
     both = np.asarray(motion.closed & alike.closed)
     assert both.sum() > 6
     np.testing.assert_allclose(

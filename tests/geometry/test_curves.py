@@ -46,7 +46,8 @@ def test_the_spline_is_that_of_scipy_over_the_chords(closed):
 @pytest.mark.parametrize("closed", [True, False])
 def test_in_jax_it_is_the_same(closed):
     given = curve(closed)
-    for one, other in zip(given.spline().at(Q), given.spline(jnp).at(jnp.asarray(Q), jnp), strict=True):
+    found = jax.jit(lambda given, q: given.spline(jnp).at(q, jnp))(given, jnp.asarray(Q))
+    for one, other in zip(given.spline().at(Q), found, strict=True):
         np.testing.assert_allclose(other, one, rtol=1e-12, atol=1e-12)
 
 
@@ -65,6 +66,7 @@ def test_counted_from_another_contact_it_is_the_same_curve_in_a_frame_there(clos
 def test_derivatives_with_respect_to_points_are_differences(closed):
     given = curve(closed)
 
+    @jax.jit
     def ends(points):
         at = Curve(points, given.start, given.place, closed).spline(jnp).at(jnp.asarray(Q[20:40]), jnp)
         return jnp.sum(at.x * jnp.arange(20) + at.turning)
@@ -72,7 +74,7 @@ def test_derivatives_with_respect_to_points_are_differences(closed):
     direction = np.random.default_rng(1).normal(size=given.points.shape)
     step = 1e-6
     differences = (ends(given.points + step * direction) - ends(given.points - step * direction)) / (2 * step)
-    found = jnp.sum(jax.grad(ends)(jnp.asarray(given.points)) * direction)
+    found = jnp.sum(jax.jit(jax.grad(ends))(jnp.asarray(given.points)) * direction)
     # the square of the step, and rounding over the step
     assert float(found) == pytest.approx(float(differences), rel=1e-7)
 

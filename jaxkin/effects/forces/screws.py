@@ -23,7 +23,7 @@ def joint_screws(
     """The point of a joint in each pose, and the unit twists of its coordinates about this point, in world axes.
 
     Twists are those of part 2 relative to part 1. Lengths count over `size` in linear velocities, and in the
-    coordinates that are lengths. The angles of a ball without a drive are replaced by turns about the axes of the
+    coordinates that are lengths. The angles of a ball without a driven one are replaced by turns about the axes of the
     world, which allow the same at every angle.
     """
     found = jnp.moveaxis(part_1[:, :3], 0, -1)
@@ -42,7 +42,7 @@ def joint_screws(
             if element.law == "turn":  # the parameter of a curve is a length, and counts over `size`
                 turns = turns * size
             turning = turns * axis
-            if MOVEMENTS[movement].ball and first not in driven:
+            if MOVEMENTS[movement].ball and not any(first + k in driven for k in range(3)):
                 turning = jnp.broadcast_to(jnp.eye(3)[:, element.axis, None], axis.shape)
             own.setdefault(element.coordinate, []).append((turning, slides * axis, at))
             value = q[:, first + element.coordinate]

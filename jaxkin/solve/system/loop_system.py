@@ -108,7 +108,9 @@ class LoopSystem:
             column = self._first_columns[joint]
             given = not set(self.driven).isdisjoint(self.span(joint))
             for frame, name in enumerate(movements):
-                if MOVEMENTS[name].ball:
+                columns = range(column, column + len(MOVEMENTS[name].coordinates))
+                # a ball driven by some of its angles is a chain of three turns, of which the others are unknown
+                if MOVEMENTS[name].ball and sum(k in self.driven for k in columns) in (0, len(columns)):
                     pairs[joint, frame] = (column, column + 1, column + 2)
                 lock = MOVEMENTS[name].lock
                 follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
@@ -195,9 +197,16 @@ class LoopSystem:
 
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
-        """`LoopClass.spins`, without rods that have a driven ball."""
-        free = [columns[0] not in self.driven for columns in self.balls]
-        return tuple(spin for spin in self.loop_class.spins if free[spin[0]] and free[spin[1]])
+        """`LoopClass.spins` with the numbers of `balls`, without rods that have a driven ball."""
+        pairs = [
+            self.places.get((joint, frame), (None, ()))
+            for joint, movements in enumerate(self.movements)
+            for frame, name in enumerate(movements)
+            if MOVEMENTS[name].ball
+        ]
+        free = [None if number is None or columns[0] in self.driven else number for number, columns in pairs]
+        numbered = [(free[one], free[other], *sides) for one, other, *sides in self.loop_class.spins]
+        return tuple((one, other, *sides) for one, other, *sides in numbered if one is not None and other is not None)
 
     @property
     def spinning(self) -> bool:
