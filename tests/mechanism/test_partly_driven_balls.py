@@ -80,5 +80,5 @@ def test_a_rod_whose_ball_is_driven_by_an_angle_does_not_spin_by_itself():
 def test_what_is_left_is_told():
     motion = plate(BALL, 1).sweep({"mount.psi": SWINGS["psi"]}, throw=True)
     assert "it could be mount." in str(motion)
-    with pytest.raises(ValueError, match="write 'mount.theta' or 'mount.phi' or 'mount.psi'"):
+    with pytest.raises(ValueError, match=r"write 'mount\.theta' or 'mount\.phi' or 'mount\.psi'"):
         plate(BALL, 1).sweep({"mount": STEPS})
