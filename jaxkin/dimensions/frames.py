@@ -84,7 +84,8 @@ def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points
         if joint.kind is not JointKind.POINT_ON_CURVE:
             check_simple(joint.name, place[1], checked)
         points = np.asarray(checked.curve.points)
-    curves = tuple(replace(each, points=points) if k == number else each for k, each in enumerate(joint.curves))
+    changed = replace(curve, points=points)
+    curves = tuple(changed if k == number else each for k, each in enumerate(joint.curves))
     joints = [replace(joint, curves=curves) if k == column else each for k, each in enumerate(linkage.joints)]
     return linkage.with_joints(joints)
 

@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float
 
 from jaxkin._traced import traced
 from jaxkin.effects.pose_plot import draw_lines, save_rows
-from jaxkin.geometry.curves import Spline
+from jaxkin.geometry.curves import CurvePoint, Spline
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.motion import Motion
@@ -182,13 +182,14 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
     bends = a.turning / np.hypot(a.dx, a.dy), along * b.turning / np.hypot(b.dx, b.dy)
     depth, side = np.zeros(len(q)), 0.0
     if one.closed:
-        from scipy.spatial import cKDTree
+        from scipy.spatial import KDTree
 
-        tree, sag = cKDTree(curve), _sag(one) + _sag(other)
+        tree, sag = KDTree(curve), _sag(one) + _sag(other)
         home = _placed_second(second, one.at(0.0), other.at(0.0), along)
         inside = float(np.mean(_inside(curve, home)) > 0.5)
         for pose in np.flatnonzero(finite):
-            points = _placed_second(second, *(type(p)(*(v[pose] for v in p)) for p in (a, b)), along)
+            here, there = (CurvePoint(*(values[pose] for values in each)) for each in (a, b))
+            points = _placed_second(second, here, there, along)
             wrong = points[_inside(curve, points) != bool(inside)]
             if len(wrong):
                 depth[pose] = max(0.0, float(tree.query(wrong)[0].max()) - 2 * sag)
@@ -231,7 +232,7 @@ def _sag(spline: Spline) -> float:
     return float(np.max(np.abs(at.turning) * chords**2 / 8))
 
 
-def _placed_second(points: np.ndarray, a, b, along: float) -> Float[np.ndarray, "samples 2"]:
+def _placed_second(points: np.ndarray, a: CurvePoint, b: CurvePoint, along: float) -> Float[np.ndarray, "samples 2"]:
     """Place points in axes of the second curve where it touches the first one at `a`, at its own point `b`."""
     x, y = points[:, 0] - b.x, points[:, 1] - b.y
     along_tangent, across = along * (b.cos * x + b.sin * y), along * (b.cos * y - b.sin * x)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from jaxkin.geometry.curves import Curve
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.curve_joints import FOLLOWERS
@@ -13,9 +14,16 @@ from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
 
+def _curve(joint: Joint, number: int) -> Curve:
+    curve = joint.curves[number]
+    if curve is None:
+        raise ValueError(f"movement {number} of joint {joint.name!r} has no curve")
+    return curve
+
+
 def axes_of(joint: Joint, number: int = 0) -> Pose:
     """Compute the axes in which the points of a curve of a joint are given, in the world as assembled."""
-    x, y, angle = np.asarray(joint.curves[number].place, float)
+    x, y, angle = np.asarray(_curve(joint, number).place, float)
     cos, sin = np.cos(angle), np.sin(angle)
     place = np.array([[cos, -sin, 0.0, x], [sin, cos, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
     return np.asarray(joint.frames_1[number], float) @ place
@@ -47,14 +55,14 @@ def _direction2(joint: Joint) -> list[float] | None:
 
 
 CURVE_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
-    "profile": lambda joint, _: np.asarray(joint.curves[0].points, float).tolist(),
-    "closed": lambda joint, _: joint.curves[0].closed,
+    "profile": lambda joint, _: np.asarray(_curve(joint, 0).points, float).tolist(),
+    "closed": lambda joint, _: _curve(joint, 0).closed,
     "follower": lambda joint, _: _follower(joint),
     "radius": lambda joint, _: _radius(joint) if _follower(joint) == FOLLOWERS[1] else None,
     "point2": lambda joint, _: _on_part2(joint)[:3, 3].tolist(),
     "direction2": lambda joint, _: _direction2(joint),
-    "profile2": lambda joint, _: np.asarray(joint.curves[1].points, float).tolist(),
-    "closed2": lambda joint, _: joint.curves[1].closed,
+    "profile2": lambda joint, _: np.asarray(_curve(joint, 1).points, float).tolist(),
+    "closed2": lambda joint, _: _curve(joint, 1).closed,
     "contact": lambda _, pose: pose[:3, 3].tolist(),
 }
 """Keyword argument -> what it was, from a joint and its first frame; None where it was not given."""

@@ -37,7 +37,7 @@ class Placed(NamedTuple):
 
     def samples(self) -> tuple[Float[np.ndarray, " samples"], CurvePoint]:
         """Sample the curve evenly within each piece: parameters from its first point, and points."""
-        knots = self.spline.knots
+        knots = np.asarray(self.spline.knots)
         s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(SAMPLES) / SAMPLES).ravel()
         s = s if self.spline.closed else np.append(s, knots[-1])
         return s, self.spline.at(s)
@@ -58,7 +58,7 @@ def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "
         points = np.array(given, float)
     except (TypeError, ValueError):
         points = np.zeros(0)
-    if points.ndim != 2 or points.shape[1] != 2:
+    if points.ndim != 2 or points.shape[-1] != 2:
         raise ValueError(
             f"joint {name!r}: {label} must be points (x, y) in the plane of the joint, an array of shape (n, 2), got "
             + (f"shape {points.shape}" if points.size else f"{given!r}")
@@ -84,13 +84,13 @@ def placed_profile(name: str, label: str, given: Any, place: Float[np.ndarray, "
 
 def check_simple(name: str, label: str, placed: Placed) -> None:
     """Raise ValueError where a profile crosses itself, with the place of the crossing in its own coordinates."""
-    from scipy.spatial import cKDTree
+    from scipy.spatial import KDTree
 
     _, at = replace_place(placed).samples()
     ends = np.stack([at.x, at.y], axis=1)
     begin, end = (ends, np.roll(ends, -1, axis=0)) if placed.spline.closed else (ends[:-1], ends[1:])
     reach = float(np.linalg.norm(end - begin, axis=1).max())
-    pairs = cKDTree((begin + end) / 2).query_pairs(reach, output_type="ndarray")
+    pairs = KDTree((begin + end) / 2).query_pairs(reach, output_type="ndarray")
     apart = np.abs(pairs[:, 0] - pairs[:, 1])
     pairs = pairs[(apart > 1) & (apart < len(begin) - 1 if placed.spline.closed else True)]
     (a, b), (c, d) = ((begin[side], end[side]) for side in pairs.T)
@@ -168,17 +168,18 @@ def touching(one: Placed, other: Placed, near: Pair | None) -> tuple[float, floa
 
     None where there is none near.
     """
-    from scipy.spatial import cKDTree
+    from scipy.spatial import KDTree
 
     (s1, at1), (s2, at2) = one.samples(), other.samples()
     points1, points2 = (np.stack([at.x, at.y], axis=1) for at in (at1, at2))
     if near is None:
-        gaps, which = cKDTree(points2).query(points1)
+        gaps, which = KDTree(points2).query(points1)
         first = int(np.argmin(gaps))
         q = np.array([s1[first], s2[which[first]]])
     else:
         q = np.array([s[np.argmin(np.linalg.norm(p - near, axis=1))] for s, p in ((s1, points1), (s2, points2))])
     whole = np.array([one.spline.knots[-1], other.spline.knots[-1]])
+    scale, misfit = np.array([1.0, whole.max()]), np.full(2, np.inf)  # turns over the length of the curve are lengths
     for _ in range(_STEPS):
         a, b = one.spline.at(np.array(q[0])), other.spline.at(np.array(q[1]))
         apart = np.array([b.x - a.x, b.y - a.y])
@@ -191,7 +192,6 @@ def touching(one: Placed, other: Placed, near: Pair | None) -> tuple[float, floa
                 [-cosine * a.turning, cosine * b.turning],
             ]
         )
-        scale = np.array([1.0, whole.max()])  # the turn over the length of the curve, so that both rows are lengths
         step = np.linalg.lstsq(scale[:, None] * slopes, scale * misfit, rcond=1e-12)[0]
         step *= min(1.0, 0.02 * whole.min() / max(float(np.abs(step).max()), 1e-300))
         q = np.array([_within(placed, value) for placed, value in zip((one, other), q - step, strict=True)])

@@ -38,6 +38,8 @@ def on_cam(follower, waves=6.0, radius=None):
     )
 
 
+PAST = np.radians([0, 15, 30, 45, 50, 55, 58, 60, 61, 62])
+"""From a crest to a hollow, which faces the follower at 60 degrees, and on; not much farther any pose closes."""
 HOLLOW = -1.0 / curvature(np.pi / 3)
 """Radius of curvature in a hollow of the clover: 19 mm."""
 
@@ -63,15 +65,15 @@ def length():
 def test_a_roller_larger_than_a_hollow():
     """It rests on both flanks of a hollow where that faces it, and would have to pass through one from there on."""
     radius = 2.5 * HOLLOW
-    motion = on_cam("roller", radius=radius).sweep({"shaft": TURN[:19]})
+    motion = on_cam("roller", radius=radius).sweep({"shaft": PAST})
     found = jk.curve_contacts(motion)
     contact, closed = found.contacts[0], np.asarray(motion.closed)
     assert not found.holds
     # the depth is the radius less the distance of the roller's middle from the profile, found by brute force
     pose = int(np.nanargmax(contact.depth))
     middle = 36.0 + radius + float(motion.coordinates["guide"][pose, 0])
-    fine = np.linspace(0, 2 * np.pi, 200_000) + TURN[pose]
-    far = 30.0 + 6.0 * np.cos(3 * (fine - TURN[pose]))
+    fine = np.linspace(0, 2 * np.pi, 200_000) + PAST[pose]
+    far = 30.0 + 6.0 * np.cos(3 * (fine - PAST[pose]))
     apart = np.hypot(far * np.cos(fine) - middle, far * np.sin(fine))
     # the samples of the profile are 0.13 mm apart: the square of half of that, over the radius
     assert contact.depth[pose] == pytest.approx(radius - apart.min(), abs=1e-3)
@@ -112,8 +114,8 @@ def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
             jk.prismatic("guide", "ground", "follower", axis=(1, 0, 0)),
         ],
     )
-    motion = mechanism.sweep({"shaft": TURN[:19]})
-    alike = on_cam("roller", radius=radius).sweep({"shaft": TURN[:19]})
+    motion = mechanism.sweep({"shaft": PAST})
+    alike = on_cam("roller", radius=radius).sweep({"shaft": PAST})
     both = np.asarray(motion.closed & alike.closed)
     assert both.sum() > 6
     np.testing.assert_allclose(

@@ -199,14 +199,15 @@ class LoopSystem:
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
         """`LoopClass.spins` with the numbers of `balls`, without rods that have a driven ball."""
         pairs = [
-            self.places.get((joint, frame), (None, ()))
+            (joint, frame)
             for joint, movements in enumerate(self.movements)
             for frame, name in enumerate(movements)
             if MOVEMENTS[name].ball
         ]
-        free = [None if number is None or columns[0] in self.driven else number for number, columns in pairs]
-        numbered = [(free[one], free[other], *sides) for one, other, *sides in self.loop_class.spins]
-        return tuple((one, other, *sides) for one, other, *sides in numbered if one is not None and other is not None)
+        undriven = {place: number for place, (number, columns) in self.places.items() if columns[0] not in self.driven}
+        free = [undriven.get(place, -1) for place in pairs]
+        numbered = [(free[one], free[other], side, end) for one, other, side, end in self.loop_class.spins]
+        return tuple(spin for spin in numbered if min(spin[:2]) >= 0)
 
     @property
     def spinning(self) -> bool:
