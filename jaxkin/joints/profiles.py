@@ -175,7 +175,7 @@ def touching(one: Placed, other: Placed, near: Pair | None) -> tuple[float, floa
     if near is None:
         gaps, which = KDTree(points2).query(points1)
         first = int(np.argmin(gaps))
-        q = np.array([s1[first], s2[which[first]]])
+        q = np.array([s1[first], s2[np.asarray(which)[first]]])
     else:
         q = np.array([s[np.argmin(np.linalg.norm(p - near, axis=1))] for s, p in ((s1, points1), (s2, points2))])
     whole = np.array([one.spline.knots[-1], other.spline.knots[-1]])

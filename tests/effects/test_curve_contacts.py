@@ -38,8 +38,8 @@ def on_cam(follower, waves=6.0, radius=None):
     )
 
 
-PAST = np.radians([0, 15, 30, 45, 50, 55, 58, 60, 61, 62])
-"""From a crest to a hollow, which faces the follower at 60 degrees, and on; not much farther any pose closes."""
+PAST = np.radians([0, 15, 30, 45, 50, 55, 58, 60, 61, 62, 80])
+"""From a crest to a hollow, which faces the follower at 60 degrees, and on; the last pose does not close."""
 HOLLOW = -1.0 / curvature(np.pi / 3)
 """Radius of curvature in a hollow of the clover: 19 mm."""
 
