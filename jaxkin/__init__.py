@@ -74,6 +74,8 @@ from jaxkin.effects.tolerance_result import Tolerances as Tolerances
 from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.effects.workspace import Workspace as Workspace
 from jaxkin.effects.workspace import workspace as workspace
+from jaxkin.geometry.curves import Curve as Curve
+from jaxkin.geometry.curves import Spline as Spline
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
 from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf
