@@ -75,6 +75,7 @@ from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.effects.workspace import Workspace as Workspace
 from jaxkin.effects.workspace import workspace as workspace
 from jaxkin.geometry.curves import Curve as Curve
+from jaxkin.geometry.curves import CurvePoint as CurvePoint
 from jaxkin.geometry.curves import Spline as Spline
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.load import load as load
