@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -17,7 +18,9 @@ from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.curves import CurvePoint, Spline
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
-from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
 
 SAMPLES = 8
 """Samples of each piece of a profile: what is in the way of a follower is longer than an eighth of a piece."""

@@ -16,7 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose, inverse
+from jaxkin.geometry.pose import Pose, inverse, skew
 from jaxkin.joints.joint import Joint
 
 DEPENDENT = 1e-9
@@ -99,8 +99,10 @@ def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
 
 def moved(pose: Pose, screws: Screws) -> Screws:
     """Displace screws together with the body that they belong to."""
-    rotated = pose[:3, :3] @ screws[:3]
-    return np.concatenate([rotated, pose[:3, :3] @ screws[3:] + np.cross(pose[:3, 3], rotated, axisb=0, axisc=0)])
+    adjoint = np.zeros((6, 6))
+    adjoint[:3, :3] = adjoint[3:, 3:] = pose[:3, :3]
+    adjoint[3:, :3] = skew(pose[:3, 3]) @ pose[:3, :3]
+    return adjoint @ screws
 
 
 def freedoms(movements: Sequence[str]) -> int:

@@ -73,8 +73,8 @@ def sweep(
     values = given_values(plan.driven, drive)
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    asked = _closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
-    _warn_of_float32()
+    asked = closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
+    warn_of_float32()
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     solutions = [
@@ -82,7 +82,7 @@ def sweep(
             element.system,
             options,
             element.joints,
-            _padded([followed[i] for i in element.inputs]),
+            padded([followed[i] for i in element.inputs]),
             asked,
             element.axes,
         )
@@ -121,7 +121,7 @@ def _of_least_residual(
     return every, found
 
 
-def _closure_tolerance(asked: Any) -> ClosureTolerance:
+def closure_tolerance(asked: Any) -> ClosureTolerance:
     """Make the tolerance of a number, known or traced, or for None that of the floating-point precision."""
     dtype = dtypes.canonicalize_dtype(float)
     if traced(asked):
@@ -194,7 +194,7 @@ def nan_where_not_finite(rows, finite: Bool[Array | np.ndarray, " poses"] | None
     )
 
 
-def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
+def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     """Repeat the last pose up to one of few lengths, so that ranges of similar length share a compiled program.
 
     Lengths are powers of two from 32 to 256 poses, above that multiples of an eighth of one, above 32768 of a 32nd.
@@ -219,7 +219,7 @@ def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
 _warned = False
 
 
-def _warn_of_float32() -> None:
+def warn_of_float32() -> None:
     global _warned  # noqa: PLW0603
     if _warned or dtypes.canonicalize_dtype(float) == jnp.float64:
         return
