@@ -16,7 +16,7 @@ from jaxtyping import Float
 from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.geometry.pose import Pose, inverse, skew
+from jaxkin.geometry.pose import Pose, cross, inverse, skew
 from jaxkin.joints.joint import Joint
 
 DEPENDENT = 1e-9
@@ -54,7 +54,7 @@ def chain(
             axis = pose[:3, element.axis]
             slides, turns = rates(element, pitch, point)
             screws[:3, k] += turns * axis
-            screws[3:, k] += turns * np.cross(pose[:3, 3], axis) + slides * axis
+            screws[3:, k] += turns * cross(pose[:3, 3], axis) + slides * axis
             how_far = amount(element, q[k], pitch, point, _cos_sin)
             pose = np.stack(displaced_columns(list(pose.T), element.axis, *how_far), axis=1)
         pose = pose @ inverse(leave)
