@@ -31,6 +31,9 @@ from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
 from jaxkin.effects.coupler_curve import CouplerCurve as CouplerCurve
 from jaxkin.effects.coupler_curve import coupler_curve as coupler_curve
+from jaxkin.effects.curve_contacts import CurveContact as CurveContact
+from jaxkin.effects.curve_contacts import CurveContacts as CurveContacts
+from jaxkin.effects.curve_contacts import curve_contacts as curve_contacts
 from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
@@ -73,6 +76,9 @@ from jaxkin.effects.tolerance_result import Tolerances as Tolerances
 from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.effects.workspace import Workspace as Workspace
 from jaxkin.effects.workspace import workspace as workspace
+from jaxkin.geometry.curves import Curve as Curve
+from jaxkin.geometry.curves import CurvePoint as CurvePoint
+from jaxkin.geometry.curves import Spline as Spline
 from jaxkin.geometry.part import Part as Part
 from jaxkin.io.asmt_writer import write_asmt as write_asmt
 from jaxkin.io.load import load as load
@@ -93,13 +99,16 @@ from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.on_frames import joint_on_frames as joint_on_frames
+from jaxkin.joints.pairs import cam as cam
 from jaxkin.joints.pairs import constant_velocity as constant_velocity
 from jaxkin.joints.pairs import contact_joint as contact_joint
+from jaxkin.joints.pairs import curve_on_curve as curve_on_curve
 from jaxkin.joints.pairs import cylindrical as cylindrical
 from jaxkin.joints.pairs import fixed as fixed
 from jaxkin.joints.pairs import free as free
 from jaxkin.joints.pairs import pin_in_slot as pin_in_slot
 from jaxkin.joints.pairs import planar as planar
+from jaxkin.joints.pairs import point_on_curve as point_on_curve
 from jaxkin.joints.pairs import prismatic as prismatic
 from jaxkin.joints.pairs import revolute as revolute
 from jaxkin.joints.pairs import screw as screw

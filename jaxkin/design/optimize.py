@@ -63,11 +63,11 @@ def optimize(
     stop, and what violations weigh.
 
     What may change: `lengths`, a mapping of keys of `mechanism.lengths` to bounds (lower, upper); `points`, one of
-    joints or (part, joint) to bounds of (x, y, z), as in `with_points`; driven displacements and `extras` given as
-    `Free(start, lower, upper)`. A drive may also be a function of the extras: `lambda extras: extras["first"] + steps`.
-    `ties` gives a key the value of a variable, or a function of it: `{("rocker", "C", "D"): ("crank", "A", "B")}`,
-    `{"Q": ("P", mirrored)}`. Constraints are functions like the loss
-    whose values must not be negative; `jaxkin.design` has some.
+    joints or (part, joint) to bounds of (x, y, z), or of (joint, "profile") to bounds of its points (x, y), as in
+    `with_points`; driven displacements and `extras` given as `Free(start, lower, upper)`. A drive may also be a
+    function of the extras: `lambda extras: extras["first"] + steps`. `ties` gives a key the value of a variable, or a
+    function of it: `{("rocker", "C", "D"): ("crank", "A", "B")}`, `{"Q": ("P", mirrored)}`. Constraints are functions
+    like the loss whose values must not be negative; `jaxkin.design` has some.
 
     `starts` designs are improved side by side in one compiled program: the given one, and the best of many drawn at
     random between the bounds. What is minimised is

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.design.measures import length_now
-from jaxkin.dimensions.frames import locate
+from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
 
 if TYPE_CHECKING:
@@ -121,9 +121,7 @@ def variables(
             raise ValueError(f"length {key!r}: the lower bound {float(entry.lower)} is negative, and a length is not")
         entries.append(entry)
     for key, bounds in points.items():
-        column, side = locate(mechanism.linkage, key)
-        joint = mechanism.all_joints[column]
-        now = np.asarray((joint.frames_2[-1] if side == "frames_2" else joint.frames_1[0])[:3, 3], float)
+        now = _point_now(mechanism, key)
         entries.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
     for key, given in drive.items():
         if isinstance(given, Free):
@@ -137,6 +135,16 @@ def variables(
     if not entries:
         raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
     return Variables(_tied(mechanism, entries, ties), fixed)
+
+
+def _point_now(mechanism: Mechanism, key: Any) -> np.ndarray:
+    """Look up the point, or the points of the profile, that a key of `with_points` means."""
+    if (found := find_profile(mechanism.linkage, key)) is not None:
+        curve = mechanism.all_joints[found[0]].curves[found[1]]
+        return np.asarray(curve.points if curve is not None else np.zeros((0, 2)), float)
+    column, side = locate(mechanism.linkage, key)
+    joint = mechanism.all_joints[column]
+    return np.asarray((joint.frames_2[-1] if side == "frames_2" else joint.frames_1[0])[:3, 3], float)
 
 
 def _free(what: str, bounds: Any, now: Any) -> Free:
@@ -188,7 +196,7 @@ def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) 
         if group == "lengths":
             find_length(mechanism.linkage, key)
         elif group == "points":
-            locate(mechanism.linkage, key)
+            _point_now(mechanism, key)
         followers.setdefault(source, []).append((key, change))
     return tuple(
         _Entry(**{**entry.__dict__, "ties": tuple(followers.get(entry.key, ()))}) if entry.key in followers else entry

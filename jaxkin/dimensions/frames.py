@@ -1,4 +1,4 @@
-"""Replace frames and points of joints, on both of their parts or on one part only."""
+"""Replace frames and points of joints, on both of their parts or on one part only, and the points of profiles."""
 
 from __future__ import annotations
 
@@ -13,9 +13,14 @@ from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import RIGID_TOLERANCE, is_rigid
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.profiles import check_simple, placed_profile
 from jaxkin.linkage.linkage import Linkage
 
 Place = str | tuple[str, str]
+
+_PROFILES = (("profile",), ("profile2",))
+"""How the keys of the profiles of a joint end."""
 
 
 def with_frames(linkage: Linkage, frames: Mapping[Any, Any]) -> Linkage:
@@ -34,6 +39,9 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
         return xp.concatenate([xp.asarray(pose)[:, :3], column[:, None]], axis=1)
 
     for place, point in by_name(points, "points", "{'A': (x, y, z)}").items():
+        if (found := find_profile(linkage, place)) is not None:
+            linkage = _with_profile(linkage, place, *found, point)
+            continue
         if not traced(point):
             given = point
             point = np.asarray(point, float)
@@ -41,6 +49,45 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
                 raise ValueError(f"the point of {place!r} must be three finite numbers (x, y, z), got {given!r}")
         linkage = _placed(linkage, place, point, moved)
     return linkage
+
+
+def find_profile(linkage: Linkage, place: object) -> tuple[int, int] | None:
+    """Find the column of a joint and the number of its movement for a key (joint, "profile") or (joint, "profile2").
+
+    None for keys that name no profile; ValueError for a joint without one.
+    """
+    names = linkage.structure.joints
+    if not isinstance(place, tuple) or place[1:] not in _PROFILES or place[0] not in names or place[1] in names:
+        return None
+    joint = linkage.joints[names.index(place[0])]
+    wanted = _PROFILES.index(place[1:])
+    having = [number for number, curve in enumerate(joint.curves) if curve is not None]
+    if wanted >= len(having):
+        has = f"{len(having)} of them" if having else "none"
+        raise ValueError(f"there is no {place[1]} of joint {joint.name!r} ({joint.kind}), which has {has}")
+    return names.index(place[0]), having[wanted]
+
+
+def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points: Any) -> Linkage:
+    """Replace the points of a profile by as many others in the same axes; ValueError for points that make none."""
+    joint = linkage.joints[column]
+    curve = joint.curves[number]
+    if curve is None:
+        raise ValueError(f"movement {number} of joint {joint.name!r} has no profile")
+    if np.shape(points) != np.shape(curve.points):
+        raise ValueError(
+            f"the points of {place!r} must be as many as before, of shape {np.shape(curve.points)}, got shape "
+            f"{np.shape(points)}; another number of points is another joint, made anew"
+        )
+    if not traced(points):
+        checked = placed_profile(joint.name, place[1], points, np.zeros(3), curve.closed)
+        if joint.kind is not JointKind.POINT_ON_CURVE:
+            check_simple(joint.name, place[1], checked)
+        points = np.asarray(checked.curve.points)
+    changed = replace(curve, points=points)
+    curves = tuple(changed if k == number else each for k, each in enumerate(joint.curves))
+    joints = [replace(joint, curves=curves) if k == column else each for k, each in enumerate(linkage.joints)]
+    return linkage.with_joints(joints)
 
 
 def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:

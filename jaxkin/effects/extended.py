@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.movements import MOVEMENTS, ElementaryMotion, displaced_columns
+from jaxkin.geometry.curves import CurvePoint, Spline, curve_point
+from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import LoopGroup
@@ -123,20 +125,31 @@ class Extended:
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
             pose = pose * self._matrix(joint.frames_1[frame])
+            spline = joint.splines[frame]
+            point = None if spline is None else self._point(spline, q[first])
             for element in movement.elements:
-                pose = self._displaced(pose, element, q[first + element.coordinate], float(joint.pitch))
+                pose = self._displaced(pose, element, q[first + element.coordinate], float(joint.pitch), point)
             pose = pose * self._inverse(self._matrix(joint.frames_2[frame]))
             first += len(movement.coordinates)
         return pose
 
-    def _displaced(self, pose: Any, element: ElementaryMotion, value: Any, pitch: float) -> Any:
-        advance = None
-        if element.kind != "rotate":
-            advance = value if element.kind == "translate" else self.mp.mpf(pitch) * value / (2 * self.mp.pi)
-        turn = None if element.kind == "translate" else (self.mp.cos(value), self.mp.sin(value))
-        for number, column in enumerate(displaced_columns([pose[:, k] for k in range(4)], element.axis, advance, turn)):
+    def _displaced(
+        self, pose: Any, element: ElementaryMotion, value: Any, pitch: float, point: CurvePoint | None
+    ) -> Any:
+        turns = self.mp.mpf(pitch) * 2 * np.pi / (2 * self.mp.pi)  # `amount` divides by 2 pi of float64
+        how_far = amount(element, value, turns, point, lambda angle: (self.mp.cos(angle), self.mp.sin(angle)))
+        for number, column in enumerate(displaced_columns([pose[:, k] for k in range(4)], element.axis, *how_far)):
             pose[:, number] = column
         return pose
+
+    def _point(self, spline: Spline, q: Any) -> CurvePoint:
+        """Evaluate a curve, whose coefficients are taken as exact."""
+        s = self.mp.mpf(float(spline.start)) + q
+        if spline.closed:
+            s -= self.mp.mpf(float(spline.knots[-1])) * self.mp.floor(s / self.mp.mpf(float(spline.knots[-1])))
+        piece = int(np.clip(np.searchsorted(spline.knots, float(s), side="right") - 1, 0, spline.table.shape[1] - 1))
+        coefficients = [[self.mp.mpf(float(c)) for c in power] for power in spline.table[:, piece]]
+        return curve_point(coefficients, s - self.mp.mpf(float(spline.knots[piece])), self.mp.sqrt)
 
     def _matrix(self, pose) -> Any:
         return self.mp.matrix(np.asarray(pose, float).tolist())

@@ -91,8 +91,8 @@ class PoseFeatures:
     def at(self, q: Row) -> Float[np.ndarray, " entries"]:
         """Compute the entries of all frames, lengths over the characteristic length, at scaled coordinates."""
         places, rows = self.loops.travel(q).places, []
-        for index, (_, before, after, _) in self.loops.chains.items():
-            for part, frame in zip(self.loops.ends[index], (before[0], after[-1]), strict=True):
+        for index, each in self.loops.chains.items():
+            for part, frame in zip(self.loops.ends[index], (each.frames_1[0], each.frames_2[-1]), strict=True):
                 rows.append((places[part] @ frame)[:3].ravel())
         return np.concatenate(rows)
 
@@ -265,7 +265,7 @@ def wrap_angles(mechanism: Mechanism, rows: Sequence[np.ndarray], driven: Contai
     for joint, row in zip(mechanism.all_joints, rows, strict=True):
         elements, start = [], 0
         for movement in joint.movements:
-            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements]
+            elements += [(e.kind, start + e.coordinate) for e in MOVEMENTS[movement].elements if e.law is None]
             start += len(MOVEMENTS[movement].coordinates)
         for kind, k in elements:
             name = f"{joint.name}.{joint.coordinates[k]}"

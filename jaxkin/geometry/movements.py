@@ -5,34 +5,23 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
 closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
-`T_theta_phi_theta`, the constant velocity joint, and `I`, the identity, are not in the paper.
+`T_theta_phi_theta`, the constant velocity joint, `T_s` and `T_s_back`, which travel along a curve, and `I`, the
+identity, are not in the paper.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Literal, NamedTuple
 
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.curves import Curve
+from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns
 from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.trig import cos_sin
-
-
-@dataclass(frozen=True)
-class ElementaryMotion:
-    """A translation along, a rotation about or a screw motion about one axis of the local frame."""
-
-    kind: Literal["translate", "rotate", "screw"]
-    """A screw turns by its coordinate q and advances by pitch q / 2 pi."""
-    axis: int
-    """Axis of the local frame: 0, 1, 2 for x, y, z."""
-    coordinate: int
-    """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion. Several motions may
-    have the same coordinate."""
 
 
 class InvariantFeature(NamedTuple):
@@ -101,8 +90,13 @@ class Movement:
 
     @property
     def repeats(self) -> bool:
-        """Whether a coordinate drives more than one of the elementary motions."""
-        return len(self.elements) > len(self.coordinates)
+        """Whether a coordinate drives more than one of the elementary motions, each by itself and not by a curve."""
+        return len(self.elements) > len(self.coordinates) and not self.has_curve
+
+    @property
+    def has_curve(self) -> bool:
+        """Whether the movement travels along a curve of the joint; its only coordinate is the parameter."""
+        return any(element.law is not None for element in self.elements)
 
     @property
     def only_slides(self) -> bool:
@@ -125,6 +119,13 @@ def _rotate(axis: int, coordinate: int) -> ElementaryMotion:
     """Make a rotation about an axis of the local frame."""
     return ElementaryMotion("rotate", axis, coordinate)
 
+
+_ALONG_CURVE = (
+    ElementaryMotion("translate", 0, 0, law="x"),
+    ElementaryMotion("translate", 1, 0, law="y"),
+    ElementaryMotion("rotate", 2, 0, law="turn"),
+)
+"""The elementary motions of a frame that travels along a curve, with its x axis along the tangent."""
 
 MOVEMENTS: dict[str, Movement] = {
     "I": Movement(pair="fixed"),
@@ -198,6 +199,21 @@ MOVEMENTS: dict[str, Movement] = {
         aligned=frozenset({"direction", "centre"}),
         figures=((CylinderFigure(2, 2.6, 2.4),), (BallFigure(2.2),)),
     ),
+    "T_s": Movement(
+        coordinates=("s",),
+        elements=_ALONG_CURVE,
+        letter="K",
+        feature=InvariantFeature("axis", marked=True),  # across the plane of the curve, at the contact as assembled
+        aligned=frozenset({"direction"}),
+        figures=((), (BallFigure(1.4),)),
+    ),
+    "T_s_back": Movement(  # the inverse of T_s: the curve belongs to part 2
+        coordinates=("s",),
+        elements=tuple(replace(element, sense=-1) for element in reversed(_ALONG_CURVE)),
+        letter="K",
+        feature=InvariantFeature("axis", marked=True),
+        aligned=frozenset({"direction"}),
+    ),
     "T_theta_phi_psi": Movement(
         coordinates=("theta", "phi", "psi"),
         elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
@@ -220,48 +236,27 @@ def symmetry_of(surface: str) -> str:
 
 
 def is_length(coordinate: str) -> bool:
-    """Check by its name, such as "z" or "phi2", whether a coordinate of a joint is a length (x, y, z), not an angle."""
-    return coordinate.rstrip("0123456789") in ("x", "y", "z")
+    """Check by its name, such as "z" or "phi2", whether a coordinate is a length (x, y, z, s) and no angle."""
+    return coordinate.rstrip("0123456789") in ("x", "y", "z", "s")
 
 
 def displaced(
-    frame: Rigid, movement: str, q: Float[Array, "k *#poses"], pitch: Float[Array, ""] | float = 0.0
+    frame: Rigid,
+    movement: str,
+    q: Float[Array, "k *#poses"],
+    pitch: Float[Array, ""] | float = 0.0,
+    curve: Curve | None = None,
 ) -> Rigid:
     """Multiply frames F by a movement T from the right, F T, one elementary motion after the other.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
-    `pitch` is the advance per turn of `T_screw`, in the same unit. The frames, or `q`, may have a last axis of length
-    one, for all poses. An elementary motion changes at most two columns of F, which costs less than a matrix product.
+    `pitch` is the advance per turn of `T_screw`, and `curve` the curve that a movement follows, in the same unit. The
+    frames, or `q`, may have a last axis of length one, for all poses. An elementary motion changes at most two columns
+    of F, which costs less than a matrix product.
     """
+    point = None if curve is None else curve.spline(jnp).at(q[0], jnp)
     for element in MOVEMENTS[movement].elements:
-        frame = _displaced(frame, element, q[element.coordinate], pitch)
+        how_far = amount(element, q[element.coordinate], pitch, point, cos_sin)
+        columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far)
+        frame = jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
     return frame
-
-
-def _displaced(
-    frame: Rigid, element: ElementaryMotion, q: Float[Array, "*#poses"], pitch: Float[Array, ""] | float
-) -> Rigid:
-    """Multiply frames by one elementary motion from the right; arguments as in `displaced`."""
-    advance = None
-    if element.kind != "rotate":
-        advance = q if element.kind == "translate" else q * pitch / (2 * jnp.pi)
-    turn = None if element.kind == "translate" else tuple(cos_sin(q))
-    columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, advance, turn)
-    return jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
-
-
-def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
-    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
-
-    `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
-    axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
-    them means no translation, or no rotation.
-    """
-    i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
-    columns = list(columns)
-    if advance is not None:
-        columns[3] = columns[3] + columns[i] * advance
-    if turn is not None:
-        cos, sin = turn
-        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
-    return columns

@@ -52,6 +52,11 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     if target.suffix.lower() != ".xml":
         raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")
+    if along := [joint for joint in mechanism.all_joints if joint.curves]:
+        raise ValueError(
+            f"MuJoCo has no joints along curves, as {along[0].name!r} ({along[0].kind}) is one: leave it out, and "
+            "drive the follower by what jaxkin computes"
+        )
     root = _Writer(mechanism, target.stem).root
     ElementTree.indent(root)
     with whole(target) as draft:

@@ -21,6 +21,7 @@ from jaxkin.io.study_errors import messages
 from jaxkin.io.study_tables import STRICT, Number, one_of
 from jaxkin.joints import pairs
 from jaxkin.joints.coupling import Coupling
+from jaxkin.joints.curve_joints import FOLLOWERS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.limits import with_limits
 from jaxkin.mobility.alignment import MISALIGNMENT_LEVELS
@@ -34,6 +35,7 @@ MAX_STUDY_BYTES = 1_000_000
 """Bytes of a study at most; they are written by people."""
 
 Triple = Annotated[list[Number], Field(min_length=3, max_length=3)]
+Place = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Row = Annotated[list[Number], Field(min_length=4, max_length=4)]
 Frame = Annotated[list[Row], Field(min_length=4, max_length=4)]
 Pair = Annotated[list[str], Field(min_length=2, max_length=2)]
@@ -85,6 +87,15 @@ class JointTable(BaseModel):
     direction: Triple | None = None
     centre: Triple | None = None
     pitch: Number | None = None
+    profile: list[Place] | None = None
+    closed: bool | None = None
+    follower: Annotated[str, BeforeValidator(partial(one_of, FOLLOWERS))] | None = None
+    radius: Number | None = None
+    point2: Triple | None = None
+    direction2: Triple | None = None
+    profile2: list[Place] | None = None
+    closed2: bool | None = None
+    contact: Triple | None = None
     state: str | None = None
     frames: list[Frame] | None = None
     region: Annotated[str, BeforeValidator(partial(one_of, ("circle",)))] | None = None

@@ -18,6 +18,7 @@ from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
 from jaxkin.io.study_choices import NONE, Choices, find_choices
 from jaxkin.io.study_couplings import coupling_keys
+from jaxkin.io.study_curves import CURVE_ARGUMENTS, axes_of
 from jaxkin.io.toml_text import comment, toml, toml_key
 from jaxkin.io.writable import check_writable
 from jaxkin.joints.evidence import BY_HAND, Evidence
@@ -159,16 +160,24 @@ def _keys(joint: Joint) -> tuple[str, dict[str, object]]:
     return "contact", keys | ({"region": "circle"} if region == "circle" else {})
 
 
+def _direction(joint: Joint, pose: Pose) -> list[float] | None:
+    """The direction of a straight slot, or of x of a profile."""
+    if joint.curves:
+        return axes_of(joint)[:3, 0].tolist()
+    return pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None
+
+
 WRITTEN_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
-    "point": lambda joint, _: _pin(joint)[:3, 3].tolist(),
-    "axis": lambda joint, _: _pin(joint)[:3, 2].tolist(),
+    "point": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 3].tolist(),
+    "axis": lambda joint, _: (axes_of(joint) if joint.curves else _pin(joint))[:3, 2].tolist(),
     "normal": lambda _, pose: pose[:3, 2].tolist(),
     "axis1": lambda _, pose: pose[:3, 1].tolist(),
     # the axis of a constant velocity joint is written as the direction that bisects its shafts
     "axis2": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].repeats else pose[:3, 0].tolist(),
     "pitch": lambda joint, _: float(joint.pitch),
-    "direction": lambda joint, pose: pose[:3, 2].tolist() if MOVEMENTS[joint.movements[0]].only_slides else None,
+    "direction": _direction,
     "centre": lambda joint, pose: None if MOVEMENTS[joint.movements[0]].only_slides else pose[:3, 3].tolist(),
+    **CURVE_ARGUMENTS,
 }
 """Keyword argument of the functions in `jaxkin.joints.pairs` -> what it was, from a joint and its first frame; None
 where it was not given."""

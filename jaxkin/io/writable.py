@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-import numpy as np
-
 from jaxkin._traced import traced
 from jaxkin.joints.joint import Joint
 
@@ -18,7 +16,7 @@ def check_writable(joints: Iterable[Joint], what: str) -> None:
     for joint in joints:
         if traced(joint):
             raise ValueError(f"joint {joint.name!r} has traced numbers: write the {what} outside of jit, vmap and grad")
-        if not np.array_equal(joint.frames_1, joint.frames_2):
+        if not joint.coincides:
             raise ValueError(
                 f"joint {joint.name!r} stands elsewhere on its second part than on its first, as after with_lengths: "
                 "write mechanism.close().mechanism, whose given pose is closed"

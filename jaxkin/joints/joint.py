@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import jax
@@ -21,6 +22,7 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
+from jaxkin.geometry.curves import Curve, Spline
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.kinds import JointKind
@@ -38,7 +40,8 @@ a point with the same letter."""
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A joint between two parts. It is a pytree: frames and pitch are leaves, all else but `evidence` is static."""
+    """A joint between two parts. It is a pytree: frames, pitch and the numbers of curves are leaves, all else but
+    `evidence` is static."""
 
     name: str
     parts: tuple[str, str]
@@ -56,6 +59,8 @@ class Joint:
     """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
     limits: Limits = ()
     """Limits of the coordinates, as they were given or read: see `Limits`. Poses beyond them are computed too."""
+    curves: tuple[Curve | None, ...] = ()
+    """For each movement the curve that it travels along, None for others; empty where no movement has one."""
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -70,13 +75,28 @@ class Joint:
 
     @property
     def driven_together(self) -> tuple[tuple[int, ...], ...]:
-        """Indices of the coordinates in tuples that can only be driven together: the angles of a ball are one turn."""
+        """Indices of the coordinates in tuples that belong together: the angles of a ball are one turn."""
         groups: list[tuple[int, ...]] = []
         for movement in self.movements:
             first = sum(map(len, groups))
             here = range(first, first + len(MOVEMENTS[movement].coordinates))
             groups += [tuple(here)] if MOVEMENTS[movement].ball else [(index,) for index in here]
         return tuple(groups)
+
+    @cached_property
+    def splines(self) -> tuple[Spline | None, ...]:
+        """For each movement the spline of its curve, computed on the host; None for movements without a curve."""
+        curves = self.curves or (None,) * len(self.movements)
+        return tuple(None if curve is None else curve.spline() for curve in curves)
+
+    @property
+    def coincides(self) -> bool:
+        """Whether the joint is closed as assembled: the same frames on both parts, and each curve begins in its frame.
+
+        Numbers only; it is not where lengths or profiles were changed.
+        """
+        begun = all(spline is None or spline.begins_at_contact for spline in self.splines)
+        return begun and bool(np.array_equal(self.frames_1, self.frames_2))
 
     @property
     def contact_state(self) -> ContactState | None:
@@ -90,7 +110,7 @@ class Joint:
 
 
 # registered by hand, since `drop_fields` of `register_dataclass` works only from jax 0.10 on
-_LEAVES = ("frames_1", "frames_2", "pitch")
+_LEAVES = ("frames_1", "frames_2", "pitch", "curves")
 
 
 _STATIC = ("name", "parts", "kind", "movements", "limits")
@@ -123,6 +143,7 @@ def joint(
     pitch: float | int | Array = 0.0,
     evidence: Evidence = BY_HAND,
     limits: Limits = (),
+    curves: tuple[Curve | None, ...] = (),
 ) -> Joint:
     """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 
@@ -131,7 +152,7 @@ def joint(
     """
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
-    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence, limits)
+    return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence, limits, curves)
 
 
 def shifted(given: Joint, q: Float[np.ndarray, " freedoms"]) -> Joint:

@@ -16,19 +16,21 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
-from jaxkin.geometry.pose import frame, is_rigid
+from jaxkin.geometry.pose import is_rigid
+from jaxkin.joints.axis_frame import Triple, axis_frame
+from jaxkin.joints.curve_joints import cam, curve_on_curve, point_on_curve
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
-
-Triple = Sequence[float | int] | np.ndarray | jax.Array
 
 
 def revolute(
     name: str, part1: str, part2: str, *, point: Triple, axis: Triple, limits: GivenLimits | None = None
 ) -> Joint:
     """Make a hinge about the axis through the point. Coordinate: phi."""
-    return with_limits(joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [_frame(name, point, axis)]), limits)
+    return with_limits(
+        joint(name, (part1, part2), JointKind.REVOLUTE, ("T_phi",), [axis_frame(name, point, axis)]), limits
+    )
 
 
 def prismatic(
@@ -41,7 +43,9 @@ def prismatic(
     limits: GivenLimits | None = None,
 ) -> Joint:
     """Make a slide along the axis; the point only says where it is drawn. Coordinate: z."""
-    return with_limits(joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [_frame(name, point, axis)]), limits)
+    return with_limits(
+        joint(name, (part1, part2), JointKind.PRISMATIC, ("T_z",), [axis_frame(name, point, axis)]), limits
+    )
 
 
 def cylindrical(
@@ -49,7 +53,7 @@ def cylindrical(
 ) -> Joint:
     """Make a pin that turns and slides in its hole, contact state (e). Coordinates: z, phi."""
     return with_limits(
-        joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [_frame(name, point, axis)]), limits
+        joint(name, (part1, part2), JointKind.CYLINDRICAL, ("T_z_phi",), [axis_frame(name, point, axis)]), limits
     )
 
 
@@ -64,7 +68,8 @@ def planar(
 ) -> Joint:
     """Make a plane on a plane, contact state (a), that turns about the point. Coordinates: x, y, phi."""
     return with_limits(
-        joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [_frame(name, point, normal, "normal")]), limits
+        joint(name, (part1, part2), JointKind.PLANAR, ("T_xy_phi",), [axis_frame(name, point, normal, "normal")]),
+        limits,
     )
 
 
@@ -74,7 +79,7 @@ def spherical(name: str, part1: str, part2: str, *, point: Triple) -> Joint:
     Coordinates: theta, phi, psi, angles about x, y, z; the rotation is Rz(psi) Ry(phi) Rx(theta).
     """
     return joint(
-        name, (part1, part2), JointKind.SPHERICAL, ("T_theta_phi_psi",), [_frame(name, point, (0.0, 0.0, 1.0))]
+        name, (part1, part2), JointKind.SPHERICAL, ("T_theta_phi_psi",), [axis_frame(name, point, (0.0, 0.0, 1.0))]
     )
 
 
@@ -86,8 +91,8 @@ def universal(
     The movement is T_theta_phi with y along axis1 and x along axis2. Coordinates: theta, phi. Raises ValueError where
     the axes are not perpendicular within 1e-6.
     """
-    pose = _frame(name, point, axis1, "axis1")
-    x = _frame(name, point, axis2, "axis2")[:3, 2]
+    pose = axis_frame(name, point, axis1, "axis1")
+    x = axis_frame(name, point, axis2, "axis2")[:3, 2]
     y = pose[:3, 2]
     if not traced(point, axis1, axis2) and abs(float(x @ y)) > 1e-6:
         raise ValueError(
@@ -113,16 +118,16 @@ def constant_velocity(
     may be that. Coordinates: theta, phi, of the movement Rx(theta) Ry(phi) Rx(theta) with z along that direction; a
     bend about x alone is 2 theta, one about y alone is phi. Raises ValueError for shafts in opposite directions.
     """
-    along = _frame(name, point, axis)[:3, 2]
+    along = axis_frame(name, point, axis)[:3, 2]
     if axis2 is not None:
         xp = jnp if traced(axis, axis2) else np
-        along = xp.asarray(along) + xp.asarray(_frame(name, point, axis2, "axis2")[:3, 2])
+        along = xp.asarray(along) + xp.asarray(axis_frame(name, point, axis2, "axis2")[:3, 2])
         if not traced(along) and np.linalg.norm(along) < 1e-6:
             raise ValueError(
                 f"joint {name!r}: axis and axis2 of a constant velocity joint must both point from {part1!r} to "
                 f"{part2!r}, but they are opposite; turn one of them round"
             )
-    pose = _frame(name, point, along)
+    pose = axis_frame(name, point, along)
     return joint(name, (part1, part2), JointKind.CONSTANT_VELOCITY, ("T_theta_phi_theta",), [pose])
 
 
@@ -140,7 +145,7 @@ def screw(
     if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
         raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
     return with_limits(
-        joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [_frame(name, point, axis)], pitch), limits
+        joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [axis_frame(name, point, axis)], pitch), limits
     )
 
 
@@ -155,7 +160,7 @@ def free(name: str, part1: str, part2: str, *, point: Triple, limits: GivenLimit
     Coordinates: z1, z2, z3, slides along x, y, z; then theta, phi, psi as of `spherical`. It holds nothing; its
     coordinates say where part 2 is, and drive it.
     """
-    frames = [_frame(name, point, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    frames = [axis_frame(name, point, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     movements = ("T_z", "T_z", "T_z", "T_theta_phi_psi")
     return with_limits(joint(name, (part1, part2), JointKind.FREE, movements, [*frames, frames[2]]), limits)
 
@@ -184,19 +189,19 @@ def pin_in_slot(
             f"joint {name!r}: a slot is straight, direction=(x, y, z), or circular, centre=(x, y, z): "
             f"give one of them, got {'neither' if centre is None else 'both'}"
         )
-    pin = _frame(name, point, axis)
+    pin = axis_frame(name, point, axis)
     known = not traced(point, axis, direction, centre)
     if direction is not None:
-        along, z = _frame(name, point, direction, "direction")[:3, 2], pin[:3, 2]
+        along, z = axis_frame(name, point, direction, "direction")[:3, 2], pin[:3, 2]
         if known and abs(float(along @ z)) > 1e-6:
             raise ValueError(
                 f"joint {name!r}: the direction of a slot must be perpendicular to the axis of its pin, the cosine "
                 f"between them is {float(along @ z):.3g}; use a prismatic and a revolute joint and a part between them "
                 f"for a skew slot"
             )
-        slot, slides = _frame(name, point, along - (along @ z) * z), "T_z"
+        slot, slides = axis_frame(name, point, along - (along @ z) * z), "T_z"
     else:
-        slot, slides = _frame(name, centre, axis, point_label="centre"), "T_phi"
+        slot, slides = axis_frame(name, centre, axis, point_label="centre"), "T_phi"
         arm = pin[:3, 3] - slot[:3, 3]
         if known and np.linalg.norm(np.cross(pin[:3, 2], arm)) <= 1e-9 * np.linalg.norm([pin[:3, 3], slot[:3, 3]]):
             raise ValueError(
@@ -254,39 +259,9 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.FIXED: fixed,
     JointKind.FREE: free,
     JointKind.PIN_IN_SLOT: pin_in_slot,
+    JointKind.POINT_ON_CURVE: point_on_curve,
+    JointKind.CAM: cam,
+    JointKind.CURVE_ON_CURVE: curve_on_curve,
 }
 """Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
 keyword arguments of the function are keys of the joint in the file."""
-
-
-def _frame(
-    name: str, point: Triple | None, axis: Triple, what: str = "axis", point_label: str = "point"
-) -> np.ndarray | jax.Array:
-    """Make the frame at the point with z along the axis; numbers are checked (ValueError), traced ones are not.
-
-    `what` and `point_label` are the names of the axis and of the point in messages.
-    """
-    if traced(point, axis):
-        return _traced_frame(jnp.asarray(point, float), jnp.asarray(axis, float))
-    checked = {}
-    for label, value in ((point_label, point), (what, axis)):
-        try:
-            array = np.asarray(value, float)
-        except (TypeError, ValueError):
-            array = np.array(np.nan)
-        if array.shape != (3,) or not np.all(np.isfinite(array)):
-            raise ValueError(f"joint {name!r}: {label} must be three finite numbers (x, y, z), got {value!r}")
-        checked[label] = array
-    if not np.any(checked[what]):
-        raise ValueError(f"joint {name!r}: {what} must be a direction, got the zero vector")
-    return frame(checked[point_label], checked[what])
-
-
-def _traced_frame(point: jax.Array, axis: jax.Array) -> jax.Array:
-    """Make a frame from traced numbers as `frame` does from others."""
-    z = axis / jnp.linalg.norm(axis)
-    least = jnp.eye(3)[jnp.argmin(jnp.abs(z))]
-    x = least - (least @ z) * z
-    x = x / jnp.linalg.norm(x)
-    rotation = jnp.stack([x, jnp.cross(z, x), z, point], axis=1)
-    return jnp.concatenate([rotation, jnp.array([[0.0, 0.0, 0.0, 1.0]])])

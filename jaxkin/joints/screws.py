@@ -7,11 +7,15 @@ device.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import repeat
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
+from jaxkin.geometry.curves import Spline
+from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
+from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.pose import Pose, cross, inverse, skew
 from jaxkin.joints.joint import Joint
 
@@ -31,29 +35,28 @@ def chain(
     q: Float[np.ndarray, "freedoms"],
     pitch: float = 0.0,
     frames_2: Frames | None = None,
+    splines: Sequence[Spline | None] = (),
 ) -> tuple[Pose, Screws]:
     """Compute the displacement D of part 2 relative to part 1 in world coordinates, and the screws of its freedoms.
 
     `q` holds the coordinates of the movements, one after the other. Column k of the screws is the twist S_k with
     dD/dq_k = [S_k] D. `pitch` is the advance of a screw per turn; `frames_2` are the frames on the side of part 2, by
-    default those of part 1.
+    default those of part 1; `splines` the curves of the movements, where they have some.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
-    for movement, frame, leave in zip(movements, frames, frames if frames_2 is None else frames_2, strict=True):
+    leaves = frames if frames_2 is None else frames_2
+    for movement, frame, leave, spline in zip(movements, frames, leaves, splines or repeat(None), strict=False):
         pose = pose @ frame
+        point = None if spline is None else spline.at(q[first])
         for element in MOVEMENTS[movement].elements:
             k = first + element.coordinate
-            axis, advance, turn = pose[:3, element.axis].copy(), None, None
-            if element.kind != "translate":
-                screws[:3, k] += axis
-                screws[3:, k] += cross(pose[:3, 3], axis)
-                turn = np.cos(q[k]), np.sin(q[k])
-            if element.kind != "rotate":
-                rate = 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
-                screws[3:, k] += rate * axis
-                advance = rate * q[k]
-            pose[:3] = np.stack(displaced_columns([*pose[:3].T], element.axis, advance, turn), axis=1)
+            axis = pose[:3, element.axis]
+            slides, turns = rates(element, pitch, point)
+            screws[:3, k] += turns * axis
+            screws[3:, k] += turns * cross(pose[:3, 3], axis) + slides * axis
+            how_far = amount(element, q[k], pitch, point, _cos_sin)
+            pose = np.stack(displaced_columns(list(pose.T), element.axis, *how_far), axis=1)
         pose = pose @ inverse(leave)
         first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
@@ -62,19 +65,21 @@ def chain(
 def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float[np.ndarray, "3 4 poses"]:
     """Compute the displacements of part 2 of a joint relative to part 1, in world coordinates, for many poses."""
     found, first = np.eye(4)[:3, :, None], 0
-    for movement, frame_1, frame_2 in zip(joint.movements, joint.frames_1, joint.frames_2, strict=True):
+    frames = zip(joint.movements, joint.frames_1, joint.frames_2, joint.splines, strict=True)
+    for movement, frame_1, frame_2, spline in frames:
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
+        point = None if spline is None else spline.at(q[:, first])
         for element in MOVEMENTS[movement].elements:
-            value = q[:, first + element.coordinate]
-            advance = None
-            if element.kind != "rotate":
-                advance = value if element.kind == "translate" else float(joint.pitch) / (2 * np.pi) * value
-            turn = None if element.kind == "translate" else (np.cos(value), np.sin(value))
-            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
+            how_far = amount(element, q[:, first + element.coordinate], float(joint.pitch), point, _cos_sin)
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
         found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
         first += len(MOVEMENTS[movement].coordinates)
     return np.broadcast_to(found, (3, 4, len(q)))
+
+
+def _cos_sin(angle: Any) -> tuple[Any, Any]:
+    return np.cos(angle), np.sin(angle)
 
 
 def inverses(poses: Float[np.ndarray, "3 4 poses"]) -> Float[np.ndarray, "3 4 poses"]:

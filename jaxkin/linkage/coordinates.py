@@ -31,8 +31,8 @@ class Driven(NamedTuple):
 def resolve(linkage: Linkage, drive: Mapping[str, object]) -> dict[str, Driven]:
     """Resolve a drive into its coordinates, by full names "joint.coordinate" in the order given.
 
-    Raises ValueError for names that do not exist or are not unique, arrays of unequal length or of more than one axis,
-    and a ball of which only some angles are driven. Displacements may be NaN or infinite: their poses are NONFINITE.
+    Raises ValueError for names that do not exist or are not unique, and arrays of unequal length or of more than one
+    axis. Displacements may be NaN or infinite: their poses are NONFINITE.
     """
     driven = coordinates(linkage, named(drive))
     given = given_values(driven, drive)
@@ -55,7 +55,6 @@ def coordinates(linkage: Linkage, keys: Sequence[str]) -> dict[str, tuple[int, i
         if name in driven:
             raise ValueError(f"the drive names {name!r} twice; give each coordinate once")
         driven[name] = joint, index
-    _whole_balls(linkage, driven.values())
     return driven
 
 
@@ -101,10 +100,7 @@ def coordinate(linkage: Linkage, key: str) -> tuple[int, int]:
     if key in names:
         joint = linkage.joints[names.index(key)]
         if joint.freedoms != 1:
-            choices = [
-                " with ".join(repr(f"{key}.{joint.coordinates[index]}") for index in group)
-                for group in joint.driven_together
-            ]
+            choices = [repr(f"{key}.{name}") for name in joint.coordinates]
             said = f"has {joint.freedoms} coordinates: write {' or '.join(choices)}"
             what = said if choices else "has no coordinate to drive"
             raise ValueError(f"joint {key!r} ({joint.kind}) {what}")
@@ -144,12 +140,3 @@ def _values(key: str, values: Any) -> Given:
             f"{tuple(values.shape)}" + ("; write [value] for a single pose" if values.ndim == 0 else "")
         )
     return values
-
-
-def _whole_balls(linkage: Linkage, driven: Collection[tuple[int, int]]) -> None:
-    """Raise ValueError where some angles of a ball are driven and others not: the three angles are one rotation."""
-    for index, joint in enumerate(linkage.joints):
-        for group in joint.driven_together:
-            if 0 < sum((index, c) in driven for c in group) < len(group):
-                names = [f"{joint.name}.{joint.coordinates[c]}" for c in group]
-                raise ValueError(f"joint {joint.name!r} is a ball: drive all of {', '.join(map(repr, names))}, or none")

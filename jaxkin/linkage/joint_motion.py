@@ -81,7 +81,8 @@ def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 
         count = len(MOVEMENTS[movement].coordinates)
         before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.frames_1, joint.frames_2))
         begin = before if found is None else product(found, before)
-        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype))
+        curve = joint.curves[frame] if joint.curves else None
+        moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype), curve)
         found = product(moved, inverse(after))
         first += count
     still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found

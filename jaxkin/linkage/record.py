@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from jaxkin._traced import traced
+from jaxkin.geometry.curves import Curve
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -81,6 +82,8 @@ def _of_joint(joint: Joint) -> dict[str, Any]:
         record["frames_2"] = np.asarray(joint.frames_2, float).tolist()
     if pitch := float(joint.pitch):
         record["pitch"] = pitch
+    if joint.curves:
+        record["curves"] = [None if curve is None else _of_curve(curve) for curve in joint.curves]
     if joint.limits:  # JSON has no infinity
         record["limits"] = [[None if isinf(end) else end for end in ends] for ends in joint.limits]
     return record
@@ -102,7 +105,22 @@ def _joint(record: Mapping[str, Any]) -> Joint:
         _frames(record, "frames_2") if "frames_2" in record else frames_1,
         np.asarray(record.get("pitch", 0.0), float),
         limits=limits,
+        curves=tuple(None if each is None else _curve(each) for each in record.get("curves", ())),
     )
+
+
+def _of_curve(curve: Curve) -> dict[str, Any]:
+    return {
+        "points": np.asarray(curve.points, float).tolist(),
+        "start": float(curve.start),
+        "place": np.asarray(curve.place, float).tolist(),
+        "closed": curve.closed,
+    }
+
+
+def _curve(record: Mapping[str, Any]) -> Curve:
+    start, place = np.asarray(record["start"], float), np.asarray(record["place"], float).reshape(3)
+    return Curve(np.asarray(record["points"], float).reshape(-1, 2), start, place, bool(record["closed"]))
 
 
 def _frames(record: Mapping[str, Any], side: str) -> np.ndarray:

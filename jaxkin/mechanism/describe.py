@@ -59,8 +59,10 @@ def _joints(joints: Sequence[Joint]) -> list[str]:
     """Write a table of joints: limits if any joint has some, and what a joint is known from if that is in doubt."""
     rows = [("joint", "parts", "kind", "coordinates", "limits", "known from")]
     for joint in joints:
-        inferred = joint.evidence is not None and joint.evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER)
-        known = str(joint.evidence) if inferred else ""
+        evidence = joint.evidence
+        told = evidence is not None and (evidence.kind not in (EvidenceKind.CONTACT, EvidenceKind.USER))
+        told = told or (evidence is not None and evidence.kind is EvidenceKind.USER and bool(evidence.text))
+        known = str(evidence) if told else ""
         coordinates = ", ".join(joint.coordinates) or "none"
         rows.append((joint.name, " - ".join(joint.parts), joint.kind, coordinates, _limits(joint), known))
     columns = [column for column in zip(*rows, strict=True) if any(column[1:]) or column[0] not in _NOT_ALWAYS]

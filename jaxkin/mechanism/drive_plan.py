@@ -206,6 +206,6 @@ def _edited(linkage: Linkage, loop_group: LoopGroup) -> bool:
     couplings = [linkage.couplings[number] for number in loop_group.couplings]
     return (
         traced((joints, couplings))
-        or any(not np.array_equal(joint.frames_1, joint.frames_2) for joint in joints)
+        or any(not joint.coincides for joint in joints)
         or any(float(coupling.offset) for coupling in couplings)
     )

@@ -211,8 +211,7 @@ class Mechanism:
         coincide with it; the part's further joints stay too, and their distances and angles to the moved one are kept
         (of three axes or more that are not parallel, offsets follow). Axes that coincide move apart along the x axis
         of the first one's frame. A sweep closes the loops again; solids are left behind. Raises ValueError for a length
-        that does not exist, is negative, or cannot hold together with those kept; of traced ones poses are NONFINITE.
-        """
+        that does not exist, is negative, or cannot hold together with those kept: of traced ones NONFINITE poses."""
         from jaxkin.dimensions.lengths import with_lengths
 
         return self.with_linkage(with_lengths(self.linkage, changes))
@@ -221,14 +220,15 @@ class Mechanism:
         """Make the mechanism with some joint frames given anew, 4x4 poses in world coordinates of the assembled pose.
 
         A key is a joint, to move its frame on both of its parts, or `(part, joint)`, to move it on this part only.
-        Numbers are aligned as by `build` unless traced. ValueError for unknown names and for what is no rigid pose.
-        """
+        Numbers are aligned as by `build` unless traced. ValueError for unknown names and for what is no rigid pose."""
         from jaxkin.dimensions.frames import with_frames
 
         return self._aligned_with(with_frames(self.linkage, frames), align)
 
     def with_points(self, points: Mapping[Any, Any], *, align: float | int | None = None) -> Mechanism:
-        """Make the mechanism with origins of joint frames moved to given points; all else as in `with_frames`."""
+        """Make the mechanism with origins of joint frames moved to given points; all else as in `with_frames`.
+
+        (joint, "profile"), or "profile2", replaces the points (x, y) of a profile in the axes of the profile."""
         from jaxkin.dimensions.frames import with_points
 
         return self._aligned_with(with_points(self.linkage, points), align)

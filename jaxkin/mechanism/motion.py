@@ -143,7 +143,13 @@ class Motion:
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        return tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts)
+        told = tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts)
+        if not any(joint.curves for joint in self.mechanism.all_joints):
+            return told
+        from jaxkin.effects.curve_contacts import curve_contacts
+
+        found = curve_contacts(self)
+        return told if found.holds else "\n  ".join([told, *str(found).splitlines()])
 
 
 def as_point(point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "3"]:

@@ -87,7 +87,7 @@ def part_places(linkage: Linkage, coordinates: Sequence[Float[np.ndarray, " _"]]
 
 def _displacement(joint: Joint, q: Float[np.ndarray, " _"]) -> Place:
     before, after = (np.asarray(side, float) for side in (joint.frames_1, joint.frames_2))
-    return chain(joint.movements, before, q, float(joint.pitch), after)[0]
+    return chain(joint.movements, before, q, float(joint.pitch), after, joint.splines)[0]
 
 
 def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
@@ -95,24 +95,30 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
 
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
     what it was, whatever the last one has turned or shifted. Where a coordinate drives several motions, as in a
-    constant velocity joint, the frame goes along with half of the rotation: its z axis bisects the shafts again.
+    constant velocity joint, the frame goes along with half of the rotation: its z axis bisects the shafts again. That
+    of a curve goes along to the contact where the curve belongs to part 1, and the curve counts from there.
     """
     frames, start = [], 0
+    curves = list(joint.curves)
     for number, name in enumerate(joint.movements):
         before, after = (np.asarray(side, float)[number : number + 1] for side in (joint.frames_1, joint.frames_2))
         own = q[start : start + freedoms([name])]
         start += len(own)
-        most = own.copy()
-        if MOVEMENTS[name].elements and not MOVEMENTS[name].repeats:
+        most, splines = own.copy(), joint.splines[number : number + 1]
+        curve = joint.curves[number] if joint.curves else None
+        if curve is not None:
+            curves[number] = curve.counted_from(float(own[0]))
+            most *= MOVEMENTS[name].elements[0].sense > 0
+        elif MOVEMENTS[name].elements and not MOVEMENTS[name].repeats:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0
-        new = place @ chain([name], before, most, float(joint.pitch))[0] @ before[0]
+        new = place @ chain([name], before, most, float(joint.pitch), splines=splines)[0] @ before[0]
         if MOVEMENTS[name].repeats:
             start_of = place @ before[0]
             new[:3, :3] = start_of[:3, :3] @ _half(start_of[:3, :3].T @ new[:3, :3])
         frames.append(new)
-        place = place @ chain([name], before, own, float(joint.pitch), after)[0]
+        place = place @ chain([name], before, own, float(joint.pitch), after, splines)[0]
     stacked = np.array(frames, np.asarray(joint.frames_1).dtype)
-    return replace(joint, frames_1=stacked, frames_2=stacked)
+    return replace(joint, frames_1=stacked, frames_2=stacked, curves=tuple(curves))
 
 
 def _half(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, "3 3"]:

@@ -188,14 +188,14 @@ def _nearest_mobile_joints(
     None where a twist exceeds `level`, radians or lengths over the characteristic length, and where a joint has
     different frames on its two parts.
     """
-    if not all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints):
+    if not all(joint.coincides for joint in joints):
         return None
     loops = _closed_loops(linkage, loop_group, joints)
     if not nearest_mobile(loops, level):
         return None
     found = []
     for number, joint in zip(loop_group.joints, joints, strict=True):
-        frames = loops.chains[number][1].copy()
+        frames = loops.chains[number].frames_1.copy()
         frames[:, :3, 3] = loops.centre + loops.length * frames[:, :3, 3]
         found.append(replace(joint, frames_1=frames, frames_2=frames))
     return found

@@ -9,6 +9,7 @@ import jax
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.coupling import Coupling
@@ -36,6 +37,26 @@ steps of so much damping do not reduce it."""
 
 Row = Float[np.ndarray, " columns"]
 Rows = Float[np.ndarray, " equations"]
+
+
+class ScaledChain(NamedTuple):
+    """The movements of a joint with their numbers, lengths over the characteristic length, about the centroid."""
+
+    movements: tuple[str, ...]
+    frames_1: Float[np.ndarray, "frames 4 4"]
+    frames_2: Float[np.ndarray, "frames 4 4"]
+    pitch: float
+    splines: tuple[Spline | None, ...]
+    """The curves of the movements; empty where no movement has one."""
+
+    def displaced(self, q: Float[np.ndarray, " _"]) -> tuple[Pose, Screws]:
+        """Compute the displacement of part 2 relative to part 1, and the screws of the coordinates: see `chain`."""
+        return chain(self.movements, self.frames_1, q, self.pitch, self.frames_2, self.splines)
+
+    def alone(self, number: int) -> ScaledChain:
+        """Return one of the movements, with the frame on part 1 on both sides."""
+        one = slice(number, number + 1)
+        return ScaledChain(self.movements[one], self.frames_1[one], self.frames_1[one], self.pitch, self.splines[one])
 
 
 class Travel(NamedTuple):
@@ -107,7 +128,13 @@ class ClosedLoops:
             return frames
 
         self.chains = {
-            index: (joint.movements, scaled(joint.frames_1), scaled(joint.frames_2), float(joint.pitch) / length)
+            index: ScaledChain(
+                joint.movements,
+                scaled(joint.frames_1),
+                scaled(joint.frames_2),
+                float(joint.pitch) / length,
+                tuple(curve and curve.over(length).spline() for curve in joint.curves),
+            )
             for index, joint in joints.items()
         }
         first = np.cumsum([0, *(joint.freedoms for joint in joints.values())])
@@ -118,7 +145,7 @@ class ClosedLoops:
             self._scaled(couplings[number], [f"{every[j].name}.{every[j].coordinates[k]}" for j, k in self.columns])
             for number in loop_group.couplings
         ]
-        self.coincide = all(np.array_equal(joint.frames_1, joint.frames_2) for joint in joints.values()) and not any(
+        self.coincide = all(joint.coincides for joint in joints.values()) and not any(
             offset for *_, offset in self.couplings
         )
         """Whether each joint has the same frame on both of its parts, and no coupling an offset. Then the assembled
@@ -166,10 +193,7 @@ class ClosedLoops:
 
     def travel(self, q: Row) -> Travel:
         """Travel around all loops at scaled coordinates `q`, each from the part at which it starts."""
-        steps = {
-            index: chain(movements, before, q[self.slices[index]], pitch, after)
-            for index, (movements, before, after, pitch) in self.chains.items()
-        }
+        steps = {index: each.displaced(q[self.slices[index]]) for index, each in self.chains.items()}
         places: dict[str, Pose] = {}
         starts: list[Pose] = []
         left_open: list[Pose] = []

@@ -162,12 +162,14 @@ def drivable(linkage: Linkage, found: LoopFreedoms, driven: Sequence[int], spins
 def independent_subset(found: LoopFreedoms, columns: Iterable[int], given: Sequence[int] = ()) -> list[int]:
     """Greedily select columns whose rates are linearly independent of each other and of the columns `given`.
 
-    The angles of a ball are selected together or not at all.
+    The angles of a ball are selected together or not at all, unless some of them are given.
     """
     taken: list[int] = []
     offered = list(columns)
     for column in offered:
         group = found.driven_together[column]
+        if not set(group).isdisjoint(given):  # a ball of which some angles are driven
+            group = (column,)
         together = [*given, *taken, *group]
         if column in taken or not set(group) <= set(offered):
             continue

@@ -19,7 +19,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Pose, inverse
-from jaxkin.joints.screws import chain, freedoms, moved
+from jaxkin.joints.screws import freedoms, moved
 from jaxkin.linkage.first_order import null_space
 from jaxkin.mobility.consistency import cutoff, nearest_closed, rounding
 from jaxkin.mobility.host_closure import ClosedLoops, Row
@@ -52,7 +52,7 @@ def nearest_mobile(loops: ClosedLoops, noise: float) -> bool:
     `noise` is how far, in radians and characteristic lengths, a frame may move: False where that is not enough. The
     joints must have the same frames on both parts.
     """
-    frames = [(joint, number) for joint, (names, *_) in loops.chains.items() for number in range(len(names))]
+    frames = [(joint, number) for joint, each in loops.chains.items() for number in range(len(each.movements))]
     poses = _poses(loops, cutoff(noise))
     total = np.zeros((len(frames), 6))
     for iteration in range(_ITERATIONS):
@@ -104,12 +104,12 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
     """
     first = {frame: 6 * number for number, frame in enumerate(frames)}
     steps: dict[int, list[Pose]] = {}
-    for joint, (names, before, _, pitch) in loops.chains.items():
+    for joint, each in loops.chains.items():
         own, start = q[loops.slices[joint]], 0
         steps[joint] = []
-        for number, name in enumerate(names):
+        for number, name in enumerate(each.movements):
             stop = start + freedoms([name])
-            steps[joint].append(chain([name], before[number : number + 1], own[start:stop], pitch)[0])
+            steps[joint].append(each.alone(number).displaced(own[start:stop])[0])
             start = stop
     jacobian = np.zeros((len(loops.loop_group.loops), 6, 6 * len(frames)))
     for rows, loop, pose in zip(jacobian, loops.loop_group.loops, loops.travel(q).starts, strict=True):
@@ -125,10 +125,9 @@ def _frame_jacobian(loops: ClosedLoops, frames: list[tuple[int, int]], q: Row) -
 def _move(loops: ClosedLoops, frames: list[tuple[int, int]], twists: Twists) -> None:
     """Move frames, given as (joint, number of the frame), by small twists, in place and on both parts alike."""
     for (joint, number), twist in zip(frames, twists, strict=True):
-        names, before, _, pitch = loops.chains[joint]
-        before = before.copy()
+        before = loops.chains[joint].frames_1.copy()
         before[number] = _moved_frame(before[number], twist)
-        loops.chains[joint] = (names, before, before, pitch)
+        loops.chains[joint] = loops.chains[joint]._replace(frames_1=before, frames_2=before)
 
 
 def _moved_frame(frame: Pose, twist: Float[np.ndarray, "6"]) -> Pose:

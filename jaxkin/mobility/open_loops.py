@@ -9,7 +9,7 @@ import numpy as np
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import apply, turned_by
-from jaxkin.joints.screws import chain, complement, freedoms
+from jaxkin.joints.screws import complement, freedoms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.host_closure import ClosedLoops, Row, Travel
 
@@ -85,7 +85,7 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
     number = int(np.argmax(loop_gaps))
     loop, left = loops.loop_group.loops[number], found.left_open[number]
     joint = max((joint for joint, _ in loop), key=lambda joint: _misfit(loops, joint))
-    place = apply(found.places[loops.ends[joint][0]], loops.chains[joint][1][0, :3, 3])
+    place = apply(found.places[loops.ends[joint][0]], loops.chains[joint].frames_1[0, :3, 3])
     joints = [linkage.joints[index] for index, _ in loop]
     return Opening(
         residual=found.gap,
@@ -120,8 +120,7 @@ def _misfit(loops: ClosedLoops, joint: int) -> tuple[float, float]:
 
     The first number counts only what the joint forbids (zero if below the closure residual), the second one everything.
     """
-    names, before, after, pitch = loops.chains[joint]
-    apart, screws = chain(names, before, np.zeros(freedoms(names)), pitch, after)
+    apart, screws = loops.chains[joint].displaced(np.zeros(freedoms(loops.chains[joint].movements)))
     skew = apart[:3, :3] - apart[:3, :3].T
     twist = np.array([skew[2, 1] / 2, skew[0, 2] / 2, skew[1, 0] / 2, *apart[:3, 3]])
     forbidden = float(np.linalg.norm(complement(screws) @ twist)) if screws.size else float(np.linalg.norm(twist))

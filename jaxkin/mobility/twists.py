@@ -149,5 +149,6 @@ def constraints(joint: Joint, centre: Vector, size: float) -> Float[np.ndarray, 
     """
     frames = np.array(joint.frames_1, float)
     frames[:, :3, 3] = (frames[:, :3, 3] - centre) / size
-    screws = chain(joint.movements, frames, np.zeros(joint.freedoms), float(joint.pitch) / size)[1]
+    splines = tuple(curve and curve.over(size).spline() for curve in joint.curves)
+    screws = chain(joint.movements, frames, np.zeros(joint.freedoms), float(joint.pitch) / size, splines=splines)[1]
     return complement(screws)

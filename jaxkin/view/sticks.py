@@ -13,6 +13,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.evidence import EvidenceKind
+from jaxkin.view.curve_figures import curve_figures
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -55,10 +56,14 @@ def stick_parts(mechanism: Mechanism) -> tuple[Part, ...]:
             place = pose[:3, 3] / radius
             end = place + layers[part] * up
             pose[:3, 3] = place + lower * up
-            pieces[part] += [_shape(shape, pose) for shape in MOVEMENTS[joint.movements[index]].figures[index]]
+            figures = () if joint.curves else MOVEMENTS[joint.movements[index]].figures[index]
+            pieces[part] += [_shape(shape, pose) for shape in figures]
             if np.any(end != pose[:3, 3]):
                 pieces[part].append(_rod(pose[:3, 3], end, _POST))
             ends[part].append(end)
+        if joint.curves:
+            for part, drawn in zip(joint.parts, curve_figures(joint, radius), strict=True):
+                pieces[part] += [triangles + layers[part] * up for triangles in drawn]
     for part in mechanism.parts:
         pieces[part] += _bars(ends[part], 1.0 if part in moving else _SLIMMER)
     return tuple(Part(part, (), radius * np.concatenate(pieces[part])) for part in mechanism.parts)

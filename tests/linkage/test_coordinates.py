@@ -36,9 +36,10 @@ def test_a_joint_of_several_coordinates_asks_which():
         resolve(planar_fourbar(pin=cylindrical).linkage, {"A": [0.0]})
 
 
-def test_a_ball_is_driven_whole():
-    with pytest.raises(ValueError, match=r"drive all of 'B\.theta', 'B\.phi', 'B\.psi', or none"):
-        resolve(rssr_linkage().linkage, {"B.phi": [0.1]})
+def test_a_ball_is_driven_by_some_of_its_angles_or_all():
+    assert list(resolve(rssr_linkage().linkage, {"B.phi": [0.1]})) == ["B.phi"]
+    with pytest.raises(ValueError, match=r"write 'B\.theta' or 'B\.phi' or 'B\.psi'"):
+        resolve(rssr_linkage().linkage, {"B": [0.1]})
 
 
 def test_nearest_name():

@@ -95,8 +95,9 @@ def _free_balls(joint: Joint, driven: Sequence[int]) -> list[int]:
     """The first coordinate of each ball at the end of a joint that has no drive."""
     first, found = 0, []
     for place, movement in enumerate(joint.movements):
+        driven_here = any(first <= k < first + len(MOVEMENTS[movement].coordinates) for k in driven)
         # further ones are not at the point of the joint: their angles stay
-        if MOVEMENTS[movement].ball and first not in driven and place == len(joint.movements) - 1:
+        if MOVEMENTS[movement].ball and not driven_here and place == len(joint.movements) - 1:
             found.append(first)
         first += len(MOVEMENTS[movement].coordinates)
     return found

@@ -10,13 +10,17 @@ motion with the unit twist S and the rates q', q'', a body with the twist V and 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import MOVEMENTS, displaced_columns, is_length
+from jaxkin.geometry.curves import Spline
+from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns, rates
+from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.rigid import Rigid, as_rigid, inverse, product
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.joints.joint import Joint
@@ -59,6 +63,8 @@ class Motions(NamedTuple):
     """The origin of the last frame, on part 2, from the middle over the size."""
     twists: tuple[Twist, ...]
     """Unit twist of each, from part 1 to part 2; their coordinates are those of `driven_by`."""
+    bends: tuple[Twist | None, ...]
+    """Change of each unit twist with its own coordinate, as a curve bends; None where it does not change."""
 
     def coordinates(self, joint: Joint) -> list[Twist]:
         """Unit twists of the coordinates: a coordinate may drive several motions, whose twists add up."""
@@ -116,30 +122,44 @@ def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale
     """Find the elementary motions of a joint in each pose, and the displacement of part 2, from that of part 1."""
     found = jnp.broadcast_to(part_1, (3, 4, q.shape[0]))
     twists: list[Twist] = []
+    bends: list[Twist | None] = []
+    units, pitch = scale.of_coordinates(joint), jnp.asarray(joint.pitch, float)
     first = 0
     for number, (movement, frame) in enumerate(zip(joint.movements, joint.frames_1, strict=True)):
         if number:
             found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
         found = product(found, as_rigid(jnp.asarray(frame, float)))
+        spline = joint.curves[number].spline(jnp) if joint.curves and joint.curves[number] is not None else None
         for element in MOVEMENTS[movement].elements:
-            axis, value = found[:, element.axis], q[:, first + element.coordinate]
-            advance = turn = None
-            turning = moving = jnp.zeros_like(axis)
-            if element.kind != "translate":
-                turning, turn = axis, tuple(cos_sin(value))
-                moving = jnp.cross(scale.arm(found[:, 3]), axis, axis=0)
-            if element.kind == "translate":
-                moving, advance = axis, value
-            elif element.kind == "screw":
-                pitch = jnp.asarray(joint.pitch, float) / (2 * jnp.pi)
-                moving, advance = moving + pitch / scale.size * axis, value * pitch
-            twists.append(jnp.concatenate([turning, moving]))
-            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, advance, turn)
+            value = q[:, first + element.coordinate]
+            unit, point = units[first + element.coordinate], None if spline is None else spline.at(value, jnp)
+            twists.append(_twist(found, element, scale, unit, rates(element, pitch, point)))
+            bends.append(None)
+            if element.law is not None and spline is not None:
+                along = partial(_curve_rates, element, spline)
+                changes = jax.jvp(along, (value,), (jnp.full_like(value, unit),))[1]
+                bends[-1] = _twist(found, element, scale, unit, changes)
+            how_far = amount(element, value, pitch, point, cos_sin)
+            columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = jnp.stack(columns, axis=1)
         first += len(MOVEMENTS[movement].coordinates)
     last = as_rigid(jnp.asarray(joint.frames_2[-1], float)) if len(joint.frames_2) else as_rigid(jnp.eye(4))
     # found once: XLA would find the whole chain anew wherever it is used
-    return lax.optimization_barrier((Motions(scale.arm(found[:, 3]), tuple(twists)), product(found, inverse(last))))
+    motions = Motions(scale.arm(found[:, 3]), tuple(twists), tuple(bends))
+    return lax.optimization_barrier((motions, product(found, inverse(last))))
+
+
+def _twist(frame: Rigid, element: ElementaryMotion, scale: Scale, unit: Any, by_coordinate: tuple[Any, Any]) -> Twist:
+    """Twist of an elementary motion of a frame, from the derivatives of its length and its angle by the coordinate."""
+    slides, turns = (each * unit for each in by_coordinate)
+    axis = frame[:, element.axis]
+    return jnp.concatenate([turns * axis, turns * cross(scale.arm(frame[:, 3]), axis) + slides / scale.size * axis])
+
+
+def _curve_rates(element: ElementaryMotion, spline: Spline, q: Float[Array, " poses"]) -> tuple[Array, Array]:
+    """Derivatives of the length and of the angle of a motion along a curve by its parameter."""
+    slides, turns = rates(element, None, spline.at(q, jnp))
+    return slides * jnp.ones_like(q), turns * jnp.ones_like(q)
 
 
 def relative_twist(joint: Joint, own: Motions, rates: Float[Array, "poses _"], scale: Scale) -> Twist:
@@ -169,9 +189,10 @@ def twists_of_parts(
         here = before if sign > 0 else twists[part]
         units = at.scale.of_coordinates(joint)
         change = none
-        for k, twist in zip(driven_by(joint), own.twists, strict=True):
+        for k, twist, bend in zip(driven_by(joint), own.twists, own.bends, strict=True):
             rate = first[number][:, k] / units[k]
             change = change + twist * (second[number][:, k] / units[k]) + bracket(here, twist) * rate
+            change = change if bend is None else change + bend * rate**2
             here = here + twist * rate
         changes[part] = lax.optimization_barrier(changes.get(parent, none) + sign * change)
     return twists, changes

@@ -54,6 +54,8 @@ def _formula(system: LoopSystem, loops: tuple[int, ...], block: EquationBlock) -
     if any(number >= len(system.loops) for number in loops):
         return "a coupling"
     loop, *others = loops
+    if system.curves:
+        return "a curve is travelled along"
     if others:
         return f"its {len(loops)} loops are solved together"
     if system.planar:

@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.curves import Curve
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
@@ -72,14 +73,21 @@ def loop_geometry(
     frames_2: tuple[Given, ...],
     pitch: tuple[Given, ...],
     couplings: tuple[CouplingNumbers, ...] = (),
+    curves: tuple[tuple[Curve | None, ...], ...] = (),
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
 
-    Frames and pitches have one entry a joint, in the unit of the mechanism; the constants are those of `scaled_frames`.
+    Frames, pitches and curves have one entry a joint, in the unit of the mechanism; the constants are those of
+    `scaled_frames`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
     frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2))
-    space = spatial_geometry(system, frames, jnp.stack(pitch) / length)
+    splines = tuple(
+        jax.tree.map(lambda leaf: jnp.asarray(leaf, float), curve).over(length).spline(jnp)
+        for curve in (curve for own in curves for curve in own)
+        if curve is not None
+    )
+    space = spatial_geometry(system, frames, jnp.stack(pitch) / length, splines)
     loops = planar_geometry(system, space) if system.planar else space
     return Geometry(loops, scaled_couplings(system, couplings, length)), length
 

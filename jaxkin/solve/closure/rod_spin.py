@@ -17,7 +17,6 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Rotations, State, matrix, multiply
@@ -29,13 +28,15 @@ that of the spin: reversed at a ball whose joint has the rod as part 1."""
 
 def spin_lines(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Lines:
     """Compute the lines from the frames of all joints: first those on part 1, joint by joint, then those on part 2."""
-    of_ball, first = [], 0
+    of_ball, first = np.zeros(len(system.balls), np.int32), 0
     for chain in system.chains:
-        of_ball += [first + frame for name, frame, _, _ in chain if MOVEMENTS[name].ball]
+        for _, frame, _, ball in chain:
+            if ball is not None:
+                of_ball[ball] = first + frame
         first += len(chain)
     table = np.array(system.spins, np.int32).reshape(-1, 4)
     side = table[:, 2:]
-    ends = frames[np.array(of_ball, np.int32)[table[:, :2]] + np.where(side > 0, first, 0)]
+    ends = frames[of_ball[table[:, :2]] + np.where(side > 0, first, 0)]
     line = ends[:, 1, :3, 3] - ends[:, 0, :3, 3]
     line = line / jnp.sqrt(jnp.sum(line * line, axis=1, keepdims=True))
     return jnp.einsum("sbij,si->sbj", ends[..., :3, :3], line) * jnp.asarray(side[..., None], frames.dtype)

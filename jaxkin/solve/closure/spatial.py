@@ -25,6 +25,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
 from jaxkin.solve.system.chain_tables import AXES, ChainTables, chain_tables
@@ -49,6 +50,8 @@ class Spatial(NamedTuple):
     """Lines of the idle spins, unit vectors: see `rod_spin`."""
     centres: Float[Array, "3 spherical"]
     """Points about which the spherical loops turn, of `LoopSystem.sections`."""
+    curves: tuple[Spline, ...] = ()
+    """The curves of `LoopSystem.curves`."""
 
 
 def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
@@ -177,6 +180,9 @@ def _travel(
     advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
     (cos, sin), travel = cos_sin(turn * q), advance * q
+    rates: Array | None = None
+    if geometry.curves:
+        cos, sin, travel, rates = _along_curves(system, geometry, state, (cos, sin, travel))
     balls = _ball_turns(state, table) if system.turned_balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
@@ -196,7 +202,10 @@ def _travel(
 
     lever = translation - points
     turned = (sign * turn)[:, None] * along
-    moved = (sign * advance)[:, None] * along + jnp.cross(turned, lever, axis=1)
+    moved = (sign * advance)[:, None] * along
+    if rates is not None:
+        turned, moved = rates[:, None] * turned, rates[:, None] * moved
+    moved = moved + jnp.cross(turned, lever, axis=1)
     twists = jnp.concatenate([turned, moved], axis=1)
     if system.turned_balls:
         spins = sign[:, None, None] * axes
@@ -206,6 +215,33 @@ def _travel(
         first, again, chain = table.repeats
         twists = twists.at[first, :, chain].add(twists[again, :, chain])
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
+
+
+def _along_curves(
+    system: LoopSystem, geometry: Spatial, state: State, amounts: tuple[Array, Array, Array]
+) -> tuple[Array, Array, Array, Float[Array, "steps chains poses"]]:
+    """Replace cosine, sine and travel of the steps that follow a curve by those at its parameter.
+
+    Also computes the derivative of the angle or length of every step with respect to its coordinate: 1 where no curve
+    is followed.
+    """
+    table = chain_tables(system)
+    cos, sin, travel = amounts
+    rates = jnp.ones_like(travel)
+    for number, curve in enumerate(geometry.curves):
+        follows = (table.law > 0) & (table.curve == number)
+        if not follows.any():
+            continue
+        at = curve.at(state.x[table.column[follows][0]], jnp)
+        for law, value, rate in ((1, at.x, at.dx), (2, at.y, at.dy), (3, None, at.turning)):
+            where = np.nonzero(follows & (table.law == law))
+            sign = jnp.asarray(table.sign[where], cos.dtype)[:, None]
+            rates = rates.at[where].set(rate)
+            if value is None:
+                cos, sin = cos.at[where].set(at.cos), sin.at[where].set(sign * at.sin)
+            else:
+                travel = travel.at[where].set(sign * value)
+    return cos, sin, travel, rates
 
 
 def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
@@ -229,7 +265,12 @@ def _product(a: Rotation, b: Rotation) -> Rotation:
     return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
 
 
-def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pitch: Float[Array, " joints"]) -> Spatial:
+def spatial_geometry(
+    system: LoopSystem,
+    frames: Float[Array, "frames 4 4"],
+    pitch: Float[Array, " joints"],
+    curves: tuple[Spline, ...] = (),
+) -> Spatial:
     """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
     table = chain_tables(system)
     turned = np.zeros((3, 4, 4))
@@ -237,7 +278,8 @@ def spatial_geometry(system: LoopSystem, frames: Float[Array, "frames 4 4"], pit
     along = jnp.asarray(turned[table.axis], frames.dtype)
     enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
     between = jnp.concatenate([_inverse(frames[table.begin])[None] @ enter[:1], leave[:-1] @ enter[1:]])
-    return Spatial(between, leave[-1] @ frames[table.end], pitch, spin_lines(system, frames), _centres(system, frames))
+    end, lines, centres = leave[-1] @ frames[table.end], spin_lines(system, frames), _centres(system, frames)
+    return Spatial(between, end, pitch, lines, centres, curves)
 
 
 def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Array, "3 spherical"]:

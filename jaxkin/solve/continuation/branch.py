@@ -104,7 +104,7 @@ def trace_branch(problem: ContinuationProblem, values: Float[Array, " poses"]) -
     at = jnp.where(number < first, -jnp.inf, jnp.where(number > last, jnp.inf, table[:, 0]))
     complete = jnp.all(arrived(fronts, target(trace)) & ~jnp.isfinite(limits))
     repeats = ~parted & jnp.all(fronts.at == meeting) & ~jnp.any(jnp.isfinite(limits)) & system.periodic
-    return BranchSamples(at, table, first, last, repeats, winding(system, fronts.state), complete)
+    return BranchSamples(at, table, first, last, repeats, winding(system, problem.geometry, fronts.state), complete)
 
 
 def _max_steps(problem: ContinuationProblem, poses: int) -> int:
@@ -119,7 +119,7 @@ def _same_pose(problem: ContinuationProblem, state: State) -> Bool[Array, ""]:
     """Tell whether two fronts are in the same pose, up to full turns of coordinates and idle spins of rods."""
     system = problem.system
     same = SAME_POSE if jnp.finfo(state.x.dtype).bits == 64 else SAME_POSE_SINGLE
-    rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - winding(system, state)))
+    rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - winding(system, problem.geometry, state)))
     for turn in ball_turns(system, problem.geometry, state).values():
         rest = jnp.maximum(rest, jnp.max(jnp.abs(turn[..., 1] - turn[..., 0])))
     return rest <= same

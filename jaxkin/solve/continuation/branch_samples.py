@@ -14,6 +14,8 @@ import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.closure.closure import Geometry
+from jaxkin.solve.closure.spatial import Spatial
 from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
@@ -46,7 +48,8 @@ class BranchSamples(NamedTuple):
     repeats: Bool[Array, ""]
     """Whether the mechanism repeats after a full turn of the input."""
     winding: Float[Array, " columns"]
-    """Increase of each coordinate over a full turn of the input, radians: a multiple of 2 pi."""
+    """Increase of each coordinate over a full turn of the input: a multiple of 2 pi, or of the length of a closed curve
+    for its parameter."""
     complete: Bool[Array, ""]
     """Whether the samples cover the whole range, and the range has no limit."""
 
@@ -98,9 +101,19 @@ def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " pos
     return _Sample(at[0], state, slope, column[-1].astype(jnp.int32))
 
 
-def winding(system: LoopSystem, state: State) -> Float[Array, " columns"]:
-    """Compute the whole turns, radians, that each coordinate of the second of two fronts has gained on the first."""
-    return jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round((state.x[:, 1] - state.x[:, 0]) / TURN))
+def winding(system: LoopSystem, geometry: Geometry, state: State) -> Float[Array, " columns"]:
+    """Compute the whole turns that each coordinate of the second of two fronts has gained on the first.
+
+    Radians; for the parameter of a closed curve, whole lengths of the curve.
+    """
+    gained = state.x[:, 1] - state.x[:, 0]
+    turns = jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round(gained / TURN))
+    if isinstance(geometry.loops, Spatial):
+        for (joint, frame), curve in zip(system.curves, geometry.loops.curves, strict=True):
+            if curve.closed:
+                column, whole = system.chains[joint][frame].column, curve.knots[-1]
+                turns = turns.at[column].set(whole * jnp.round(gained[column] / whole))
+    return turns
 
 
 def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " poses"]) -> Prediction:

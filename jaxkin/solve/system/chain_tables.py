@@ -20,6 +20,9 @@ from jaxkin.solve.system.loop_system import LoopSystem
 AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
 """For each axis a rotation matrix that carries z to it, a cyclic permutation of the axes: (3, 3, 3)."""
 
+LAWS = (None, "x", "y", "turn")
+"""The functions of a curve that elementary motions follow (`ElementaryMotion.law`), by their numbers in the tables."""
+
 Z_AXIS = 2
 """Number of the z axis, which `AXES` does not move: for rows without an axis of their own."""
 
@@ -32,13 +35,18 @@ class ChainRow(NamedTuple):
     joint: int
     """Number of the joint in the system."""
     sign: int
-    """+1, or -1 where the joint is travelled from part 2 to part 1; 0 for rows that do nothing."""
+    """+1, or -1 where the joint is travelled from part 2 to part 1, or the motion is the inverse of its law; 0 for rows
+    that do nothing."""
     turn: int
     """1 if the coordinate is an angle, else 0."""
     slide: int
     """1 if the coordinate is a length, else 0."""
     screw: int
     """1 if the coordinate is an angle that also advances by the pitch of the joint, else 0."""
+    law: int
+    """Number of the function of a curve (`LAWS`) that is the angle or length; 0 where it is the coordinate itself."""
+    curve: int
+    """Number of that curve in `LoopSystem.curves`; 0 for none."""
     ball: int
     """Number of the ball that rotates; the number of balls if none does."""
     side: int
@@ -85,6 +93,8 @@ class ChainTables(NamedTuple):
     turn: np.ndarray
     slide: np.ndarray
     screw: np.ndarray
+    law: np.ndarray
+    curve: np.ndarray
     ball: np.ndarray
     """Number of the quaternion of the ball in `State.turns`; if there is none, the number of quaternions, where the
     identity is appended."""
@@ -164,6 +174,8 @@ def _no_row(system: LoopSystem) -> ChainRow:
         turn=0,
         slide=0,
         screw=0,
+        law=0,
+        curve=0,
         ball=len(system.balls),
         side=1,
         axis=Z_AXIS,
@@ -208,10 +220,12 @@ def _joint_rows(system: LoopSystem, joint: int, sign: int) -> list[ChainRow]:
                 no_row._replace(
                     column=column + each.coordinate,
                     joint=joint,
-                    sign=sign,
+                    sign=sign * each.sense,
                     turn=int(each.kind != "translate"),
                     slide=int(each.kind == "translate"),
                     screw=int(each.kind == "screw"),
+                    law=LAWS.index(each.law),
+                    curve=0 if each.law is None else system.curves.index((joint, frame)),
                     axis=each.axis,
                 )
                 for each in motions[::sign]

@@ -111,4 +111,4 @@ def group_joints(linkage: Linkage, joints: Sequence[Joint], loop_group: LoopGrou
     couplings = [linkage.couplings[number] for number in loop_group.couplings]
     leaves = [tuple(getattr(joint, leaf) for joint in inside) for leaf in ("frames_1", "frames_2", "pitch")]
     numbers = tuple(CouplingNumbers(*(getattr(each, leaf) for leaf in CouplingNumbers._fields)) for each in couplings)
-    return Joints(*leaves, couplings=numbers)
+    return Joints(*leaves, couplings=numbers, curves=tuple(joint.curves for joint in inside))

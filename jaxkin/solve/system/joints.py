@@ -1,4 +1,4 @@
-"""Hold the numbers of a loop system: frames and pitches of its joints, coefficients of its couplings."""
+"""Hold the numbers of a loop system: frames, pitches and curves of its joints, coefficients of its couplings."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
+
+from jaxkin.geometry.curves import Curve
 
 Frames = Float[Array | np.ndarray, "_ 4 4"]
 
@@ -21,13 +23,15 @@ class CouplingNumbers(NamedTuple):
 
 
 class Joints(NamedTuple):
-    """Frames and pitches of the joints of a loop system, one entry a joint, in the unit of the mechanism: see
+    """Frames, pitches and curves of the joints of a loop system, one entry a joint, in the unit of the mechanism: see
     `Joint`; and the numbers of its couplings."""
 
     frames_1: tuple[Float[Array, "frames 4 4"], ...]
     frames_2: tuple[Float[Array, "frames 4 4"], ...]
     pitch: tuple[Float[Array, ""], ...]
     couplings: tuple[CouplingNumbers, ...] = ()
+    curves: tuple[tuple[Curve | None, ...], ...] = ()
+    """For each joint the curves of its movements, empty where it has none: see `Joint.curves`."""
 
 
 def scaled_frames(

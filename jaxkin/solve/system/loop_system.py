@@ -108,7 +108,9 @@ class LoopSystem:
             column = self._first_columns[joint]
             given = not set(self.driven).isdisjoint(self.span(joint))
             for frame, name in enumerate(movements):
-                if MOVEMENTS[name].ball:
+                columns = range(column, column + len(MOVEMENTS[name].coordinates))
+                # a ball driven by some of its angles is a chain of three turns, of which the others are unknown
+                if MOVEMENTS[name].ball and sum(k in self.driven for k in columns) in (0, len(columns)):
                     pairs[joint, frame] = (column, column + 1, column + 2)
                 lock = MOVEMENTS[name].lock
                 follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
@@ -141,6 +143,16 @@ class LoopSystem:
         """List the columns of a joint."""
         first = self._first_columns[joint]
         return range(first, first + freedoms(self.movements[joint]))
+
+    @cached_property
+    def curves(self) -> tuple[tuple[int, int], ...]:
+        """(joint, frame) of each movement that travels along a curve, in order."""
+        return tuple(
+            (joint, frame)
+            for joint, movements in enumerate(self.movements)
+            for frame, name in enumerate(movements)
+            if MOVEMENTS[name].has_curve
+        )
 
     @property
     def columns(self) -> int:
@@ -185,9 +197,17 @@ class LoopSystem:
 
     @cached_property
     def spins(self) -> tuple[tuple[int, int, int, int], ...]:
-        """`LoopClass.spins`, without rods that have a driven ball."""
-        free = [columns[0] not in self.driven for columns in self.balls]
-        return tuple(spin for spin in self.loop_class.spins if free[spin[0]] and free[spin[1]])
+        """`LoopClass.spins` with the numbers of `balls`, without rods that have a driven ball."""
+        pairs = [
+            (joint, frame)
+            for joint, movements in enumerate(self.movements)
+            for frame, name in enumerate(movements)
+            if MOVEMENTS[name].ball
+        ]
+        undriven = {place: number for place, (number, columns) in self.places.items() if columns[0] not in self.driven}
+        free = [undriven.get(place, -1) for place in pairs]
+        numbered = [(free[one], free[other], side, end) for one, other, side, end in self.loop_class.spins]
+        return tuple(spin for spin in numbered if min(spin[:2]) >= 0)
 
     @property
     def spinning(self) -> bool:
@@ -263,5 +283,5 @@ class LoopSystem:
             for name, _, column, _ in chain:
                 for element in MOVEMENTS[name].elements:
                     if column + element.coordinate == driven:
-                        return element.kind == "rotate" and not MOVEMENTS[name].ball
+                        return element.kind == "rotate" and element.law is None and not MOVEMENTS[name].ball
         return False

@@ -1,0 +1,253 @@
+"""Where joints along curves could not be what they are: undercut, profiles in the way, ends of curves passed.
+
+A joint along a curve keeps one point of contact, as the paper's contacts are kept (assumption 4), and all its poses
+are CLOSED. A real follower cannot pass through the profile beside that point, and a curve ends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin._traced import traced
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.curves import CurvePoint, Spline
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.joint import Joint
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
+
+SAMPLES = 8
+"""Samples of each piece of a profile: what is in the way of a follower is longer than an eighth of a piece."""
+IN_THE_WAY = 1e-6
+"""Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
+made."""
+
+Poses = Float[np.ndarray, " poses"]
+
+
+@dataclass(frozen=True, eq=False)
+class CurveContact:
+    """The contact of one joint along a curve at each pose, NaN where the pose is not closed; lengths in its unit."""
+
+    joint: str
+    what: str
+    """What follows the curve: "a point", "a roller", "a flat face", "a curve"."""
+    parameter: Poses
+    """How far the contact is along the curve from the first of its points."""
+    curvature: Poses
+    """Curvature of the profile at the contact, over one length: positive where it bends away from what follows it."""
+    clearance: Poses
+    """1 + radius times curvature of a roller, the sum of both curvatures, times the size of the profile, of a curve:
+    negative where the profile is undercut, where it bends towards what follows it more than that is bent itself. Of
+    a flat face curvature times size; 1 for a point."""
+    depth: Poses
+    """How deep what follows would have to pass through the profile, anywhere; 0 where it need not."""
+    beyond: Poses
+    """How far the contact is beyond an end of an open curve; 0 on the curve, and of closed ones."""
+
+    @property
+    def lost(self) -> Bool[np.ndarray, " poses"]:
+        """The poses that what follows cannot be in."""
+        return (self.clearance < 0) | (self.depth > 0) | (self.beyond > 0)
+
+
+@dataclass(frozen=True, eq=False)
+class CurveContacts:
+    """The contacts of all joints along curves over a motion. Prints, draws and saves itself."""
+
+    contacts: tuple[CurveContact, ...]
+    unit: str
+    """Unit of all lengths."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether all contacts are possible at all closed poses."""
+        return not any(each.lost.any() for each in self.contacts)
+
+    def __str__(self) -> str:
+        lines = [line for each in self.contacts for line in self._of(each)]
+        return "\n".join(lines or [f"{len(self.contacts)} contacts on curves: all are possible at all closed poses"])
+
+    def _of(self, each: CurveContact) -> list[str]:
+        """Tell what is wrong with one contact: how bad, at which pose, and where on its curve."""
+        lines = []
+        undercut = each.clearance < 0
+        told = (
+            (undercut, -each.clearance, "is undercut"),
+            (each.depth > 0, each.depth, f"would have {each.what} pass through the profile"),
+            (each.beyond > 0, each.beyond, "leaves the end of its curve"),
+        )
+        for where, size, said in told:
+            if not where.any():
+                continue
+            worst = int(np.nanargmax(np.where(where, size, -np.inf)))
+            poses = np.flatnonzero(where)
+            how_far = f"up to {self._length(size[worst])}"
+            if where is undercut:
+                radius = 1 / abs(each.curvature[worst])
+                how_far = f"radius of curvature {self._length(radius)} in a hollow or an edge too sharp for {each.what}"
+            lines.append(
+                f"curve contact: joint {each.joint!r} {said} at {len(poses)} of {len(where)} poses, {poses[0]} to "
+                f"{poses[-1]}: {how_far}, worst at pose {worst} with the contact {self._length(each.parameter[worst])} "
+                "from the first point"
+            )
+        return lines
+
+    def _length(self, value: float) -> str:
+        return f"{value:.4g} {self.unit}".rstrip()
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw how deep followers pass through profiles, and beyond ends, over the poses; returns the path."""
+        names, rows = self._rows(("depth", "beyond"))
+        title = "contacts on curves" if self.holds else "contacts on curves that are not possible"
+        label = f"depth, distance beyond ends ({self.unit})" if self.unit else "depth, distance beyond ends"
+        return draw_lines(names, rows, label, title, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write all numbers as comma-separated values, a row a pose; returns the path."""
+        return save_rows(*self._rows(("parameter", "curvature", "clearance", "depth", "beyond")), Path(path))
+
+    def _rows(self, fields: tuple[str, ...]) -> tuple[list[str], Float[np.ndarray, "rows poses"]]:
+        names = [f"{each.joint} {field}" for each in self.contacts for field in fields]
+        return names, np.array([getattr(each, field) for each in self.contacts for field in fields])
+
+
+def curve_contacts(motion: Motion) -> CurveContacts:
+    """Check at each closed pose of a motion whether what follows curves could be there.
+
+    A roller must not meet its profile anywhere but at the contact, nor be larger than a hollow of the profile (undercut
+    of the pitch curve); a flat face must have all of the profile on one side; of two curves that touch neither may pass
+    through the other (looked for where the one of part 1 is closed). A point passes everywhere. Nobody may leave the
+    ends of an open curve. Only the joint itself is looked at, and of parts only their profiles; the rest tells
+    `jk.clashes`. Raises ValueError for a mechanism without joints along curves, and inside `jit`, `vmap` and `grad`.
+    """
+    if traced(motion):
+        raise ValueError("curve_contacts is for numbers: call it outside of jit, vmap and grad")
+    found = []
+    closed = np.asarray(motion.on_branch)
+    for joint, q in zip(motion.mechanism.all_joints, motion.displacements, strict=True):
+        if joint.curves:
+            found += _of_joint(joint, np.where(closed[:, None], np.asarray(q, float), np.nan))
+    if not found:
+        raise ValueError("the mechanism has no joints along curves, such as jk.cam")
+    return CurveContacts(tuple(found), motion.mechanism.unit)
+
+
+def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
+    second = joint.splines[-1]
+    spline = joint.splines[0]
+    if spline is None:
+        return []
+    if second is not None:
+        return _of_two(joint, spline, second, q)
+    finite = np.isfinite(q[:, 0])
+    at = spline.at(np.where(finite, q[:, 0], 0.0))
+    curve = _sampled(spline)
+    size = float(np.linalg.norm(np.ptp(curve, axis=0)))
+    between = np.linalg.inv(np.asarray(joint.frames_1, float)[0]) @ np.asarray(joint.frames_1, float)[1]
+    height = float(between[1, 3])
+    bend = at.turning / np.hypot(at.dx, at.dy)
+    contact, normal = np.stack([at.x, at.y], 1), np.stack([-at.sin, at.cos], 1)
+    depth = np.zeros(len(q))
+    if MOVEMENTS[joint.movements[-1]].only_slides:
+        what = "a flat face"
+        home = spline.at(0.0)
+        side = -np.sign(np.mean((curve - [home.x, home.y]) @ [-home.sin, home.cos])) or 1.0
+        for pose in np.flatnonzero(finite):
+            depth[pose] = (side * ((curve - contact[pose]) @ normal[pose])).max()
+        clearance = -side * bend * size
+    elif height:
+        what, side = "a roller", float(np.sign(height))
+        for pose in np.flatnonzero(finite):
+            centre = contact[pose] + height * normal[pose]
+            depth[pose] = abs(height) - np.linalg.norm(curve - centre, axis=1).min()
+        clearance = 1.0 - height * bend
+    else:
+        what, side, clearance = "a point", -1.0, np.ones(len(q))
+    return [_contact(joint, what, spline, q[:, 0], -side * bend, clearance, depth, size)]
+
+
+def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
+    """Check two curves that touch; coordinates of the plane are those of the frame of the first one."""
+    finite = np.isfinite(q).all(axis=1)
+    a, b = (spline.at(np.where(finite, q[:, k], 0.0)) for k, spline in enumerate((one, other)))
+    curve, second = _sampled(one), _sampled(other)
+    size = min(float(np.linalg.norm(np.ptp(each, axis=0))) for each in (curve, second))
+    frames = np.asarray(joint.frames_1, float)
+    # the second curve runs along the first one at the contact, or against it
+    along = float(np.sign(frames[0, :3, 0] @ frames[1, :3, 0]))
+    bends = a.turning / np.hypot(a.dx, a.dy), along * b.turning / np.hypot(b.dx, b.dy)
+    depth, side = np.zeros(len(q)), 0.0
+    if one.closed:
+        from scipy.spatial import KDTree
+
+        tree, sag = KDTree(curve), _sag(one) + _sag(other)
+        home = _placed_second(second, one.at(0.0), other.at(0.0), along)
+        inside = float(np.mean(_inside(curve, home)) > 0.5)
+        for pose in np.flatnonzero(finite):
+            here, there = (CurvePoint(*(values[pose] for values in each)) for each in (a, b))
+            points = _placed_second(second, here, there, along)
+            wrong = points[_inside(curve, points) != bool(inside)]
+            if len(wrong):
+                depth[pose] = max(0.0, float(tree.query(wrong)[0].max()) - 2 * sag)
+        area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
+        side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
+    clearance = side * (bends[1] - bends[0]) * size if side else np.ones(len(q))
+    shared = _contact(joint, "a curve", one, q[:, 0], -(side or 1.0) * bends[0], clearance, depth, size)
+    own = _contact(joint, "a curve", other, q[:, 1], (side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
+    return [shared, own]
+
+
+def _contact(
+    joint: Joint, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
+) -> CurveContact:
+    finite = np.isfinite(q)
+    s = float(spline.start) + np.where(finite, q, 0.0)
+    whole = float(spline.knots[-1])
+    beyond = np.zeros(len(q)) if spline.closed else np.maximum(np.maximum(-s, s - whole), 0.0)
+    numbers = (
+        np.mod(s, whole) if spline.closed else s,
+        curvature,
+        np.where(np.abs(clearance) <= IN_THE_WAY, 0.0, clearance),
+        np.where(depth > IN_THE_WAY * size, depth, 0.0),
+        np.where(beyond > IN_THE_WAY * size, beyond, 0.0),
+    )
+    return CurveContact(joint.name, what, *(np.where(finite, values, np.nan) for values in numbers))
+
+
+def _sampled(spline: Spline) -> Float[np.ndarray, "samples 2"]:
+    knots = spline.knots
+    s = (knots[:-1, None] + np.diff(knots)[:, None] * np.arange(SAMPLES) / SAMPLES).ravel()
+    at = spline.at((s if spline.closed else np.append(s, knots[-1])) - spline.start)
+    return np.stack([at.x, at.y], axis=1)
+
+
+def _sag(spline: Spline) -> float:
+    """Bound how far a curve is from the chords between its samples."""
+    at = spline.at(spline.knots[:-1] - spline.start)
+    chords = np.diff(spline.knots) / SAMPLES
+    return float(np.max(np.abs(at.turning) * chords**2 / 8))
+
+
+def _placed_second(points: np.ndarray, a: CurvePoint, b: CurvePoint, along: float) -> Float[np.ndarray, "samples 2"]:
+    """Place points in axes of the second curve where it touches the first one at `a`, at its own point `b`."""
+    x, y = points[:, 0] - b.x, points[:, 1] - b.y
+    along_tangent, across = along * (b.cos * x + b.sin * y), along * (b.cos * y - b.sin * x)
+    return np.stack(
+        [a.x + a.cos * along_tangent - a.sin * across, a.y + a.sin * along_tangent + a.cos * across], axis=1
+    )
+
+
+def _inside(polygon: np.ndarray, points: np.ndarray) -> Bool[np.ndarray, " points"]:
+    """Tell which points are inside a polygon, by the crossings of a ray."""
+    (x0, y0), (x1, y1) = polygon.T, np.roll(polygon, -1, axis=0).T
+    x, y = points[:, :1], points[:, 1:]
+    spans = (y0 > y) != (y1 > y)
+    slope = np.where(y1 == y0, 1.0, y1 - y0)
+    return np.sum(spans & (x < x0 + (y - y0) * (x1 - x0) / slope), axis=1) % 2 == 1

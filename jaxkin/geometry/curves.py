@@ -1,0 +1,201 @@
+"""Smooth plane curves through points: cubic splines over the chords, closed (periodic) or open (not-a-knot).
+
+The parameter of a curve is the length of the chords from point to point, in the unit of the points: about the length of
+the arc. A cubic spline over it has an error of the fourth order in the distance of the points, however they are spaced.
+A curve is given in axes of its own; the frame of its joint lies at the contact of the assembled pose, with x along the
+tangent, and all that is computed here is in that frame.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax.lax import linalg
+from jaxtyping import Array, Float
+
+Given = Array | np.ndarray
+
+ROUNDING = 1e-12
+"""Distance over the size of a curve, and angle, that are rounding: some thousand roundings of float64, since the points
+of a curve may lie far from the origin of their axes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A curve of a joint, in the unit of the mechanism. A pytree: all but `closed` are leaves."""
+
+    points: Float[Given, "*batch points 2"]
+    """The points that the curve passes, in the axes in which they were given."""
+    start: Float[Given, "*batch"]
+    """Where the contact of the assembled pose is: number of the point before it, and the fraction of the chord."""
+    place: Float[Given, "*batch 3"]
+    """Pose (x, y, angle) of the axes of the points in the frame of the joint: at the contact, x along the tangent."""
+    closed: bool
+    """Whether the last point is joined to the first one."""
+
+    def over(self, length: Any) -> Curve:
+        """Divide all lengths by a length."""
+        scale = np.array([1.0, 1.0, 0.0]) / length + np.array([0.0, 0.0, 1.0])
+        if isinstance(length, jax.Array):
+            scale = jnp.where(np.array([True, True, False]), 1.0 / length, 1.0)
+        return replace(self, points=self.points / length, place=self.place * scale)
+
+    def spline(self, xp: Any = np) -> Spline:
+        """Compute the spline, in numpy or in JAX (`xp`)."""
+        points = xp.asarray(self.points, float)
+        x, y, angle = xp.asarray(self.place, float)
+        cos, sin = xp.cos(angle), xp.sin(angle)
+        local = xp.stack([x + cos * points[:, 0] - sin * points[:, 1], y + sin * points[:, 0] + cos * points[:, 1]], 1)
+        if self.closed:
+            local = xp.concatenate([local, local[:1]])
+        chords = local[1:] - local[:-1]
+        widths = xp.sqrt(xp.sum(chords**2, axis=1))
+        knots = xp.concatenate([xp.zeros_like(widths[:1]), xp.cumsum(widths)])
+        rise = chords / widths[:, None]
+        slopes = (_periodic_slopes if self.closed else _open_slopes)(xp, widths, rise)
+        begin, end = slopes[:-1], slopes[1:]
+        width = widths[:, None]
+        table = [local[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]
+        number = xp.asarray(self.start, float)
+        start = xp.interp(number, xp.arange(len(local), dtype=knots.dtype), knots)
+        if not self.closed:  # beyond an end in lengths of the last chord
+            beyond = xp.maximum(number - (len(local) - 1), 0.0)
+            start = start + xp.minimum(number, 0.0) * widths[0] + beyond * widths[-1]
+        return Spline(knots, xp.stack(table), xp.asarray(start), self.closed)
+
+    def counted_from(self, q: float) -> Curve:
+        """Return the same curve for the frame that stands at parameter `q` of this one: host numbers."""
+        spline = self.spline()
+        at = spline.at(np.array([q]))
+        x, y, angle = np.asarray(self.place, float)
+        cos, sin = float(at.cos[0]), float(at.sin[0])
+        dx, dy = x - float(at.x[0]), y - float(at.y[0])
+        place = np.array([cos * dx + sin * dy, cos * dy - sin * dx, angle - np.arctan2(sin, cos)])
+        s = spline.start + q
+        if self.closed:
+            s = s % spline.knots[-1]
+        start = np.interp(s, spline.knots, np.arange(len(spline.knots)))
+        if not self.closed:
+            first, last = spline.knots[1], spline.knots[-1] - spline.knots[-2]
+            start += min(s, 0.0) / first + max(s - spline.knots[-1], 0.0) / last
+        return replace(self, start=np.asarray(start), place=place)
+
+
+jax.tree_util.register_dataclass(Curve, data_fields=["points", "start", "place"], meta_fields=["closed"])
+
+
+class CurvePoint(NamedTuple):
+    """A point of a curve at each parameter, in the frame of the joint; lengths in the unit of the spline."""
+
+    x: Any
+    y: Any
+    cos: Any
+    """Cosine of the angle from the x axis to the tangent."""
+    sin: Any
+    dx: Any
+    """Derivative of x with respect to the parameter."""
+    dy: Any
+    turning: Any
+    """Derivative of the angle of the tangent with respect to the parameter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spline:
+    """A curve as cubic pieces, in the frame of the joint. A pytree: all but `closed` are leaves."""
+
+    knots: Float[Given, " knots"]
+    """Length of the chords up to each point; a closed curve ends with its first point."""
+    table: Float[Given, "4 pieces 2"]
+    """Coefficients of the powers 0 to 3 of the parameter behind the beginning of each piece."""
+    start: Float[Given, ""]
+    """Parameter of the contact in the assembled pose, from which `at` counts."""
+    closed: bool
+
+    @property
+    def begins_at_contact(self) -> bool:
+        """Whether the curve is at the origin for the parameter 0, along x, to rounding: numbers only."""
+        at = self.at(0.0)
+        size = float(np.abs(self.table[0]).max()) + float(self.knots[-1])
+        return bool(max(abs(at.x) / size, abs(at.y) / size, abs(at.sin)) <= ROUNDING and at.cos > 0)
+
+    def at(self, q: Float[Given | float, "*poses"], xp: Any = np) -> CurvePoint:
+        """Evaluate the curve at parameters counted from the assembled pose.
+
+        A closed curve repeats. Beyond the ends of an open one its first and last cubic go on.
+        """
+        s = self.start + q
+        if self.closed:
+            s = s - self.knots[-1] * xp.floor(s / self.knots[-1])
+        piece = xp.clip(xp.searchsorted(self.knots, s, side="right") - 1, 0, self.table.shape[1] - 1)
+        coefficients = xp.moveaxis(self.table[:, piece], -1, 1)
+        return curve_point(coefficients, s - self.knots[piece], xp.sqrt)
+
+
+def curve_point(coefficients: Any, t: Any, sqrt: Any) -> CurvePoint:
+    """Evaluate cubics: `coefficients[power][axis]` at `t` behind the beginning of their pieces, in any arithmetic."""
+    values = []
+    for axis in (0, 1):
+        c0, c1, c2, c3 = (coefficients[power][axis] for power in range(4))
+        values.append((c0 + t * (c1 + t * (c2 + t * c3)), c1 + t * (2 * c2 + 3 * t * c3), 2 * c2 + 6 * t * c3))
+    (x, dx, ddx), (y, dy, ddy) = values
+    square = dx * dx + dy * dy
+    speed = sqrt(square)
+    return CurvePoint(x, y, dx / speed, dy / speed, dx, dy, (dx * ddy - dy * ddx) / square)
+
+
+jax.tree_util.register_dataclass(Spline, data_fields=["knots", "table", "start"], meta_fields=["closed"])
+
+
+def _periodic_slopes(xp: Any, widths: Any, rise: Any) -> Any:
+    """Compute the derivatives at all knots of a closed spline, those of the last knot being those of the first.
+
+    At knot i, between chords a (before) and b (behind): `b m[i-1] + 2 (a + b) m[i] + a m[i+1] = 3 (b r_a + a r_b)`.
+    The corners of the cyclic matrix are a product of two vectors, taken off and put back by Sherman and Morrison.
+    """
+    before, behind = xp.concatenate([widths[-1:], widths[:-1]]), widths
+    right = 3 * (behind[:, None] * xp.concatenate([rise[-1:], rise[:-1]]) + before[:, None] * rise)
+    diagonal = 2 * (before + behind)
+    corner = diagonal[0]
+    ones = xp.ones_like(widths)
+    first, last = (xp.arange(len(ones)) == number for number in (0, len(ones) - 1))
+    u = xp.where(first, -corner, xp.where(last, before[-1], 0.0))
+    v_last = -behind[0] / corner
+    diagonal = diagonal + xp.where(first, corner, xp.where(last, before[-1] * behind[0] / corner, 0.0))
+    solved = _tridiagonal(xp, behind, diagonal, before, xp.concatenate([right, u[:, None]], axis=1))
+    y, z = solved[:, :2], solved[:, 2:]
+    slopes = y - z * (y[:1] + v_last * y[-1:]) / (1.0 + z[0] + v_last * z[-1])
+    return xp.concatenate([slopes, slopes[:1]])
+
+
+def _open_slopes(xp: Any, widths: Any, rise: Any) -> Any:
+    """Compute the derivatives at all knots of an open spline, whose first and last two pieces are one cubic each."""
+    a, b = widths[:-1, None], widths[1:, None]
+    inner = 3 * (b * rise[:-1] + a * rise[1:])
+
+    def end(width: Any, following: Any, r0: Any, r1: Any) -> tuple[Any, Any]:
+        both = width + following
+        return both, ((width + 2 * both) * following * r0 + width**2 * r1) / both
+
+    both_first, right_first = end(widths[0], widths[1], rise[0], rise[1])
+    both_last, right_last = end(widths[-1], widths[-2], rise[-1], rise[-2])
+    diagonal = xp.concatenate([widths[1:2], 2 * (widths[:-1] + widths[1:]), widths[-2:-1]])
+    lower = xp.concatenate([xp.zeros_like(widths[:1]), widths[1:], both_last[None]])
+    upper = xp.concatenate([both_first[None], widths[:-1], xp.zeros_like(widths[:1])])
+    right = xp.concatenate([right_first[None], inner, right_last[None]])
+    return _tridiagonal(xp, lower, diagonal, upper, right)
+
+
+def _tridiagonal(xp: Any, lower: Any, diagonal: Any, upper: Any, right: Any) -> Any:
+    """Solve tridiagonal equations; the first entry of `lower` and the last one of `upper` are not used."""
+    first, last = (xp.arange(len(diagonal)) == number for number in (0, len(diagonal) - 1))
+    lower, upper = xp.where(first, 0.0, lower), xp.where(last, 0.0, upper)
+    if xp is jnp:
+        return linalg.tridiagonal_solve(lower, diagonal, upper, right)
+    from scipy.linalg import solve_banded  # half of the time of importing jaxkin
+
+    banded = np.stack([np.roll(upper, 1), diagonal, np.roll(lower, -1)])
+    return solve_banded((1, 1), banded, right)

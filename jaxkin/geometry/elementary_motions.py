@@ -1,0 +1,84 @@
+"""Elementary motions of a local frame, of which movements are products: slides, turns and screws along one axis.
+
+A motion is as far as its coordinate says, or as a law of the curve of its joint says: x, y or the angle of the tangent
+at the parameter that is the coordinate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from jaxkin.geometry.curves import CurvePoint
+
+
+@dataclass(frozen=True)
+class ElementaryMotion:
+    """A translation along, a rotation about or a screw motion about one axis of the local frame."""
+
+    kind: Literal["translate", "rotate", "screw"]
+    """A screw turns by its coordinate q and advances by pitch q / 2 pi."""
+    axis: int
+    """Axis of the local frame: 0, 1, 2 for x, y, z."""
+    coordinate: int
+    """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion. Several motions may
+    have the same coordinate."""
+    law: Literal["x", "y", "turn"] | None = None
+    """Which function of the curve at the parameter q the motion follows; None where q itself is its angle or length."""
+    sense: Literal[1, -1] = 1
+    """-1 where the motion is the inverse of what `law` says."""
+
+
+def amount(
+    element: ElementaryMotion, q: Any, pitch: Any, point: CurvePoint | None, cos_sin: Callable[[Any], Any]
+) -> tuple[Any, tuple[Any, Any] | None]:
+    """Compute how far a motion goes: its length along the axis, and (cosine, sine) of its angle; None for none.
+
+    `pitch` is the advance of a screw per turn, `point` the point of the curve at the parameter, for motions with a law.
+    """
+    if element.law is not None:
+        point = _known(point)
+        if element.law == "turn":
+            return None, (point.cos, element.sense * point.sin)
+        return element.sense * (point.x if element.law == "x" else point.y), None
+    advance = None
+    if element.kind != "rotate":
+        advance = q if element.kind == "translate" else q * pitch / (2 * np.pi)
+    return advance, None if element.kind == "translate" else tuple(cos_sin(q))
+
+
+def rates(element: ElementaryMotion, pitch: Any, point: CurvePoint | None) -> tuple[Any, Any]:
+    """Compute the derivatives of the length and of the angle of a motion with respect to its coordinate."""
+    if element.law is not None:
+        point = _known(point)
+        if element.law == "turn":
+            return 0.0, element.sense * point.turning
+        return element.sense * (point.dx if element.law == "x" else point.dy), 0.0
+    advance = 0.0 if element.kind == "rotate" else 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
+    return advance, 0.0 if element.kind == "translate" else 1.0
+
+
+def _known(point: CurvePoint | None) -> CurvePoint:
+    if point is None:
+        raise ValueError("a motion along a curve needs the curve")
+    return point
+
+
+def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:
+    """Multiply frames F by an elementary motion E from the right, F E, in numpy, JAX or other arithmetic.
+
+    `columns` are the four columns of F: its axes x, y, z and its origin. E translates by the length `advance` along the
+    axis 0, 1, 2 (x, y, z) of the frame, and rotates about it by the angle with (cosine, sine) `turn`; None for one of
+    them means no translation, or no rotation.
+    """
+    i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
+    columns = list(columns)
+    if advance is not None:
+        columns[3] = columns[3] + columns[i] * advance
+    if turn is not None:
+        cos, sin = turn
+        columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
+    return columns
