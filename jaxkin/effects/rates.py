@@ -17,8 +17,9 @@ from jaxkin._names import by_name, nearest
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import resolve
+from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
+from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import Status
 

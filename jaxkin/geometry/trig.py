@@ -118,7 +118,8 @@ def angle(sin: Numbers, cos: Numbers) -> Numbers:
     arc = tangent + tangent * (square * total) + jnp.where(beyond, 0.25 * math.pi, 0.0)
     arc = jnp.where(one > other, 0.5 * math.pi - arc, arc)
     arc = jnp.where(cos < 0, math.pi - arc, arc)
-    return jnp.where(sin < 0, -arc, arc)
+    # divide by the sign, as in `cos_sin`
+    return arc / jnp.where(sin < 0, -1.0, 1.0)
 
 
 @angle.defjvp

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-import networkx as nx
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
@@ -51,6 +50,8 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
 
     Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
     """
+    import networkx as nx
+
     virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
     lines: list[tuple[Bore, nx.Graph]] = []
     kept = {id(pair) for pair in axes if not pair.virtual}
