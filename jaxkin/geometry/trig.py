@@ -66,7 +66,7 @@ TAN_EIGHTH = math.sqrt(2) - 1
 
 
 @jax.custom_jvp
-def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"]:
+def cos_sin(angles: Float[Array, "*rows"]) -> Float[Array, "2 *rows"]:
     """Compute the cosines (first row) and sines (second row) of angles in radians.
 
     Only float64 uses the polynomial; other precisions use the library functions.
