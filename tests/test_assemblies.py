@@ -44,6 +44,7 @@ def axis_sign(mechanism, joint, direction):
 LONG = pytest.mark.long
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["fourbar", *(pytest.param(name, marks=LONG) for name in ("slider_crank", "cam"))])
 def test_closed_form_and_both_ways_of_taking_contacts(name):
     example = EXAMPLES[name]

@@ -154,6 +154,7 @@ def fourbar():
     return jk.load(path("fourbar"))
 
 
+@pytest.mark.long
 def test_parts_that_hang_on_nothing_are_connected_as_advised(fourbar):
     """A flag that touches nothing, and a pair of flags that touch each other."""
     flag = replace(fourbar.parts[1], name="flag", triangles=fourbar.parts[1].triangles + 500.0, faces=())

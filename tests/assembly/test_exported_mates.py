@@ -13,6 +13,7 @@ def hinge(name, one, other, point):
     )
 
 
+@pytest.mark.long
 def test_mates_of_two_parts_are_intersected(tmp_path):
     """A slider-crank of mates only: x = r cos(q) + sqrt(l^2 - r^2 sin(q)^2)."""
     r, length = 0.03, 0.1

@@ -93,6 +93,7 @@ def test_a_large_export_is_told_in_a_few_lines(aileron):
     assert "4 revolute" in mechanism.notes[0] and len(mechanism.notes) < 5
 
 
+@pytest.mark.long
 def test_the_user_comes_before_the_export(lift_table):
     by_hand = jk.prismatic("ram", "Cylinder <1>", "RodPiston <1>", axis=(0, 0, 1))
     mechanism = lift_table.mechanism(joints=[by_hand])
@@ -192,6 +193,7 @@ def test_solids_are_looked_for_nearby_but_not_taken_from_other_machines(lift_tab
         assert not any(part.faces for part in jk.load(moved).parts)
 
 
+@pytest.mark.long
 def test_solids_in_several_units_are_converted_and_solids_of_one_instance_are_one_body(tmp_path):
     """A four-bar linkage of four solids in millimetres, and a pin in metres."""
     with tarfile.open(DATA / "lift_table_export.tar.xz") as packed:

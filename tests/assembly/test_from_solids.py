@@ -129,6 +129,7 @@ def test_what_makes_no_sense_is_refused(fourbar, options, said):
     assert said in str(error.value)
 
 
+@pytest.mark.long
 def test_a_joint_by_hand_holds_a_part_that_touches_nothing(fourbar):
     away = np.eye(4)
     away[2, 3] = 500.0

@@ -139,6 +139,7 @@ def test_bolts_of_which_each_is_unneeded_still_hold_together(bolted):
         bolted.sweep({"lower-upper.x": [0.0, 40.0]})
 
 
+@pytest.mark.long
 def test_what_is_left_at_rest_frees_nothing(flanges, bolted):
     """As many freedoms as with every contact a joint, as in the paper."""
     assembly, contacts = flanges

@@ -55,6 +55,7 @@ def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
         assert arrays["residual"].max() < 1e-12
 
 
+@pytest.mark.long
 def test_sweep_takes_degrees_and_says_what_cannot_be_reached(tmp_path):
     """The rocker of a crank-rocker swings between two dead points, where crank and coupler are in line."""
     done = invoke("sweep", FOURBAR, "--fixed", "ground", "--drive", "ground-rocker=-180:180:91", "--out", tmp_path)
@@ -73,6 +74,7 @@ def test_sweep_takes_degrees_and_says_what_cannot_be_reached(tmp_path):
     assert min(np.abs(error).max() for error in errors) < 5e-7
 
 
+@pytest.mark.long
 def test_a_long_range_is_written_as_arrays(tmp_path, monkeypatch):
     monkeypatch.setattr("jaxkin.cli.run.LONG", 4)
     done = invoke("sweep", FOURBAR, *CRANK, "--out", tmp_path / "out")
@@ -211,6 +213,7 @@ FILES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -242,6 +245,7 @@ def test_wrong_input_is_one_message_and_leaves_nothing(arguments, said, tmp_path
     assert {file.name for file in tmp_path.iterdir()} == set(FILES)
 
 
+@pytest.mark.long
 def test_a_part_that_is_tied_to_nothing_is_left_at_rest_and_named(tmp_path):
     """The four-bar with its rocker placed a metre away: the crank still turns, with the coupler in tow."""
     text = Path(FOURBAR).read_text().replace("(106.25950699647,", "(1106.25950699647,")
@@ -259,6 +263,7 @@ def test_a_file_in_place_of_the_folder_is_refused_before_the_sweep(tmp_path):
     assert (tmp_path / "out").read_text() == "in the way"
 
 
+@pytest.mark.long
 def test_a_process_ends_with_code_2_and_no_traceback(tmp_path):
     done = run("inspect", tmp_path / "missing.step", "--fixed", "ground")
     assert done.returncode == 2

@@ -27,6 +27,7 @@ def check(contacts, parts):
     assert not contacts.near_misses and not contacts.notes
 
 
+@pytest.mark.long
 def test_every_state_is_found_between_solids(parts):
     contacts = find_contacts(parts)
     check(contacts, parts)

@@ -48,6 +48,7 @@ def test_the_cases_of_the_issue(solids):
         assert [contact.state for contact in find_contacts(parts, **advised(miss.reason))] == ["e"]
 
 
+@pytest.mark.long
 @settings(max_examples=40, deadline=None)
 @given(st.floats(-3, 3), st.floats(1.001, 12.0), st.floats(0.001, 0.2), st.floats(0.0, 1.2))
 def test_advice_for_pins_makes_them_fit(solids, size, more, fit, aside):

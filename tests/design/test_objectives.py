@@ -86,6 +86,7 @@ def test_weighted_sums(motion):
         -1.0 * one
 
 
+@pytest.mark.long
 def test_grashof_and_full_crank():
     """Norton's linkage is a crank-rocker; lengthening the crank beyond 60 makes it a triple rocker."""
     mechanism = planar_fourbar(START)

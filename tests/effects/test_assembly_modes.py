@@ -47,6 +47,7 @@ def same_angles(found, wanted):
     assert apart.min(axis=0).max() < 1e-10 and apart.min(axis=1).max() < 1e-10
 
 
+@pytest.mark.long
 def test_a_fourbar_has_two_modes_and_each_can_be_driven():
     theta = np.linspace(0.0, 2 * np.pi, 13)
     mechanism = planar_fourbar(1.0)
@@ -64,6 +65,7 @@ def test_a_fourbar_has_two_modes_and_each_can_be_driven():
         np.testing.assert_allclose(motion.points("rocker", wanted)[:, :2], path, atol=1e-10)
 
 
+@pytest.mark.long
 def test_a_triad_has_six_modes(tmp_path):
     """Of a 3-RPR robot; the third class of Assur has no formula here."""
     poses = planar.platform_poses(BASE, PLATFORM, LEGS)

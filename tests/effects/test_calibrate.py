@@ -32,6 +32,7 @@ def calibrated(measured, **more):
     return jk.calibrate(fourbar(*GIVEN), {"A": ANGLES}, {"D": measured}, **more)
 
 
+@pytest.mark.long
 def test_lengths_are_recovered_from_angles():
     found = calibrated(rocker(TRUE), lengths=[CRANK, COUPLER, ROCKER])
     np.testing.assert_allclose(found.values, TRUE[1:], rtol=1e-11)
@@ -64,6 +65,7 @@ def test_the_covariance_is_that_of_repeated_noise():
     np.testing.assert_allclose(free.standard_errors, one.standard_errors * free.deviation / NOISE, rtol=1e-2)
 
 
+@pytest.mark.long
 def test_angles_do_not_tell_the_scale(tmp_path):
     """All bars in proportion: the one direction is that of the lengths, and the ratios are told."""
     found = calibrated(rocker(np.array(TRUE)), lengths=[GROUND, CRANK, COUPLER, ROCKER])
@@ -96,6 +98,7 @@ def displacement(axis, point, angle):
     return found
 
 
+@pytest.mark.long
 def test_the_axis_of_an_arm_is_found_and_not_where_along_it():
     """A hinge has four numbers (Denavit and Hartenberg): along its axis, and about it, nothing is told."""
     random, axis, point = np.random.default_rng(0), np.array([0.02, -0.03, 1.0]), np.array([1.02, -0.01, 0.05])

@@ -94,6 +94,7 @@ def test_what_the_warning_tells_is_told_the_same(tmp_path):
         np.testing.assert_array_equal(found.gaps[k][lost.lost], lost.gaps[lost.lost])
 
 
+@pytest.mark.long
 def test_a_pin_reaches_the_end_of_its_slot(tmp_path):
     """Straight flanks from x = -20 to 20: the pin's axis leaves them there."""
     turn = np.linspace(-np.pi / 2, np.pi / 2, 25)
@@ -117,6 +118,7 @@ def test_a_pin_reaches_the_end_of_its_slot(tmp_path):
         np.testing.assert_allclose(found.gaps[k], np.maximum(np.abs(shift) - 20, 0), atol=2e-3)
 
 
+@pytest.mark.long
 def test_an_assembly_that_stays_on_its_faces_holds_prints_draws_and_saves(tmp_path):
     mechanism = jk.load(path("cam")).mechanism(fixed=["frame"])
     motion = mechanism.sweep({mechanism.joints_between("cam", "frame")[0]: np.linspace(0, 2 * np.pi, 9)})

@@ -5,6 +5,7 @@ import sys
 
 import jax
 import numpy as np
+import pytest
 
 import jaxkin as jk
 from jaxkin.examples import path
@@ -24,6 +25,7 @@ def operations(study) -> list[str]:
     return [f"{each.primitive} {[str(out.aval) for out in each.outvars]}" for each in traced.jaxpr.eqns]
 
 
+@pytest.mark.long
 def test_the_sweep_of_a_study_with_effects_is_the_sweep_without(tmp_path):
     plain, more = tmp_path / "plain.toml", tmp_path / "more.toml"
     plain.write_text(STUDY.format(file=path("fourbar")))
@@ -37,6 +39,7 @@ def test_the_sweep_of_a_study_with_effects_is_the_sweep_without(tmp_path):
     assert without.computed(motion) == {}
 
 
+@pytest.mark.long
 def test_what_effects_need_is_loaded_by_them():
     """Importing jaxkin loads neither matplotlib, which draws, nor trimesh, which measures solids."""
     code = "import sys, jaxkin; print([name for name in ('matplotlib', 'trimesh') if name in sys.modules])"

@@ -30,6 +30,7 @@ def crank_range(theta: float, ground: float, crank: float, coupler: float, rocke
     return least - theta, (2 * np.pi - least if np.isnan(most) else most) - theta
 
 
+@pytest.mark.long
 def test_a_fourbar_locks_where_coupler_and_rocker_are_aligned(tmp_path):
     """By the law of cosines, to 1e-12: far below the 1e-9 that is promised."""
     lengths = {"ground": 100.0, "crank": 90.0, "coupler": 60.0, "rocker": 60.0}
@@ -52,6 +53,7 @@ def test_a_fourbar_locks_where_coupler_and_rocker_are_aligned(tmp_path):
     assert len(found.save(tmp_path / "limits.csv").read_text().splitlines()) == 4
 
 
+@pytest.mark.long
 def test_grashof_linkages_turn_fully():
     """The crank; the rocker swings between the poses in which crank and coupler are aligned."""
     assert jk.limits(planar_fourbar(), "A").full_turn and "no limit" in str(jk.limits(planar_fourbar(), "A"))
@@ -63,6 +65,7 @@ def test_grashof_linkages_turn_fully():
     assert jk.limits(parallelogram(), "A").full_turn  # straight on where it lies flat
 
 
+@pytest.mark.long
 def test_a_slider_crank_locks_where_crank_and_rod_are_aligned():
     home = 40 * np.cos(1.0) + np.sqrt(120.0**2 - (40 * np.sin(1.0) + 20) ** 2)
     found = jk.limits(slider_crank(1.0), "S")
@@ -75,6 +78,7 @@ def test_a_slider_crank_locks_where_crank_and_rod_are_aligned():
     assert found.lower.reason == "A.phi locks: the plane of the axes of B and C is square to the slide S"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", range(4))
 def test_random_fourbars(number):
     """Also beside change points, where a range ends in a pose that is nearly passed: 1e-4 and 1e-2 of 100 mm."""
@@ -97,6 +101,7 @@ def test_random_fourbars(number):
             np.testing.assert_allclose(found.range, wanted, rtol=0, atol=1e-9)
 
 
+@pytest.mark.long
 def test_ranges_of_joints():
     """Given, or of the joints themselves; the nearest limit counts."""
     theta = np.array([1.0])
@@ -121,6 +126,7 @@ def test_ranges_of_joints():
     assert jk.limits(limited, "A", ranges={"D": (-np.inf, np.inf)}).full_turn
 
 
+@pytest.mark.long
 def test_drives_outside_of_loops_and_over_many_turns():
     """A knob that is geared to the slider of a slider-crank, a millimetre a radian."""
     joints = [*slider_crank(1.0).all_joints, jk.revolute("knob", "ground", "knob", point=(0, 0, 50), axis=Z)]
@@ -133,6 +139,7 @@ def test_drives_outside_of_loops_and_over_many_turns():
     assert max(np.abs(knob)) > 8 * np.pi  # radians
 
 
+@pytest.mark.long
 def test_the_rocker_of_an_rssr_linkage():
     """Extremes of its closed form over the crank; the rod may spin."""
     home = spatial.rssr(np.array([0.3])).output[0]

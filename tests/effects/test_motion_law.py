@@ -36,6 +36,7 @@ def test_a_law_rises_from_rest_to_rest_evenly(name):
         np.testing.assert_allclose(most, PEAKS[name], rtol=2e-4)  # four decimals, and 801 samples of a smooth peak
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in PEAKS if name != "harmonic"])
 def test_velocity_and_acceleration_are_continuous(name):
     """From rest, through the stages of a law, to rest: within the largest jerk times the distance of two samples."""
@@ -58,6 +59,7 @@ def test_derivatives_are_those_of_the_displacement():
     np.testing.assert_allclose(jax.grad(lambda t: law(t[None])[0])(jnp.asarray(0.3)), law([0.3], 1)[0], rtol=1e-12)
 
 
+@pytest.mark.long
 def test_a_law_is_drawn(tmp_path):
     path = jk.motion_law([("cycloidal", 1.0, 1.0), ("dwell", 0.5)]).plot(tmp_path / "law.png")
     assert path.stat().st_size > 10_000
@@ -81,6 +83,7 @@ def test_laws_that_are_none(segments, said):
         jk.motion_law(segments)
 
 
+@pytest.mark.long
 def test_the_jerk_of_a_crank_pin_and_of_its_part():
     """For an angle a(t): p''' = (a''' - a'^3) t + 3 a' a'' n with the tangent t and the inward normal n, times r."""
     arm = jk.Mechanism.build(fixed=["g"], joints=[jk.revolute("A", "g", "arm", point=(0, 0, 0), axis=Z)])
@@ -95,6 +98,7 @@ def test_the_jerk_of_a_crank_pin_and_of_its_part():
     np.testing.assert_allclose(found.coordinates["A"], 5.0)
 
 
+@pytest.mark.long
 def test_angular_jerks_in_space_are_the_rates_of_angular_accelerations():
     joints = [
         jk.revolute("A", "g", "a", point=(0, 0, 0), axis=Z),
@@ -135,6 +139,7 @@ def test_the_centrodes_of_a_double_slider_are_the_circles_of_cardano():
     np.testing.assert_allclose(back, axes.point, atol=1e-12)
 
 
+@pytest.mark.long
 def test_a_screw_has_its_own_axis_and_pitch():
     nut = jk.Mechanism.build(fixed=["g"], joints=[jk.screw("S", "g", "nut", point=(1, 2, 0), axis=Z, pitch=0.5)])
     axes = jk.screw_axes(jk.velocities(nut.sweep({"S": np.array([0.0, 2.0])}), {"S": np.array([3.0, 0.0])}), "nut")

@@ -57,6 +57,7 @@ def found():
     )
 
 
+@pytest.mark.long
 def test_sensitivities_of_a_fourbar_are_those_of_freudenstein(found):
     angle, slopes = rocker_by_freudenstein(INPUT)
     start = planar.fourbar(np.array([0.0]), *LENGTHS).rocker[0]
@@ -118,6 +119,7 @@ def test_the_tolerances_of_a_wanted_error(found):
         found.allowed(-1)
 
 
+@pytest.mark.long
 def test_monte_carlo_of_a_sum_is_that_of_its_terms():
     """A chain of two slides, the measure a sum of two offsets: even and normal deviations add as textbooks have it."""
     arm = jk.Mechanism.build(
@@ -267,6 +269,7 @@ def test_overconstrained_mechanisms_have_no_room(mechanism, stated):
         jk.tolerances(mechanism, {stated: 0.01} if stated else {}, rocker, drive={"A": 0.2}, samples=0, **more)
 
 
+@pytest.mark.long
 def test_designs_that_do_not_close_are_counted():
     """Just before a limit of the crank a longer coupler reaches, and a shorter one does not."""
     lengths = (100.0, 60.0, 80.0, 60.0)

@@ -12,6 +12,7 @@ def rocker(pose):
     return pose.coordinates["D"][0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("stated", "more", "said"),
     [

@@ -16,6 +16,7 @@ from jaxkin.io.step import read_step
 NOISE = 2e-5
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_files_are_small_and_hold_the_parts_of_the_table(name):
     example = EXAMPLES[name]

@@ -43,6 +43,7 @@ def by_parts(pairs):
     return sorted(tuple(sorted(pair[:2], key=lambda part: int(part[1:]))) + tuple(pair[2:]) for pair in pairs)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "expected"),
     [

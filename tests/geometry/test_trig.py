@@ -23,6 +23,7 @@ def off(angles, found) -> float:
         )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("farthest", [1.0, 10.0, 1e4, 1.5e6])
 def test_of_any_angles_down_to_rounding(farthest):
     # half a unit in the last place is EPS / 4; the sums of the series round a few times more

@@ -28,6 +28,7 @@ def shifted(part, x, z):
     return Part(part.name, faces, apply(pose, part.triangles), part.color)
 
 
+@pytest.mark.long
 def test_an_assembly_reads_well(fourbar):
     text = str(fourbar)
     assert text.splitlines()[0] == "Assembly of 4 parts from fourbar.step, lengths in mm"

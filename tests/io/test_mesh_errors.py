@@ -163,6 +163,7 @@ def test_the_same_file_twice_is_refused(tmp_path):
         load({"cam": step, "box": file})
 
 
+@pytest.mark.long
 def test_free_forms_end_when_no_face_is_found(tmp_path, monkeypatch):
     """Triangles on no surface at all: named in the report after so many trials, however many triangles there are."""
     monkeypatch.setattr(region_growing, "MAX_FAILURES", 20)

@@ -87,6 +87,7 @@ def test_what_is_not_kept_is_named(tmp_path):
     assert mechanism.motors == ("motor", "free2")  # of the tendon
 
 
+@pytest.mark.long
 def test_joints_that_are_equal_by_a_polynomial_follow_each_other(tmp_path):
     """MuJoCo counts both from their references: here the follower stands at 5 degrees where the leader is at 10."""
     more = '<joint name="e" joint1="lid" joint2="motor" polycoef="0 0.5 0.25 0 0"/>'

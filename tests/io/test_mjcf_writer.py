@@ -103,6 +103,7 @@ def scale_of(mechanism, key):
     return METRES[mechanism.unit] if coordinate[0] in "xyz" else 1.0
 
 
+@pytest.mark.long
 def test_solids_limits_and_motors_come_back(tmp_path):
     assembly = jk.load(path("fourbar"))
     mechanism = assembly.mechanism(fixed=["ground"])

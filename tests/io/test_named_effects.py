@@ -34,6 +34,7 @@ def study(folder, rates="{ ground-crank = 180 }"):
     return jk.load_study(folder / "study.toml")
 
 
+@pytest.mark.long
 def test_a_study_computes_what_it_asks_for(tmp_path):
     made = study(tmp_path)
     motion = made.sweep()
@@ -47,6 +48,7 @@ def test_a_study_computes_what_it_asks_for(tmp_path):
     )
 
 
+@pytest.mark.long
 def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
     monkeypatch.setitem(named_effects.EFFECTS, "clashes", lambda motion: pytest.fail("clashes were not asked for"))
     made = study(tmp_path, rates="false")
@@ -56,6 +58,7 @@ def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
     assert missing(EFFECTS) == ""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("effects", "message"),
     [
@@ -80,6 +83,7 @@ def test_a_study_with_an_unknown_effect_is_refused(tmp_path):
         jk.load_study(tmp_path / "study.toml")
 
 
+@pytest.mark.long
 def test_several_drives_need_speeds():
     z = (0, 0, 1)
     joints = [jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=z) for k, name in enumerate("AB")]

@@ -36,6 +36,7 @@ def study(folder, coupling=RACK):
     return jk.load_study(folder / "study.toml")
 
 
+@pytest.mark.long
 def test_a_study_couples(tmp_path):
     motion = study(tmp_path).sweep()
     np.testing.assert_allclose(motion.coordinates["slide"][-1], 4 * np.pi, rtol=1e-14)
@@ -48,6 +49,7 @@ def test_a_coupling_is_one_row_for_users_and_studies():
         assert getattr(jk, kind) is function
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "coupling",
     [
@@ -93,6 +95,7 @@ def linkage():
     return jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=gears, unit="mm")
 
 
+@pytest.mark.long
 def test_a_saved_mechanism_comes_back_to_the_same_numbers(tmp_path):
     mechanism = linkage()
     name = next(iter(mechanism.lengths))

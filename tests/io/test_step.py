@@ -56,6 +56,7 @@ def test_colours_are_those_of_the_drawing():
         assert "#" + bytes(round(255 * value) for value in part.color).hex().upper() == drawn[part.name]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("file", [*map(path, EXAMPLES), *(DATA / f"{name}.step" for name in ("halves", "nested"))])
 def test_faces_close_the_solid_and_face_outwards(file):
     """Faces that face outwards have no net area, and enclose a positive volume."""

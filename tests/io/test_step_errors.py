@@ -211,6 +211,7 @@ def test_a_file_of_a_gigabyte_is_refused_unread(tmp_path):
         read_step(file)
 
 
+@pytest.mark.long
 def test_a_part_that_cuts_itself_is_named_with_the_place(tmp_path):
     """Its faces are known, so it can be used. Here: the same body twice in one part."""
     assert not any("cuts itself" in note for note in load(DATA / "fillet.step").parts[0].notes)

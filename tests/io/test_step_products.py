@@ -39,6 +39,7 @@ def test_each_product_is_fitted_once(name, monkeypatch):
         np.testing.assert_allclose(distances(part), distances(solids[len(part.triangles)]), atol=1e-9 * 200)
 
 
+@pytest.mark.long
 def test_parts_are_the_same_where_each_is_fitted_by_itself(monkeypatch):
     shared, _ = step.read_step(DATA / "flanges.step")
     numbers = count()

@@ -70,6 +70,7 @@ axis = [0, 0, 1]
     np.testing.assert_array_equal(study.drive["ground-crank:e.z"], [0, 1, 2])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("align, misfit", [("", True), ("align = 1e-3", False)])
 def test_how_much_is_taken_for_rounding(tmp_path, align, misfit):
     """A parallelogram of which one axis is tilted by 5e-4."""

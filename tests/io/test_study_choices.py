@@ -79,6 +79,7 @@ def test_the_study_is_the_mechanism_and_drives_it(study):
     assert "'lamp' is tied to nothing: left at rest" in study.read_text()
 
 
+@pytest.mark.long
 def test_each_line_that_is_uncommented_makes_a_study_that_can_be_driven(study):
     found = list(variants(study))
     kinds = [line.split()[1] for line, _ in found]
@@ -88,6 +89,7 @@ def test_each_line_that_is_uncommented_makes_a_study_that_can_be_driven(study):
         assert can_drive(read.mechanism, [*read.ranges]), line
 
 
+@pytest.mark.long
 def test_what_is_instead_replaces_the_fixed_part_and_the_drive(study):
     for line, read in variants(study):
         if "instead = { fixed" in line:
@@ -98,6 +100,7 @@ def test_what_is_instead_replaces_the_fixed_part_and_the_drive(study):
             assert f'"{name}"' in line and name != "A.phi" and read.fixed == ["ground"]
 
 
+@pytest.mark.long
 def test_a_joint_that_is_off_is_gone_and_its_line_says_what_is_left(study):
     for line, read in variants(study):
         if "off = " in line:
@@ -106,6 +109,7 @@ def test_a_joint_that_is_off_is_gone_and_its_line_says_what_is_left(study):
             assert f"{useful} freedoms of use in {len(read.mechanism.bodies)} bodies" in line and useful > 1
 
 
+@pytest.mark.long
 def test_parts_that_nothing_needs_are_named_with_their_size(study):
     given = bars()
     for line, read in variants(study):

@@ -53,6 +53,7 @@ def test_shipped_assemblies_need_no_detection(name, tmp_path):
     assert study.assembly is not None and not study.assembly.found
 
 
+@pytest.mark.long
 def test_it_is_swept_by_the_range_that_it_was_given(tmp_path):
     given = mechanisms.planar_fourbar()
     jk.write_study(given, tmp_path / "study.toml", drive={"A.phi": "0:90:4"})
@@ -80,6 +81,7 @@ def test_names_of_any_kind_come_back(tmp_path):
     assert_same(jk.load_study(tmp_path / "study.toml").mechanism, given)
 
 
+@pytest.mark.long
 def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path):
     target = tmp_path / "study.toml"
     changed = mechanisms.planar_fourbar().with_lengths({("crank", "A", "B"): 41.0})

@@ -34,6 +34,7 @@ def motion():
     return replace(motion, status=jnp.array(codes), residual=part / 9)
 
 
+@pytest.mark.long
 def test_chunks_make_the_same_arrays(motion, tmp_path):
     """Of a mechanism without loops: nothing is compiled for it."""
     motion = motion.mechanism.sweep(motion.inputs)

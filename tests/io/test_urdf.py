@@ -39,6 +39,7 @@ def close_enough(path, values):
         np.testing.assert_allclose(links[owner[one]], links[owner[other]], atol=CLOSED)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ROBOTS)
 def test_robots_stand_closed_with_the_mobility_of_their_motors(folder, name):
     path, assembly = robot(folder, name)
@@ -116,6 +117,7 @@ def write(folder, more="", loops=None, text=ARM):
     return jk.load(folder / "arm.urdf", loops=None if loops is None else folder / "arm.yaml")
 
 
+@pytest.mark.long
 def test_a_serial_arm_keeps_its_limits_its_motors_and_its_solids(tmp_path):
     assembly = write(tmp_path)
     mechanism = assembly.mechanism()

@@ -78,6 +78,7 @@ def test_both_shafts_turn_alike(angle):
     assert "VR" in str(mechanism.plan(["in"]))
 
 
+@pytest.mark.long
 def test_a_universal_joint_does_not():
     motion = cardan_shafts(0.5).sweep({"in": TURN}, throw=True)
     out = np.asarray(motion.coordinates["out"])[:, 0]
@@ -139,6 +140,7 @@ def test_shafts_turn_alike_at_an_angle_that_was_changed():
     np.testing.assert_allclose(out - out[0], TURN, atol=1e-12)
 
 
+@pytest.mark.long
 def test_a_driveshaft_between_skew_shafts():
     mechanism = half_shaft()
     motion = mechanism.sweep({"in": TURN}, throw=True)

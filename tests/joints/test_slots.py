@@ -79,6 +79,7 @@ def test_scotch_yoke(slot):
     np.testing.assert_allclose(motion.coordinates["pin"][:, 0], 30 * np.sin(TURN) / np.sin(slot), atol=3e-11)
 
 
+@pytest.mark.long
 def test_quick_return():
     mechanism = mechanisms()["quick return"]
     motion = mechanism.sweep({"crank": TURN}, throw=True)

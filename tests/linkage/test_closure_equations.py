@@ -13,6 +13,7 @@ def at_random(mechanism, size, rng):
     return {joint.name: size * rng.standard_normal(joint.freedoms) for joint in mechanism.all_joints}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [planar_fourbar, jansen, rssr_linkage])
 def test_the_assembled_pose_is_closed_and_the_jacobian_is_the_derivative(make):
     mechanism, rng = make(), np.random.default_rng(3)

@@ -24,6 +24,7 @@ def geared():
     return jk.Mechanism.build(fixed=["ground"], joints=joints, couplings=ties)
 
 
+@pytest.mark.long
 def test_the_motion_from_there_is_the_rest_of_the_motion():
     """Displacements of parts from the new pose are those from the old one, after the displacement between the two."""
     mechanism = geared()

@@ -69,6 +69,7 @@ def test_no_general_program_where_all_poses_are_proven(general):
     assert not general and np.all(motion.closed) and np.max(motion.residual) < 1e-14
 
 
+@pytest.mark.long
 def test_a_range_with_limits_is_left_to_the_general_program(general):
     """A double rocker: the crank, longer than all others, stops short of a turn on either side."""
     mechanism = planar_fourbar(1.0, crank=90.0, coupler=60.0, rocker=80.0)
@@ -82,6 +83,7 @@ def test_a_range_with_limits_is_left_to_the_general_program(general):
     np.testing.assert_allclose(short.coordinates["D"], motion.coordinates["D"][near], atol=WITHIN)
 
 
+@pytest.mark.long
 def test_a_change_point_is_left_to_the_general_program(general):
     motion = catalogue.parallelogram(2).sweep({"A": np.linspace(0.0, TURN, 31)})
     assert len(general) == 1 and np.all(motion.closed)
@@ -109,6 +111,7 @@ def test_changed_lengths_are_closed_on_the_branch_of_the_assembled_pose(general)
     np.testing.assert_array_equal(outcome.status, wanted.status)
 
 
+@pytest.mark.long
 def test_the_tolerance_and_the_method_that_are_asked_for_decide(general):
     inputs = np.linspace(0.0, 1.0, 20)
     mechanism = planar_fourbar()
@@ -195,6 +198,7 @@ def test_designs_by_formula_are_those_of_the_general_solver():
     np.testing.assert_allclose(found[closed], expected[closed], atol=1e-9)  # near limits
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("traced", [False, True])
 def test_a_change_point_inside_of_jit(traced):
     """Where the geometry is known the general program follows it; else poses behind it are in doubt, not wrong."""
@@ -212,6 +216,7 @@ def test_a_change_point_inside_of_jit(traced):
         np.testing.assert_allclose(np.asarray(found)[status == 0], np.asarray(wanted)[status == 0], atol=1e-9)
 
 
+@pytest.mark.long
 def test_a_slide_that_drives(general):
     """Both ways from the assembled pose, and to the end of the stroke on one side."""
     mechanism = slider_crank()

@@ -124,6 +124,7 @@ def drawn_flat(tilt: float) -> Mechanism:
     return mechanism.with_points(points)
 
 
+@pytest.mark.long
 def test_other_assembly_modes_are_tried():
     """Of the two modes between which the four-bar is drawn one is found, and some other starts lead to the other."""
     for tilt in (0.05, -0.05):
@@ -172,6 +173,7 @@ def test_what_is_held_stays_as_by_a_drive_of_zero(name):
         mechanism.close(hold=["Q"])
 
 
+@pytest.mark.long
 def test_what_cannot_be_closed_says_which_loop():
     """A coupler of a tenth of its length; both cranks are too short to meet."""
     mechanism = planar_fourbar().with_lengths({("coupler", "B", "C"): 900.0})

@@ -135,6 +135,7 @@ def test_solids_go_along():
     assert not found.mechanism.sweep({found.mechanism.all_joints[0].name: [0.0, 0.1]}).lost_contacts
 
 
+@pytest.mark.long
 def test_a_drive_beside_open_loops_closes_them():
     """What is driven hangs on the ground alone; the loops, whose length was changed, are closed all the same."""
     joints = [*planar_fourbar().all_joints, revolute("arm", "ground", "lever", point=(0, -50, 0), axis=(0, 0, 1))]

@@ -28,6 +28,7 @@ def displacement(angles):
     return angles - angles[0]
 
 
+@pytest.mark.long
 def test_fourbar():
     motion = planar_fourbar(1.0).sweep({"A": TURN})
     expected = planar.fourbar(1.0 + TURN)

@@ -43,6 +43,7 @@ def test_a_gear_in_front_of_a_linkage_turns_its_crank():
         same(motion.coordinates[joint], direct.coordinates[joint])
 
 
+@pytest.mark.long
 def test_a_gear_behind_a_linkage_follows_it_and_may_be_driven_itself():
     mechanism = build([*FOUR_BAR, jk.revolute("F", "ground", "wheel", point=(5, 0, 0), axis=Z)], [jk.gear("E", "F", 3)])
     motion = mechanism.sweep({"B": TURNS}, throw=True)
@@ -52,6 +53,7 @@ def test_a_gear_behind_a_linkage_follows_it_and_may_be_driven_itself():
     same(back.coordinates["B"][:, 0], TURNS[part])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ratio", [-1.0, 0.5])
 def test_a_geared_five_bar_moves_as_one_that_two_motors_drive(ratio):
     geared, free = build(FIVE_BAR, [jk.gear("A", "E", ratio)]), build(FIVE_BAR)
@@ -63,6 +65,7 @@ def test_a_geared_five_bar_moves_as_one_that_two_motors_drive(ratio):
         same(motion.coordinates[joint], other.coordinates[joint])
 
 
+@pytest.mark.long
 def test_a_coupling_within_the_loops_is_solved_with_them():
     """Tied to a coordinate that only the loops know, the coupling is an equation among theirs."""
     mechanism = build(FIVE_BAR, [jk.relation({"B": 1.0, "D": 0.7})])
@@ -71,6 +74,7 @@ def test_a_coupling_within_the_loops_is_solved_with_them():
     assert float(jnp.abs(motion.coordinates["C"]).max()) > 0.05
 
 
+@pytest.mark.long
 def test_planetary_gears_obey_the_equation_of_willis():
     """(ring - carrier) / (sun - carrier) = - z_sun / z_ring; here with the ring at rest, and with the sun at rest."""
     sun, planet = 20, 15
@@ -93,6 +97,7 @@ def test_planetary_gears_obey_the_equation_of_willis():
     same(motion.coordinates["carrier"][:, 0], TURNS * ring / (sun + ring))
 
 
+@pytest.mark.long
 def test_a_differential_halves_the_sum_of_its_outputs():
     shafts = [
         jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=(1, 0, 0))
@@ -103,6 +108,7 @@ def test_a_differential_halves_the_sum_of_its_outputs():
     same(motion.coordinates["Right"][:, 0], 1.2 * TURNS)
 
 
+@pytest.mark.long
 def test_a_rack_steers_both_wheels_through_tie_rods():
     """The linkage is symmetric about x = 0: what one wheel does at s the other one does, mirrored, at -s."""
     joints = [jk.revolute("pinion", "ground", "shaft", point=(0, 0, 0), axis=(0, 1, 0))]
@@ -121,6 +127,7 @@ def test_a_rack_steers_both_wheels_through_tie_rods():
     assert float(jnp.abs(motion.coordinates["left pin"] - motion.coordinates["right pin"]).max()) > 0.02  # Ackermann
 
 
+@pytest.mark.long
 def test_a_polynomial_holds_both_ways():
     wheels = [jk.revolute(name, "ground", name.lower(), point=(k, 0, 0), axis=Z) for k, name in enumerate("AB")]
     mechanism = build(wheels, [jk.polynomial("B", "A", [0.0, 1.0, 0.3, -0.01])])
@@ -130,6 +137,7 @@ def test_a_polynomial_holds_both_ways():
     same(mechanism.sweep({"B": wanted}, throw=True).coordinates["A"][:, 0], angles)
 
 
+@pytest.mark.long
 def test_derivatives_with_respect_to_a_ratio():
     """The crank angle is ratio times the input: d/d ratio of the rocker is its rate times the input."""
 
@@ -149,6 +157,7 @@ def test_derivatives_with_respect_to_a_ratio():
         np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
+@pytest.mark.long
 def test_neither_order_nor_unit_nor_names_matter():
     plain = build([WHEEL, *FOUR_BAR], [jk.gear("A", "B", -0.5)]).sweep({"A": TURNS})
     other = build([*FOUR_BAR[::-1], WHEEL], [jk.relation({"B": 2.0, "A": 1.0})]).sweep({"A": TURNS})
@@ -226,6 +235,7 @@ def test_both_sides_of_a_gear_cannot_be_driven():
         build([WHEEL, *FOUR_BAR], [jk.gear("A", "B", 2.0)]).sweep({"A": TURNS, "B": TURNS})
 
 
+@pytest.mark.long
 def test_the_plan_says_where_a_coupling_is_solved():
     mechanism = build([WHEEL, *FOUR_BAR], [jk.gear("A", "B", -0.5)])
     first, second = mechanism.plan(["A"]).steps

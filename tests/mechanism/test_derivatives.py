@@ -38,6 +38,7 @@ def test_velocity_and_acceleration_along_the_drive():
     np.testing.assert_allclose(second, jax.vmap(jax.grad(jax.grad(closed)))(START + INPUTS), rtol=1e-9, atol=1e-11)
 
 
+@pytest.mark.long
 def test_reverse_mode_with_respect_to_every_frame_of_a_mechanism():
     """Moving the coupler's end of pin B along the coupler changes its length only: the closed form's derivative."""
     mechanism = planar_fourbar(START)

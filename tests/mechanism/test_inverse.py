@@ -37,6 +37,7 @@ def flat(points):
     return np.pad(np.asarray(points, float), ((0, 0), (0, 1)))
 
 
+@pytest.mark.long
 def test_with_fewer_targets_the_inputs_move_as_little_as_they_can():
     """At the least movement it is a combination of the rates of the targets: the gradient of Lagrange vanishes."""
     goals = np.array([[1.5, 1.5], [2.9, 0.3], [-0.5, 1.2], [1.0, -2.0]])
@@ -57,6 +58,7 @@ def test_rest_is_where_movement_counts_from():
     np.testing.assert_allclose(angles(found)[0], start, atol=1e-9)  # it needs no movement at all
 
 
+@pytest.mark.long
 def test_out_of_reach_the_arm_points_at_the_target():
     goals = np.array([[4.0, 1.0], [0.0, 5.0]])
     found = jk.inverse(arm(), {jk.point("c", TIP): flat(goals)})
@@ -90,6 +92,7 @@ def test_with_more_targets_than_freedoms_weighted_errors_are_least():
         np.testing.assert_allclose(q, best.x, atol=1e-6)  # scipy takes differences
 
 
+@pytest.mark.long
 def test_limits_stop_joints_and_are_told():
     goals = np.array([[1.5, 1.5], [2.9, 0.3], [0.2, 2.2]])
     limited = arm(B=(-0.5, 0.5), C=(-0.2, 2.0))
@@ -117,6 +120,7 @@ def test_where_targets_can_be_met_it_is_the_sweep():
     np.testing.assert_allclose(back.points("b", pen.at), path, atol=1e-9)
 
 
+@pytest.mark.long
 def test_all_working_modes_from_many_starts():
     """Each of the two arms has two sides for its elbow."""
     pen = jk.point("b", (1.5, 2, 0))

@@ -60,6 +60,7 @@ def with_idle_loops(count: int) -> Mechanism:
     return Mechanism.build(fixed=["ground"], joints=joints)
 
 
+@pytest.mark.long
 def test_loops_that_do_not_move_are_absent():
     alone = solved(planar_fourbar(), "A")
     among = solved(with_idle_loops(10), "A")

@@ -15,6 +15,7 @@ from jaxkin.solve.status import Status
 from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage
 
 
+@pytest.mark.long
 def test_nothing_is_recompiled_for_new_numbers():
     range_ = np.linspace(0.0, 1.0, 37)
     planar_fourbar(1.0).sweep({"A": range_})

@@ -34,6 +34,7 @@ def test_it_falls_with_the_root_of_the_distance_to_a_limit():
     assert np.all(error < 100 * np.finfo(float).eps / found)  # the law; both forms lose as many digits
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
 def test_it_depends_on_no_unit(scale):
     turn = np.linspace(0.0, 6.0, 20)

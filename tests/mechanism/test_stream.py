@@ -49,6 +49,7 @@ def test_chunks_of_a_fourbar(turn):
     assert_same(planar_fourbar(1.0), {"A": turn})
 
 
+@pytest.mark.long
 def test_limits_within_chunks_at_their_borders_and_chunks_out_of_reach():
     mechanism = planar_fourbar(1.0, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0)
     turn = np.linspace(-8.0, 8.0, 100)

@@ -38,6 +38,7 @@ def test_statuses_next_to_the_limit(margin):
     assert list(motion.status) == [Status.CLOSED, Status.UNREACHABLE]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("turns", [1, 2])
 @pytest.mark.parametrize("shift", [0.0, 0.3, -0.25])
 def test_behind_a_gap_on_another_circuit_is_jumped(turns, shift):

@@ -23,6 +23,7 @@ def arm_angle(base, elbow, tip, path, side):
     return np.arctan2(y, x) + side * bend - rest
 
 
+@pytest.mark.long
 def test_a_five_bar_draws_a_path_and_its_motors_draw_it_again():
     mechanism, tip = fivebar(), (1.5, 2.0, 0.0)
     path = np.stack([1.5 + 0.4 * np.sin(ANGLES), 2.3 - 0.3 * np.cos(ANGLES), 0 * ANGLES], axis=1)
@@ -65,6 +66,7 @@ def test_the_arms_of_a_delta_for_places_of_its_platform():
     np.testing.assert_allclose(found, parallel.delta(path) - parallel.delta(start[None]), atol=1e-12)
 
 
+@pytest.mark.long
 def test_targets_and_joints_are_driven_together():
     mechanism = fivebar()
     turned = np.linspace(0.0, 0.3, 7)
@@ -74,6 +76,7 @@ def test_targets_and_joints_are_driven_together():
     np.testing.assert_allclose(motion.coordinates["B"][:, 0], 2 * turned, atol=1e-14)  # relative to its arm
 
 
+@pytest.mark.long
 def test_an_arm_in_space_reaches_a_point_with_the_least_movement():
     """Two joints and one more than the point needs: a chain without loops, closed by the target."""
     joints = [
@@ -89,6 +92,7 @@ def test_an_arm_in_space_reaches_a_point_with_the_least_movement():
     np.testing.assert_allclose(np.tan(motion.coordinates["base"][:, 0]), path[:, 1] / path[:, 0], atol=1e-13)
 
 
+@pytest.mark.long
 def test_derivatives_of_inverse_kinematics():
     """d(motor)/d(path) is the inverse of d(path)/d(motor)."""
     mechanism, tip = fivebar(), (1.5, 2.0, 0.0)

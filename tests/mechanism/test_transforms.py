@@ -78,6 +78,7 @@ def test_what_is_held_rigidly_moves_exactly_with_its_holder(arm, angles, how):
     np.testing.assert_array_equal(elbow, lamp)
 
 
+@pytest.mark.long
 def test_slopes_of_a_chain_forward_and_backward(arm, angles):
     def hand(angles):
         return transforms(arm, angles)["hand"]
@@ -107,6 +108,7 @@ def test_a_name_that_is_not_there_is_answered_with_those_that_are(arm):
         assert (type(again), again.what, list(again)) == (type(named), named.what, list(named))
 
 
+@pytest.mark.long
 def test_ranges_of_similar_length_share_a_program(arm):
     """And give what the same poses give in one range: rounding apart, since XLA may fuse products otherwise."""
     angles = np.random.default_rng(1).uniform(-3, 3, (3, 100))

@@ -99,6 +99,7 @@ def test_a_motor_whose_axis_goes_through_a_ball_is_no_idle_spin(name, seed):
     assert mechanism.plan([*tail, "M.phi"]).notes == ()
 
 
+@pytest.mark.long
 def test_the_leg_follows_its_motors():
     """K can never move, so what hangs on M goes with it as one body."""
     mechanism = leg()

@@ -1,7 +1,5 @@
 """Mechanisms whose numbers were rounded: they move as the exact ones do, or say by how much their joints disagree."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 
@@ -34,6 +32,7 @@ def numbers(mechanism: Mechanism) -> tuple[int, ...]:
     return found.freedoms, found.idle_freedoms, found.redundant, len(found.drivable)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tilt", [0.0, *10.0 ** -np.arange(6.0, 16.0)])
 def test_a_tilt_within_the_noise_changes_nothing(tilt):
     mechanism, exact = fourbar(tilt), fourbar(0.0)
@@ -58,6 +57,7 @@ def test_a_coarse_tolerance_finds_no_other_branch():
         assert np.all(fourbar(tilt, align=0).sweep({"A": TURN}, tolerance=1e-3).closed)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("digits, tilted_by", [(9, 0.0), (6, 0.0), (0, 1e-9), (0, 1e-6)])
 def test_a_five_bar_in_a_tilted_plane_keeps_its_two_freedoms(digits, tilted_by):
     exact = EVERY["five_bar"]()
@@ -201,7 +201,7 @@ def test_no_pose_beside_has_a_smaller_residual(tilt):
                 assert closure(mechanism, found + step * (np.arange(4) == column)) > least
 
 
-def closure(mechanism: Mechanism, angles: Array) -> float:
+def closure(mechanism: Mechanism, angles: np.ndarray) -> float:
     """Eq. 12 of the four-bar from products of matrices: A B C D^-1 should be the identity; lengths over the size."""
     product, origins = np.eye(4), np.concatenate([joint.frames_1[:, :3, 3] for joint in mechanism.all_joints])
     centre = origins.mean(axis=0)
@@ -215,6 +215,7 @@ def closure(mechanism: Mechanism, angles: Array) -> float:
     return float(((product - np.eye(4)) ** 2).sum())
 
 
+@pytest.mark.long
 def test_the_note_names_the_joint_and_what_it_advises_works():
     mechanism = fourbar(1e-4)
     (note,) = mechanism.notes
@@ -264,6 +265,7 @@ def test_frames_placed_anew_are_aligned_too():
     assert np.all(one_side.sweep({"A": TURN}).closed) and len(one_side.notes) == 1
 
 
+@pytest.mark.long
 def test_traced_frames_are_taken_as_they_are():
     def rocker(tilt):
         frame = jnp.asarray(mechanism.joints["C"].frames_1[0]).at[0, 2].add(tilt)

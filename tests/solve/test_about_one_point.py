@@ -25,6 +25,7 @@ def systems(mechanism, driven):
         yield system, jax.jit(loop_geometry, static_argnums=0)(system, *joints)[0]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("make", "driven"), [(spherical_linkage, ["A"]), (cardan_shafts, ["in"])])
 def test_the_same_least_squares_problem(make, driven):
     """Anywhere, closed or not: the same normal equations, and the same residual of Eq. 12 over all twelve."""

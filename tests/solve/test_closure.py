@@ -168,12 +168,14 @@ def nudge(rng, size):
     return pose
 
 
+@pytest.mark.long
 def test_angles_are_the_inverse_of_from_angles():
     rng = np.random.default_rng(1)
     given = jnp.asarray(rng.uniform([[-3.1], [-1.5], [-3.1]], [[3.1], [1.5], [3.1]], size=(3, 200)))
     np.testing.assert_allclose(angles(matrices(given)), given, atol=1e-13)  # cos(phi) is at least 0.07
 
 
+@pytest.mark.long
 def test_angles_at_the_lock_give_the_same_rotation():
     off = np.array([0.0, 1e-16, 3e-15, 1e-12, -1e-9, 1e-7, -1e-4])
     given = jnp.stack([0.3 + off, np.sign(off - 1e-8) * np.pi / 2 + off, 0.5 - 7 * off])

@@ -95,6 +95,7 @@ def traced_rocker():
     return trace(geometry, jnp.linspace(0.0, 2 * np.pi, 9))
 
 
+@pytest.mark.long
 def test_a_branch_is_followed_to_its_limits(traced_rocker):
     """Coupler and rocker in line, stretched or folded, by the law of cosines; as near as is documented.
 

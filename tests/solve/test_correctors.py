@@ -5,6 +5,7 @@ from functools import partial
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 
 from jaxkin.joints.pairs import cylindrical
 from jaxkin.linkage.loop_class import LoopClass
@@ -72,6 +73,7 @@ def test_newtons_step_squares_the_residual():
     assert np.all(after[seen] < 5 * before[seen] ** 2)
 
 
+@pytest.mark.long
 def test_newton_closes_near_poses_and_extrapolates_no_more_than_it_finds():
     system, geometry = problem(planar_fourbar(1.0))
     state = at_inputs(system, np.linspace(-0.1, 0.1, 5))
@@ -95,6 +97,7 @@ def test_newton_takes_as_many_iterations_as_the_options_say():
     np.testing.assert_allclose(same, near, atol=1e-14)
 
 
+@pytest.mark.long
 def test_the_damped_corrector_closes_a_rank_deficient_system_by_least_norm():
     """Cylindrical joints with parallel axes, one of them slid by hand: the others may share the slide anyhow."""
     system, geometry = problem(planar_fourbar(1.0, cylindrical), LoopClass())
@@ -109,6 +112,7 @@ def test_the_damped_corrector_closes_a_rank_deficient_system_by_least_norm():
     np.testing.assert_allclose(np.abs(np.asarray(found.state.x)[slides]), 0.2 / 3, atol=1e-12)
 
 
+@pytest.mark.long
 def test_the_damped_corrector_ends_at_a_stationary_residual_where_loops_cannot_close():
     """Beyond the limit of a four-bar whose input cannot turn fully: J^T r = 0 with r far from zero."""
     system, geometry = problem(planar_fourbar(1.0), driven=("D",))

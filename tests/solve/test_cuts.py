@@ -146,6 +146,7 @@ def test_rods_are_spun_to_where_their_balls_turn_least(sides):
         np.testing.assert_allclose(np.cross(changed.as_rotvec(), lines[ball]), 0.0, atol=1e-14)
 
 
+@pytest.mark.long
 def test_a_rod_that_is_too_short_is_told_from_one_that_was_not_closed():
     """The rocker driven beyond where crank and rod reach, to either side: the least residual is found there."""
     motion = rssr_linkage().sweep({"D": np.linspace(-np.pi, np.pi, 65)})

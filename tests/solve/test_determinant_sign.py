@@ -41,6 +41,7 @@ def test_a_block_that_turns_over_is_seen_though_another_does_too():
     np.testing.assert_allclose(determinant_ratio(jacobian, other, blocks[:3]), expected, atol=1e-2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shape", [(5, 3), (3, 5)])
 def test_a_jacobian_that_is_not_square_is_compared_in_its_own_range(shape):
     """An unknown, or an equation, that changes its sign, and another length of it; tolerance as above."""

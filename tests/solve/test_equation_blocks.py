@@ -33,6 +33,7 @@ def system_and_joints(mechanism, drive):
     return element.system, element.joints
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", CASES, ids=lambda make: make.__name__)
 def test_no_block_holds_an_unknown_of_a_later_one(make):
     """Told by the Jacobian itself, anywhere."""

@@ -60,6 +60,7 @@ def moved(element, joint, side, direction):
     return joints._replace(**{side: tuple(frames)})
 
 
+@pytest.mark.long
 def test_with_respect_to_the_input(closed):
     element, state, theta, beta, psi = closed
     still = jax.tree.map(lambda leaf: jnp.zeros_like(jnp.asarray(leaf)), element.joints)

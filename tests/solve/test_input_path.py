@@ -3,6 +3,7 @@
 import jax
 import jax.numpy as jnp
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -33,6 +34,7 @@ def between(inputs):
     return _sampled(inputs, here)
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(values, values)
 def test_it_goes_through_all_poses_and_leaves_the_range_of_two_by_little(one, other):

@@ -10,6 +10,7 @@ from jaxkin.solve.linear.least_norm import solve_least_norm, solve_least_norm_re
 from reference.matrices import block_triangular
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "rows, columns, rank",
     [(6, 3, 3), (6, 7, 6), (6, 4, 2), (3, 5, 3), (18, 9, 9), (18, 19, 12), (13, 15, 13), (30, 31, 20), (44, 40, 25)],
@@ -26,6 +27,7 @@ def test_least_norm_of_systems_that_lack_rank(rows, columns, rank):
     np.testing.assert_allclose(found.T, expected, atol=1e-11 * np.abs(expected).max())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("rows", "poses"), [(3, 3), (9, 3), (9, 1024), (12, 3), (13, 3), (39, 3), (40, 3)])
 @pytest.mark.parametrize("lacking", [0, 1])
 def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, lacking):

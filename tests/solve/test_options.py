@@ -58,6 +58,7 @@ def test_poses_do_not_depend_on_the_iterations_of_newtons_method():
     np.testing.assert_allclose(few.coordinates["D"], usual.coordinates["D"], atol=1e-10)
 
 
+@pytest.mark.long
 def test_few_steps_leave_poses_stalled():
     """A step is at most 0.3 long: three of them do not pass 0.9 in either direction."""
     wide = np.linspace(-3.0, 3.0, 20)
@@ -66,6 +67,7 @@ def test_few_steps_leave_poses_stalled():
     assert set(np.asarray(motion.status)[beyond].tolist()) == {jk.Status.STALLED}
 
 
+@pytest.mark.long
 def test_the_options_of_a_motion_go_where_it_goes():
     options = jk.SolverOptions(tolerance=1e-6, cores=1)
     mechanism = planar_fourbar(1.0)
@@ -114,6 +116,7 @@ def test_saying_a_thing_twice_or_otherwise_is_refused():
         jk.work_precision(mechanism, {"A": TURN}, options=jk.SolverOptions(method="dfp"))
 
 
+@pytest.mark.long
 def test_effects_use_the_options_of_the_motion():
     """At a coarse tolerance the poses of Newton's method, and so the rates, are off by about as much."""
     mechanism, turn = planar_fourbar(1.0), jnp.asarray(TURN)

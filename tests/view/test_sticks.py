@@ -81,6 +81,7 @@ def test_sticks_move_with_the_mechanism():
         assert np.allclose(expected.max(axis=0), moved.box[1], atol=0.01)
 
 
+@pytest.mark.long
 def test_parts_of_a_planar_linkage_lie_in_layers():
     """Crank and rod both start out along x over the ground: in one plane they would hide in each other."""
     parts = stick_parts(_chain(np.array([[0, 0, 0], [1, 0, 0], [4, 0, 0], [6, 0, 0.0]])))
@@ -88,6 +89,7 @@ def test_parts_of_a_planar_linkage_lie_in_layers():
     assert heights == sorted(heights) and np.diff(heights).min() > 0.05
 
 
+@pytest.mark.long
 def test_fixed_joints_join_parts_where_they_are():
     """A fixed joint has no place of its own: far from the origin the sticks stay near their other joints."""
     far = np.array([1000.0, 1000.0, 0.0])

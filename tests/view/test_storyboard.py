@@ -40,6 +40,7 @@ def test_six_panels_in_two_rows_with_every_part_in_its_colour(four_bar, tmp_path
     assert "matplotlib.pyplot" not in sys.modules or not sys.modules["matplotlib.pyplot"].get_fignums()
 
 
+@pytest.mark.long
 def test_parts_are_where_the_closed_form_has_them(four_bar, tmp_path):
     """The middle of the rocker in three panels side by side: it turns about its base pin as it should."""
     poses = [0, 10, 25]
@@ -75,6 +76,7 @@ def test_failed_poses_are_not_drawn(partly, nowhere, plates, tmp_path):
             assert (len(where(image, color)) > 200) == some
 
 
+@pytest.mark.long
 def test_poses_that_fail_or_do_not_exist_are_refused(partly, tmp_path):
     failed = int(np.flatnonzero(~np.asarray(partly.closed))[0])
     with pytest.raises(ValueError, match=f"pose {failed} is not closed"):

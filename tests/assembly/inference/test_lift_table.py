@@ -45,6 +45,7 @@ def exported():
     return jk.Mechanism.build(fixed=fixed, joints=joints)  # nine digits, which building aligns
 
 
+@pytest.mark.long
 def test_without_inference_it_is_refused(assembly):
     with pytest.raises(ValueError, match="'Platform <1>' touches no other part"):
         assembly.mechanism(fixed=FIXED, infer=False)

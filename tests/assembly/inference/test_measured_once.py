@@ -25,6 +25,7 @@ def counted(monkeypatch, module, name):
     return calls
 
 
+@pytest.mark.long
 def test_proposals_measure_each_part_once(monkeypatch):
     detected = counted(monkeypatch, assembly_module, "find_contacts")
     fitted = counted(monkeypatch, measured, "bores")
@@ -42,6 +43,7 @@ def test_proposals_measure_each_part_once(monkeypatch):
     assert len(made) == len(found) + 1
 
 
+@pytest.mark.long
 def test_a_mechanism_is_the_same_before_and_after_others_were_tried():
     before, after = jk.load(FLANGES), jk.load(FLANGES)
     fixed = after.proposals()[0].fixed
@@ -52,6 +54,7 @@ def test_a_mechanism_is_the_same_before_and_after_others_were_tried():
         assert np.array_equal(first.frames_1, second.frames_1)
 
 
+@pytest.mark.long
 def test_progress_is_told_to_the_end():
     assembly = jk.load(path("fourbar"))
     told = {"contacts": [], "proposals": []}
@@ -61,6 +64,7 @@ def test_progress_is_told_to_the_end():
         assert steps == [(number, len(steps)) for number in range(1, len(steps) + 1)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_freedoms_counted_in_blocks_are_those_of_the_whole_matrix(seed, flanges):
     """Against the rank of the whole matrix by NumPy, for random sets of parts."""

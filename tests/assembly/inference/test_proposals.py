@@ -11,6 +11,7 @@ def fourbar():
     return jk.load(path("fourbar"))
 
 
+@pytest.mark.long
 def test_each_proposal_holds_what_it_says(fourbar):
     found = fourbar.proposals()
     assert found

@@ -89,6 +89,7 @@ def test_weight_and_piston_force_of_a_slider_crank():
     )
 
 
+@pytest.mark.long
 def test_power_goes_into_energy_and_dampers(motion, found):
     """Over a whole turn: energies from points that move as the parts do, springs and dampers by hand."""
     kinetic, potential = energies(motion, FOURBAR_MASSES, RATE)
@@ -178,6 +179,7 @@ def test_poses_that_are_not_closed_are_nan_and_it_prints_draws_and_saves(tmp_pat
     assert found.save(tmp_path / "forces.csv").read_text().splitlines()[0] == 'pose,"A.phi [N m]","power [W]"'
 
 
+@pytest.mark.long
 def test_what_makes_no_sense_is_refused(motion, masses):
     with pytest.raises(ValueError, match=r"nothing acts: give jk.masses"):
         jk.drive_forces(motion)

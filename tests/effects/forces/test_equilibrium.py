@@ -15,6 +15,7 @@ def pendulum() -> jk.Mechanism:
     return jk.Mechanism.build(fixed=["base"], joints=[hinge], unit="m")
 
 
+@pytest.mark.long
 def test_a_pendulum_hangs_or_stands():
     mechanism = pendulum()
     own = jk.masses(mechanism, given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})

@@ -39,6 +39,7 @@ def found(motion, masses) -> jk.Reactions:
     return jk.reactions(motion, masses, gravity=GRAVITY, applied=APPLIED, rates={"A": RATE})
 
 
+@pytest.mark.long
 def test_every_part_is_in_balance(motion, found):
     """Newton and Euler for each part, with accelerations of its centre and angle from a Fourier sum over the turn."""
     ends = [np.array([0, 150, 10.0]), np.asarray(motion.points("coupler", (70, 60, 20)))]
@@ -88,6 +89,7 @@ def test_hinges_transmit_no_torque_but_that_of_drive_and_spring(motion, masses, 
     assert all(float(jnp.abs(rows).max()) < 1e-8 * scale for rows in found.held.values())
 
 
+@pytest.mark.long
 def test_what_a_planar_linkage_leaves_open_is_named(found):
     """Three of six times four unknowns, as mobility counts its redundant equations: along the axes and about them."""
     assert [each.joint for each in found.undetermined] == list("ABCD")

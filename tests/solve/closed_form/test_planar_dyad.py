@@ -52,6 +52,7 @@ def sign_of(kinds, places, between):
     return signed_root(kinds, [as_complex(place) for place in places], [as_displacement(k) for k in between])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kinds", KINDS)
 def test_the_loop_closes_on_both_branches_and_is_at_rest_in_the_assembled_pose(kinds):
     reached = 0
@@ -135,6 +136,7 @@ def test_beside_a_limit_the_error_is_rounding_over_the_root_of_the_discriminant(
             assert error < 100 * EPS / np.sqrt(discriminant)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kinds", ["RRR", "RRP"])
 def test_out_of_reach_the_discriminant_is_negative_and_nothing_is_nan(kinds):
     places, still, _ = drawn(kinds, 0)

@@ -1,0 +1,135 @@
+"""Teeth: sections of a solid across an axis whose outline repeats, and how often it does on a full turn."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.pose import Points
+
+Side = Literal["outer", "inner"]
+Triangles = Float[np.ndarray, "triangles 3 3"]
+
+BINS = 4096
+"""Angles at which an outline is sampled: ten on each tooth of a wheel with `MAX_TEETH`."""
+MIN_TEETH, MAX_TEETH = 6, 400
+"""Pinions have 6 teeth at least (with fewer, they are screws); a wheel with more than 400 is drawn as a disc."""
+PURITY = 0.75
+"""Least share of the power of an outline that is in the harmonics of its teeth. Drawn wheels have 0.97 to 1; keyways,
+bores, and triangles that do not repeat with the teeth take the rest."""
+DEPTH = (1.2, 3.2)
+"""Depth of teeth, in modules (pitch diameter over number of teeth). Standard teeth are 2.25 deep and stub teeth 1.8;
+the corners of a hexagon 0.4, the lobes of a knob less than 1."""
+MAX_SECTIONS = 9
+"""Sections that are made of a part at most: teeth are seen in all sections between two faces of a rim."""
+
+
+class Teeth(NamedTuple):
+    """A toothed outline about an axis."""
+
+    number: int
+    side: Side
+    """Whether the teeth stand out from a rim, or into a ring."""
+    pitch_radius: float
+    """Radius halfway between the tips and the roots: about that of the pitch circle."""
+    height: float
+    """Where on the axis the section is, measured from the origin."""
+
+
+def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple[float, float]) -> list[Teeth]:
+    """Find the toothed outlines of a solid, in sections across the axis between two heights on it.
+
+    `point` (3,) is on the axis, a unit vector (3,); heights are measured along it from the origin of the world.
+    Several sections of one rim give one outline each.
+    """
+    found = []
+    for height in _heights(triangles @ axis, between):
+        x, y = _section(triangles, point, axis, height)
+        outer, inner = _outline(x, y, "outer"), _outline(x, y, "inner")
+        if outer is None or inner is None:
+            continue
+        # a wheel without a bore has one outline, with the material inside; in bins on steep flanks its ends differ
+        single = np.median(outer - inner) < 0.1 * np.ptp(outer)
+        sides = [("outer", outer)] if single else [("outer", outer), ("inner", inner)]
+        found += [teeth for side, radii in sides if (teeth := _counted(radii, side, height))]
+    return found
+
+
+def _heights(levels: Float[np.ndarray, "triangles 3"], between: tuple[float, float]) -> list[float]:
+    """Choose heights between those of corners, where a section cuts triangles and does not touch them."""
+    low, high = between
+    if not high > low:
+        return []
+    slack = 1e-6 * (high - low)
+    inside = levels[(levels > low) & (levels < high)]
+    ordered = np.unique(np.concatenate([[low], inside, [high]]))
+    apart = np.diff(ordered) > slack
+    middles = ((ordered[:-1] + ordered[1:]) / 2)[apart]
+    if len(middles) <= MAX_SECTIONS:
+        return middles.tolist()
+    wanted = np.linspace(low, high, MAX_SECTIONS + 2)[1:-1]
+    return np.unique(middles[np.abs(middles[:, None] - wanted).argmin(axis=0)]).tolist()
+
+
+def _section(
+    triangles: Triangles, point: Points, axis: Points, height: float
+) -> tuple[Float[np.ndarray, "segments 2"], Float[np.ndarray, "segments 2"]]:
+    """Cut the triangles by a plane across the axis: coordinates x, y of both ends of each segment, from the axis."""
+    above = triangles @ axis - height
+    cut = (above.max(axis=1) > 0) & (above.min(axis=1) < 0)
+    corners, above = triangles[cut], above[cut]
+    # the corner that is alone on its side of the plane comes first
+    positive = above > 0
+    alone = np.argmax(positive == (positive.sum(axis=1) == 1)[:, None], axis=1)
+    order = (alone[:, None] + np.arange(3)) % 3
+    corners, above = corners[np.arange(len(corners))[:, None], order], np.take_along_axis(above, order, axis=1)
+    share = above[:, :1] / (above[:, :1] - above[:, 1:])
+    ends = corners[:, :1] + share[..., None] * (corners[:, 1:] - corners[:, :1])
+    along = np.eye(3)[np.argmin(np.abs(axis))]
+    e1 = along - (along @ axis) * axis
+    e1 /= np.linalg.norm(e1)
+    e2 = np.cross(axis, e1)
+    return (ends - point) @ e1, (ends - point) @ e2
+
+
+def _counted(radii: Float[np.ndarray, " bins"], side: Side, height: float) -> Teeth | None:
+    """Count the teeth of an outline; None where it has none."""
+    tip, root = np.quantile(radii, [0.99, 0.01])
+    middle = (tip + root) / 2
+    power = np.abs(np.fft.rfft(radii - radii.mean())) ** 2
+    if not power.any():
+        return None
+    number = MIN_TEETH + int(np.argmax(power[MIN_TEETH : MAX_TEETH + 1]))
+    pure = power[number::number].sum() > PURITY * power.sum()
+    if not pure or not DEPTH[0] < (tip - root) * number / (2 * middle) < DEPTH[1]:
+        return None
+    return Teeth(number, side, float(middle), height)
+
+
+def _outline(
+    x: Float[np.ndarray, "segments 2"], y: Float[np.ndarray, "segments 2"], side: Side
+) -> Float[np.ndarray, " bins"] | None:
+    """Sample the largest (outer) or the smallest (inner) distance of a section from the axis, over a full turn.
+
+    None where the axis is outside of the section, or the section is open.
+    """
+    if not len(x):
+        return None
+    # points on the segments, as close as the bins are
+    turn = np.abs(np.angle((x[:, 1] + 1j * y[:, 1]) * (x[:, 0] - 1j * y[:, 0])))
+    count = np.minimum(np.ceil(turn * BINS / (2 * np.pi)).astype(int) + 1, BINS)
+    segment = np.repeat(np.arange(len(x)), count)
+    place = np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
+    share = (place + 0.5) / count[segment]
+    px = x[segment, 0] + share * (x[segment, 1] - x[segment, 0])
+    py = y[segment, 0] + share * (y[segment, 1] - y[segment, 0])
+    bins = ((np.arctan2(py, px) / (2 * np.pi) + 1.0) * BINS).astype(int) % BINS
+    sign = 1.0 if side == "outer" else -1.0
+    far = np.full(BINS, -np.inf)
+    np.maximum.at(far, bins, sign * np.hypot(px, py))
+    known = np.flatnonzero(np.isfinite(far))
+    if len(known) < BINS // 2 or np.diff(np.append(known, known[0] + BINS)).max() > BINS // (2 * MIN_TEETH):
+        return None
+    return sign * np.interp(np.arange(BINS), known, far[known], period=BINS)
