@@ -9,6 +9,7 @@ from jaxkin.mechanism import formula_sweep
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closed_form.line import full_turn
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
+from jaxkin.solve.execution.design_batches import DESIGN_GROUP
 from jaxkin.solve.execution.programs import compilations
 from jaxkin.solve.status import Status
 from reference import catalogue
@@ -92,3 +93,24 @@ def test_numpy_and_jax_compute_the_same_poses_and_the_same_line(make, drive):
     by_jax = jax.jit(lambda axes: full_turn(system, axes))(jax.tree.map(jnp.asarray, axes))
     for found, expected in zip(by_jax, line, strict=True):
         np.testing.assert_allclose(np.asarray(found, float), np.asarray(expected, float), atol=1e-13)
+
+
+@pytest.mark.long
+def test_designs_in_groups_are_those_of_each_alone_with_their_gradients():
+    """Three groups, the last one padded; a tenth of these rockers is too short for a full turn of the crank."""
+    mechanism, inputs = planar_fourbar(), np.linspace(0.0, TURN, 6)
+    lengths = jnp.linspace(57.0, 110.0, 2 * DESIGN_GROUP + 7)
+
+    def swing(length):
+        motion = mechanism.with_lengths({("rocker", "C", "D"): length}).sweep({"A": inputs})
+        return jnp.sum(jnp.where(motion.closed, motion.coordinates["D"][:, 0], 0.0)), motion.status
+
+    (found, status), slopes = jax.jit(jax.vmap(jax.value_and_grad(swing, has_aux=True)))(lengths)
+    assert set(np.unique(status)) >= {Status.CLOSED, Status.UNREACHABLE}
+    for number in (0, DESIGN_GROUP, len(lengths) - 1):
+        expected, alone = swing(float(lengths[number]))
+        np.testing.assert_allclose(found[number], expected, atol=1e-12)
+        np.testing.assert_array_equal(status[number], alone)
+        one, other = (swing(float(lengths[number]) + step)[0] for step in (-1e-4, 1e-4))
+        # central differences: rounding of 1e-15 over the step, and the third derivative times its square
+        np.testing.assert_allclose(slopes[number], (other - one) / 2e-4, atol=1e-8)
