@@ -145,7 +145,7 @@ _asked: Counter[tuple[int, int]] = Counter()
 
 def _join(chunks: list[Collected], poses: int, balls: Sequence[tuple[int, int]], xp: Any = jnp) -> Collected:
     """Join chunks by `xp`, jax.numpy or numpy, and cut them to length; angles of balls are unwrapped across them."""
-    joined = jax.tree.map(lambda *rows: xp.concatenate(rows)[:poses] if len(rows) > 1 else rows[0][:poses], *chunks)
+    joined = jax.tree.map(lambda one, *more: (xp.concatenate([one, *more]) if more else one)[:poses], *chunks)
     moved = dict(joined.moved)
     for joint in {joint for joint, _ in balls}:
         columns = [

@@ -78,7 +78,7 @@ def sweep(
     followed, finite = without_gaps(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
     if elements and plan.by_formula is not None and known and by_formulas(options, followed[0]):
-        found = plan.by_formula.solve(followed, finite, asked)
+        found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options, throw)

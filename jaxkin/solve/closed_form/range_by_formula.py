@@ -69,10 +69,10 @@ def find_poses_by_formula(
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = _scaled(system, axes, inputs)[0]
     solved = solve_groups(system, axes, list(line.signs), values[None])
-    expected, passed, crossed = _reached(system, line, values, solved.discriminant)
-    x = solved.x + unknown_angles(system) * TURN * jnp.round((expected - solved.x) / TURN)
+    expected, passed, crossed = _reached(system, line, values, jnp.asarray(solved.discriminant))
+    x = jnp.asarray(solved.x) + unknown_angles(system) * TURN * jnp.round((expected - solved.x) / TURN)
 
-    residual = residual_norm(system, axes, x)
+    residual = jnp.asarray(residual_norm(system, axes, x))
     closes = residual <= tolerance.max_residual
     status = classify(residual, ~closes, passed & line.begins, tolerance.max_residual)
     in_doubt = closes & ~(line.begins & (passed | crossed))
@@ -80,7 +80,7 @@ def find_poses_by_formula(
     poses = Poses(State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)), status, residual)
     sharp = jnp.maximum(rounding_residual(x.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
     proven = jnp.all((status == Status.CLOSED.value) & (residual <= sharp))
-    return FormulaPoses(poses, line.signs, proven)
+    return FormulaPoses(poses, jnp.asarray(line.signs), proven)
 
 
 def displacements_by_formula(
@@ -114,7 +114,7 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     closed = is_closed(poses.status)
 
     def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> Float[Array, "columns poses"]:
-        return solve_groups(system, axes, list(signs), jnp.where(closed, values, 0.0)).x
+        return jnp.asarray(solve_groups(system, axes, list(signs), jnp.where(closed, values, 0.0)).x)
 
     slope = jax.jvp(formulas, (axes, values), tangents[:2])[1]
     return _with_derivative(system, *primals), jnp.where(closed, slope, 0.0)
