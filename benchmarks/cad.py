@@ -14,8 +14,8 @@ from __future__ import annotations
 
 import json
 import lzma
+import os
 import sys
-import time
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -154,9 +154,14 @@ def in_labelled_names(assembly: Assembly) -> Assembly:
     return replace(assembly, parts=parts, exported=assembly.exported and assembly.exported.renamed(names))
 
 
+def processor_seconds() -> float:
+    """Seconds that this process and the readers that it started have worked: on a busy machine the clock tells less."""
+    return sum(os.times()[:4])
+
+
 def row(path: Path, verbose: bool) -> str:
     """One line of the table."""
-    start = time.perf_counter()
+    start = processor_seconds()
     name, assembly = path.name.split(".")[0], read(path)
     labels = path.with_name(f"{name}.joints.json")
     data = json.loads(labels.read_text()) if labels.exists() else None
@@ -164,7 +169,7 @@ def row(path: Path, verbose: bool) -> str:
     fixed = () if said else grounded(data) if data else assembly.proposals()[0].fixed
     mechanism = assembly.mechanism(fixed=fixed)
     mobility = mechanism.mobility()
-    seconds = time.perf_counter() - start
+    seconds = processor_seconds() - start
     counts = Counter()
     if data:
         verdicts = judged(data, mechanism, METRE[assembly.unit])
@@ -187,7 +192,7 @@ def row(path: Path, verbose: bool) -> str:
 
 def main(folder: str, names: Iterable[str]) -> None:
     """Print the table of all assemblies in a folder, or of those named."""
-    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "seconds"]
+    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "processor seconds"]
     print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     chosen = set(names)
     for path in sorted([*Path(folder).glob("*.step"), *Path(folder).glob("*.step.xz"), *Path(folder).glob("*.xml")]):

@@ -66,11 +66,13 @@ from jaxkin.effects.tolerances import tolerances as tolerances
 from jaxkin.effects.workspace import Workspace as Workspace
 from jaxkin.effects.workspace import workspace as workspace
 from jaxkin.geometry.part import Part as Part
+from jaxkin.io.asmt_writer import write_asmt as write_asmt
 from jaxkin.io.load import load as load
 from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf
 from jaxkin.io.study import Study as Study
 from jaxkin.io.study import load_study as load_study
 from jaxkin.io.study_writer import write_study as write_study
+from jaxkin.io.urdf_writer import write_urdf as write_urdf
 from jaxkin.joints.coupling import Coupling as Coupling
 from jaxkin.joints.coupling import belt as belt
 from jaxkin.joints.coupling import differential as differential
@@ -105,6 +107,8 @@ from jaxkin.mechanism.motion import Motion as Motion
 from jaxkin.mechanism.plan import Plan as Plan
 from jaxkin.mechanism.pose import Pose as Pose
 from jaxkin.mechanism.pose_error import PoseError as PoseError
+from jaxkin.mechanism.projection import Projection as Projection
+from jaxkin.mechanism.projection import project as project
 from jaxkin.mechanism.reassembly import Move as Move
 from jaxkin.mechanism.reassembly import Reassembly as Reassembly
 from jaxkin.mechanism.stream import Stream as Stream

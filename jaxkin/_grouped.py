@@ -9,13 +9,15 @@ SCREEN = 40
 """Lines of one section of a report that are printed one by one: more do not fit on a screen."""
 _NUMBER = re.compile(r"(?<![A-Za-z])-?\d[\d.]*(?:e[+-]?\d+)?")
 _QUOTED = re.compile(r"'[^']*'")
-_REPEAT = re.compile(r"\s*(?:<\d+>|#\d+|\(\d+\)|:\d+|[-_ .]\d+)$")
+_INSTANCE = r"<\d+>|\(\d+\)|:\d+"
+_REPEAT = re.compile(rf"\s*(?:(?:{_INSTANCE})?#\d+|{_INSTANCE}|[-_ .]\d+)$")
 
 
 def product(name: str) -> str:
     """Return the name of a part without its sub-assembly, and without what tells it from others of the same product.
 
-    That is a number at its end, as in "bolt <2>", "bolt#2", "bolt(2)", "bolt:2", "bolt_2", "bolt-2" and "bolt 2".
+    That is a number at its end, as in "bolt <2>", "bolt#2", "bolt(2)", "bolt:2", "bolt_2", "bolt-2" and "bolt 2"; where
+    the reader numbered what CAD systems had numbered, both, as in "bolt:1#2".
     """
     last = name.rpartition("/")[2]
     return _REPEAT.sub("", last) or last

@@ -13,7 +13,8 @@ BOX = trimesh.creation.box((1.0, 1.0, 1.0)).triangles
 
 
 @pytest.mark.parametrize(
-    "name", ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>"]
+    "name",
+    ["Screw <2>", "Screw#2", "Screw(12)", "Screw:1", "Screw_2", "Screw-3", "Screw 4", "Arm <1>/Screw <7>", "Screw:1#2"],
 )
 def test_instances_are_of_one_product(name):
     assert product(name) == "Screw"
@@ -21,6 +22,7 @@ def test_instances_are_of_one_product(name):
 
 def test_what_is_only_a_number_or_belongs_to_the_name_stays():
     assert product("12") == "12" and product("M5") == "M5" and product("p1") == "p1"
+    assert product("Plate 1:2") == product("Plate 1:2#3") == "Plate 1"
 
 
 def test_texts_of_one_kind():

@@ -223,9 +223,12 @@ class Assembly:
                 lines.append(f"  {part.name.ljust(width)}  {_faces(part)}")
                 lines += [f"  {' ' * width}    {note}" for note in part.notes]
             return "\n".join(lines)
-        products = Counter((product(part.name), _faces(part)) for part in self.parts)
+        products: dict[tuple[str, str], list[str]] = {}
+        for part in self.parts:
+            products.setdefault((product(part.name), _faces(part)), []).append(part.name)
         rows = [
-            f"{name}{f' ({count} times)' if count > 1 else ''}: {faces}" for (name, faces), count in products.items()
+            f"{names[0]}: {faces}" if len(names) == 1 else f"{name} ({len(names)} times): {faces}"
+            for (name, faces), names in products.items()
         ]
         lines += [f"  {row}" for row in shortened(rows)]
         told = [(kind_of(note), f"{part.name}: {note}") for part in self.parts for note in part.notes]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
@@ -34,17 +35,21 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     """Make the mechanism with what solids imply beside their exact contacts.
 
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
-    mechanism has fewer freedoms but still some. Bodies that seats of faces leave a slide of no use are one body. Where
-    the inferences lock it, the weakest one without which it moves is dropped, and that is said.
+    mechanism has fewer freedoms but still some; where all of it leaves none, without the least sure of it. Bodies that
+    seats of faces leave a slide of no use are one body. Where the inferences lock it, the weakest one without which it
+    moves is dropped, and that is said.
     """
-    mechanism, found, stopped = _with_seats(assembly, contacts, said)
-    if not found and not stopped:
+    mechanism, found, levels = _with_seats(assembly, contacts, said)
+    if not found and not any(levels):
         return mechanism
     useful = useful_freedoms(mechanism)
-    if stopped and useful:
-        other = from_words(assembly, contacts, said, [*found, *stopped])
+    for count in range(len(levels), 0, -1) if useful else ():
+        if not levels[count - 1]:
+            continue
+        more = [*found, *(each for level in levels[:count] for each in level)]
+        other = from_words(assembly, contacts, said, more)
         if 0 < useful_freedoms(other) < useful:
-            return _counted(other, [*found, *stopped])
+            return _counted(other, more)
     unlocked = None if useful else _unlocked(assembly, contacts, said, found)
     return unlocked or _counted(mechanism, found)
 
@@ -94,13 +99,13 @@ def useful_freedoms(mechanism: Mechanism) -> int:
 
 def _with_seats(
     assembly: Assembly, contacts: Sequence[Contact], said: Said
-) -> tuple[Mechanism, list[Inference], list[Inference]]:
+) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
     """Find the mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
     source = told_by(assembly, contacts)
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
     ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
 
-    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[Inference]]:
+    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
         rigid = [*said.rigid, *(each.parts for each in seats)]
         found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
         found = [*seats, *found]
@@ -117,17 +122,26 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks.
 
-    Only where something moves: of a mechanism that is locked nothing is known to be of no use.
+    Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
+    body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
+    guide, though nothing that is drawn moves with it.
     """
     if not useful_freedoms(mechanism):
         return []
     idle = {*mechanism.mobility().idle}
+    owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
-        if flat and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle:
+        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle or is_guide(mechanism, joint):
+            continue
+        one, other = (owner[part] for part in joint.parts)
+        joined = {part: one if body == other else body for part, body in owner.items()}
+        if all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful):
             text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a slide that moves nothing else"
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+            owner = joined
     return result
 
 

@@ -21,6 +21,10 @@ TRIED = 3
 assembly that a person drew is among its largest or best connected bodies."""
 
 
+_TOLD = 5
+"""Coordinates that a proposal tells: without a fixed frame an assembly of 175 parts has 18 of them, a screen full."""
+
+
 @dataclass(frozen=True)
 class Proposal:
     """Parts to fix and coordinates to drive, with what that achieves."""
@@ -42,7 +46,9 @@ class Proposal:
         if self.problem:
             return f"with {lines}: {self.problem}"
         count = "one freedom" if self.freedoms == 1 else f"{self.freedoms} freedoms"
-        names = " and ".join(map(repr, self.drive))
+        told = [repr(name) for name in self.drive]
+        more = len(told) - _TOLD
+        names = " and ".join(told) if more <= 0 else f"{', '.join(told[:_TOLD])} and {more} more"
         moves = "one joint moves" if self.moving == 1 else f"{self.moving} joints move"
         return f"with {lines} it has {count} in {self.bodies} bodies, and {names} can be driven; {moves}"
 

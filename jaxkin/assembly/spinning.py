@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.joints.combine import LOWER_PAIRS
@@ -107,18 +108,6 @@ def _is_round(part: Part, spin: Spin) -> bool:
 
     If the part may slide across the axis, the outline need only be round about its own middle.
     """
-    from scipy.spatial import ConvexHull, QhullError
-
     outline = (part.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :2]
-    try:
-        hull = ConvexHull(outline)
-    except QhullError:  # a sheet seen from its edge
-        return False
-    corners = outline[hull.vertices]
-    centre = (
-        (corners.min(axis=0) + corners.max(axis=0)) / 2
-        if MOVEMENTS[spin.movement].turns_and_slides == (1, 2)
-        else np.zeros(2)
-    )
-    inner = -(hull.equations[:, :2] @ centre + hull.equations[:, 2])
-    return bool(inner.min() > MIN_ROUNDNESS * np.linalg.norm(corners - centre, axis=1).max())
+    slides_across = MOVEMENTS[spin.movement].turns_and_slides == (1, 2)
+    return roundness(outline, None if slides_across else np.zeros(2)) > MIN_ROUNDNESS

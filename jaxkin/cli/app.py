@@ -22,6 +22,7 @@ from jaxkin.cli.arguments import (
     PerContact,
     Picture,
     Rigid,
+    Seconds,
     Unit,
     Verbose,
     WorkPicture,
@@ -66,6 +67,7 @@ def inspect(
     exact_only: ExactOnly = False,
     no_combine: PerContact = False,
     unit: Unit = None,
+    seconds: Seconds = None,
     png: Picture = None,
     page: Page = None,
     study_file: Written = None,
@@ -80,7 +82,8 @@ def inspect(
         from jaxkin.cli import report, written
 
         with progress(2) as step:
-            study = run.read(files, Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only), step)
+            options = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only, seconds=seconds)
+            study = run.read(files, options, step)
             run.find_contacts(study, step)
             contacts = study.contacts
         if study.assembly:
@@ -117,6 +120,7 @@ def loops(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    seconds: Seconds = None,
     png: Drawing = None,
 ) -> None:
     """Print the structure of an assembly: its closed loops, what hangs on them, the tree of both, and its mobility.
@@ -126,8 +130,9 @@ def loops(
     with one_line_errors():
         from jaxkin.cli import report
 
+        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, seconds=seconds)
         with progress(3) as step:
-            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
+            study = run.found(files, options, step)
         if png:
             from jaxkin.view.structure import draw_structure
 
@@ -148,6 +153,7 @@ def accuracy(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    seconds: Seconds = None,
     png: WorkPicture = None,
 ) -> None:
     """Print what accuracy costs in time: the sweep at many tolerances, in both precisions and by several methods."""
@@ -155,8 +161,9 @@ def accuracy(
         from jaxkin.cli import report
         from jaxkin.effects.accuracy import combinations, work_precision
 
+        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, seconds=seconds)
         with progress(3 + len(combinations())) as step:
-            study = run.found(files, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only), step)
+            study = run.found(files, options, step)
             work = work_precision(study.mechanism, study.drive, step=step)
         if png:
             work.plot(png)
@@ -178,6 +185,7 @@ def sweep(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    seconds: Seconds = None,
     effects: Effects = [],
 ) -> None:
     """Move an assembly through a range of displacements of some joints, and write its motion.
@@ -187,4 +195,5 @@ def sweep(
     parts. Effects are computed only where they are asked for.
     """
     with one_line_errors():
-        run.sweep(files, out, Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects))
+        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects, seconds)
+        run.sweep(files, out, options)

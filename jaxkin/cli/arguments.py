@@ -23,6 +23,14 @@ Unit = Annotated[
     str | None,
     typer.Option("--unit", metavar="UNIT", help="Of lengths, for STL, OBJ and PLY, which have none: mm, m, in, ..."),
 ]
+Seconds = Annotated[
+    float | None,
+    typer.Option(
+        "--seconds",
+        metavar="N",
+        help="Processor seconds that reading each file may take; by default 20, and 5 for each megabyte of it.",
+    ),
+]
 Fixed = Annotated[
     list[str],
     typer.Option(

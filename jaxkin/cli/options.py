@@ -29,6 +29,7 @@ class Options:
     exclude: Sequence[str] = ()
     exact_only: bool = False
     effects: Sequence[str] = ()
+    seconds: float | None = None
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
         """Make the study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
@@ -58,14 +59,14 @@ class Options:
         if len(files) == 1 and studies:
             if self.unit:
                 raise ValueError(f'--unit {self.unit}: write unit = "{self.unit}" in {files[0].name}')
-            return load_study(files[0], progress=progress)
+            return load_study(files[0], seconds=self.seconds, progress=progress)
         if studies:
             raise ValueError(
                 f"{studies[0].name} is a study, which names its geometry itself: give it alone, and write geometry = "
                 '{ crank = "crank.stl", ... } in it'
             )
         if len(files) == 1:
-            return Study(files[0].name, load(files[0], unit=self.unit, progress=progress))
+            return Study(files[0].name, load(files[0], unit=self.unit, seconds=self.seconds, progress=progress))
         parts = {file.stem: file for file in files}
         if len(parts) < len(files):
             twice = next(file for file in files if parts[file.stem] != file)
@@ -73,7 +74,7 @@ class Options:
                 f"{twice} and {parts[twice.stem]}: two parts would be called {twice.stem!r}; rename a file, or name "
                 "the parts in a study"
             )
-        assembly = load(parts, unit=self.unit, progress=progress)
+        assembly = load(parts, unit=self.unit, seconds=self.seconds, progress=progress)
         return Study(assembly.source, assembly)
 
 

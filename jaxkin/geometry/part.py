@@ -82,6 +82,12 @@ class Part:
         except QhullError:
             return corners
 
+    @cached_property
+    def volume(self) -> float:
+        """Volume inside of the triangles, in the cube of the unit: one sixth of the sum of their triple products."""
+        corners = self.triangles - self.box.mean(axis=0)
+        return float(abs(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6)
+
 
 def moved(part: Part, pose: Pose) -> Part:
     """Displace a part by a pose, (4, 4)."""

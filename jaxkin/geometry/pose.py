@@ -15,6 +15,8 @@ Points = Float[np.ndarray, "*batch 3"]
 Pose = Float[np.ndarray, "4 4"]
 """Rotation matrix and translation, the last row 0, 0, 0, 1: a pose or a displacement."""
 
+_IDENTITY = np.eye(4)
+
 RIGID_TOLERANCE = 1e-6
 """Largest error of the entries of a matrix that is taken for a rigid pose: poses that went through single precision are
 rigid to a few times 1e-7."""
@@ -46,10 +48,22 @@ def frame(origin: Vector, z: Vector, x: Vector | None = None) -> Pose:
 
 def inverse(pose: Pose) -> Pose:
     """Invert a rigid pose, by transposition of its rotation."""
-    result = np.eye(4)
-    result[:3, :3] = pose[:3, :3].T
-    result[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]
+    result, turn = _IDENTITY.copy(), pose[:3, :3].T
+    result[:3, :3] = turn
+    result[:3, 3] = -turn @ pose[:3, 3]
     return result
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Compute the cross product of two single vectors, ten times as fast as `np.cross`, which is made for many."""
+    (a0, a1, a2), (b0, b1, b2) = a.tolist(), b.tolist()
+    return np.array([a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0])
+
+
+def skew(vector: Vector) -> Float[np.ndarray, "3 3"]:
+    """Make the matrix whose product with a vector is the cross product of `vector` with it."""
+    x, y, z = vector.tolist()
+    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def is_rigid(matrix: Pose) -> bool:
@@ -64,9 +78,8 @@ def is_rigid(matrix: Pose) -> bool:
 
 def rotation(axis: Vector, angle: float) -> Float[np.ndarray, "3 3"]:
     """Make the matrix of a rotation about a unit axis by an angle in radians, right-hand rule (Rodrigues)."""
-    x, y, z = axis
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
+    turned = skew(axis)
+    return np.eye(3) + np.sin(angle) * turned + (1.0 - np.cos(angle)) * (turned @ turned)
 
 
 def apply(pose: Pose, points: Points) -> Points:

@@ -8,13 +8,14 @@ recognised too, though no contact state has one, since a band of facets of a tor
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Bool
 
 from jaxkin.geometry.components import components, grouped
 from jaxkin.geometry.facets import SMOOTH_ANGLE, Facets, Rows
 from jaxkin.geometry.region_growing import LOOSE_TOLERANCE, TIGHT_TOLERANCE, Region, RegionGrowing
 from jaxkin.geometry.region_union import absorbed, rough_tolerance, united
 from jaxkin.geometry.surfaces import Plane, Surface
-from jaxkin.geometry.tessellation_test import MAX_WIDTH_RATIO, arcs, on, surface_of
+from jaxkin.geometry.tessellation_test import MAX_FACET_CORNERS, MAX_WIDTH_RATIO, arcs, on, surface_of
 from jaxkin.geometry.torus import Torus
 
 _STRAY_ANGLE = 0.8
@@ -38,6 +39,14 @@ it, as the side of a nut is next to its chamfer."""
 _MIN_ROUGH_CORNERS = 12
 """Smallest number of corners of a face between sharp edges."""
 
+_MAX_BEND_RATIO = 2.0
+"""Largest angle between neighbouring facets of one face, over the largest in the round faces of the same solid: meshers
+bound this angle, and exceed their bound by less on free-form faces."""
+
+_MORE_CORNERS = 2.0
+"""Corners of a facet over those of the facets beside it, from which on it is a flat face: strips of one curved face
+have about as many."""
+
 _MAX_LEFTOVER = 4
 """Largest number of triangles of a region on no surface, each of which is then tried as part of a neighbouring face."""
 
@@ -51,6 +60,8 @@ def regions(mesh: Facets) -> list[Region]:
         found += _divided(mesh, rows, within)
     found = [piece for region in absorbed(mesh, united(mesh, found)) for piece in _without_flats(mesh, region)]
     found = [_named(mesh, region) for region in _with_strays(mesh, found)]
+    bend = max((_largest_bend(mesh, region) for region in found if region.is_round), default=np.inf)
+    found = [piece for region in found for piece in _flat_pieces(mesh, region, bend)]
     return sorted(found, key=lambda region: region.rows[0])
 
 
@@ -149,6 +160,47 @@ def _without_flats(mesh: Facets, region: Region) -> list[Region]:
     wide = [region.rows[facet == k] for k in wide_ones]
     flats = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in wide]
     return [Region(region.surface, np.setdiff1d(region.rows, np.concatenate([[], *wide]))), *flats]
+
+
+def _largest_bend(mesh: Facets, region: Region) -> float:
+    """Find the largest angle, radians, between neighbouring facets of a region."""
+    inside = _within(mesh, region.rows)
+    return float(mesh.angles(*mesh.smooth[inside].T).max(initial=0.0))
+
+
+def _within(mesh: Facets, rows: Rows) -> Bool[np.ndarray, "_"]:
+    """Mark the pairs of `Facets.smooth` both of whose triangles are among `rows`."""
+    inside = np.zeros(len(mesh.triangles), bool)
+    inside[rows] = True
+    return np.all(inside[mesh.smooth], axis=1)
+
+
+def _flat_pieces(mesh: Facets, region: Region, bend: float) -> list[Region]:
+    """Split off a free-form region the flat faces that meet at angles so small that they could be one curved face.
+
+    They are flat where the angle is more than a tessellation with bends of `bend` radians in its round faces leaves
+    (`_MAX_BEND_RATIO`), where a facet has many corners, and far more than those beside it, and where only two facets
+    are left.
+    """
+    if region.surface is not None:
+        return [region]
+    facets, facet = np.unique(mesh.facet_of[region.rows], return_inverse=True)
+    number = np.full(mesh.count, -1)
+    number[facets] = np.arange(len(facets))
+    pairs = mesh.smooth[_within(mesh, region.rows)]
+    pairs = number[mesh.facet_of[pairs[mesh.angles(*pairs.T) <= _MAX_BEND_RATIO * bend]]]
+    entries = np.unique(np.stack([np.repeat(facet, 3), mesh.triangles[region.rows].ravel()]), axis=1)
+    corners = np.bincount(entries[0])
+    beside = np.zeros(len(facets))
+    for one, other in (pairs.T, pairs.T[::-1]):
+        np.maximum.at(beside, one, corners[other])
+    flat = (corners > MAX_FACET_CORNERS) & (corners > _MORE_CORNERS * beside)
+    label = components(len(facets), pairs[~flat[pairs].any(axis=1)])
+    alone = (np.bincount(label)[label] <= 2) & (np.bincount(facet) > 1)
+    planes = [region.rows[facet == k] for k in np.flatnonzero(alone)]
+    rest = [region.rows[group] for group in grouped(np.where(alone, -1, label)[facet]) if not alone[facet[group[0]]]]
+    found = [Region(surface_of(mesh, rows, LOOSE_TOLERANCE * mesh.tolerance, one_facet=True), rows) for rows in planes]
+    return [*found, *(Region(None, rows) for rows in rest)]
 
 
 def _with_strays(mesh: Facets, found: list[Region]) -> list[Region]:

@@ -149,11 +149,14 @@ def winding_numbers(points: Points, corners: Corners) -> Float[np.ndarray, "poin
     It is the sum of the signed solid angles of the triangles over 4 pi (Van Oosterom and Strackee 1983).
     """
     numbers = np.empty(len(points))
+    first, second, third = (np.ascontiguousarray(corner.T) for corner in np.moveaxis(corners, 1, 0))
     for k, point in enumerate(points):
-        a, b, c = np.moveaxis(corners - point, 1, 0)
-        la, lb, lc = (np.linalg.norm(v, axis=-1) for v in (a, b, c))
-        above = np.sum(a * np.cross(b, c), axis=-1)
-        below = la * lb * lc + np.sum(a * b, -1) * lc + np.sum(b * c, -1) * la + np.sum(c * a, -1) * lb
+        a, b, c = (corner - point[:, None] for corner in (first, second, third))
+        ab, bc, ca = (np.einsum("kn,kn->n", *pair) for pair in ((a, b), (b, c), (c, a)))
+        la, lb, lc = (np.sqrt(np.einsum("kn,kn->n", v, v)) for v in (a, b, c))
+        above = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+        above += a[2] * (b[0] * c[1] - b[1] * c[0])
+        below = la * lb * lc + ab * lc + bc * la + ca * lb
         numbers[k] = np.arctan2(above, below).sum() / (2 * np.pi)
     return numbers
 

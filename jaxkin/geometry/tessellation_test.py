@@ -27,7 +27,7 @@ _SHALLOW_DEPTH = 20.0
 """Largest depth under a surface, in units of `Facets.tolerance`, of a facet whose triangles differ in direction by no
 more than rounding, and so were taken for one facet."""
 
-_MAX_FACET_CORNERS = 8
+MAX_FACET_CORNERS = 8
 """Largest number of corners of a facet on a ball or a torus; a facet with more is a flat face with a round rim."""
 
 _MAX_FITTED_POINTS = 600
@@ -68,7 +68,7 @@ def surface_of(
     # four rulings, or five points: any three rulings lie on some cylinder, any four points on some sphere
     if len(first) < 8 or len(sizes) < 3 or np.mean(tangent(mesh, surface, rows, CHORD_ANGLE)) <= _MIN_TANGENT:
         return None
-    if isinstance(surface, Sphere | Torus) and sizes.max() > _MAX_FACET_CORNERS and _cut(mesh, surface, rows, sizes):
+    if isinstance(surface, Sphere | Torus) and sizes.max() > MAX_FACET_CORNERS and _cut(mesh, surface, rows, sizes):
         return None
     return None if isinstance(surface, Torus) and _rings(surface, corners[first], 4 * tolerance) < 4 else surface
 
@@ -113,7 +113,7 @@ def _cut(mesh: Facets, surface: Sphere | Torus, rows: Rows, corners: np.ndarray)
     facet = np.unique(mesh.facet_of[rows], return_inverse=True)[1]
     middles = mesh.points[mesh.triangles[rows]].mean(axis=1)
     return bool(
-        np.any(np.abs(surface.distance(middles[corners[facet] > _MAX_FACET_CORNERS])) > _SHALLOW_DEPTH * mesh.tolerance)
+        np.any(np.abs(surface.distance(middles[corners[facet] > MAX_FACET_CORNERS])) > _SHALLOW_DEPTH * mesh.tolerance)
     )
 
 

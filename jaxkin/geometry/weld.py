@@ -2,7 +2,7 @@
 
 Files hold each triangle with its own corners, or split the surface where colours or shading change. Equal corners
 become one point. Corners at edges that belong to one triangle only become one point if they are equal within the
-rounding of the file.
+rounding of the file, and those in the middle of another edge are stitched to it (`stitch`).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.geometry.components import components
+from jaxkin.geometry.stitch import stitched
 
 Corners = Float[np.ndarray, "_ 3 3"]
 """Corners of triangles: [triangle, corner, coordinate]."""
@@ -50,6 +51,9 @@ def weld(corners: Corners, tolerance: float) -> Welded:
     if len(lone):
         at = np.unique(lone)
         triangles = _proper(_merged(points, at, tolerance)[triangles])
+        pairs, lone = pair_edges(points, triangles)
+    if len(lone):
+        triangles = stitched(points, triangles, lone, tolerance)
         pairs, lone = pair_edges(points, triangles)
     return Welded(points, triangles, pairs, lone)
 

@@ -229,7 +229,7 @@ class _Reader:
         if path not in sides:
             markers = node.said("MarkerI"), node.said("MarkerJ")
             path = next((name for name, own in sides.items() if own == markers and all(own)), path)
-        return known.get(path.rpartition("/")[2])
+        return known.get(path.removeprefix(f"/{self.name}/"))
 
     def _motor(self, node: Node, known: dict[str, RobotJoint], sides: dict[str, tuple[str, str]]) -> str | None:
         joint, coordinate = self._target(node, known, sides), MOTIONS.get(node.text)

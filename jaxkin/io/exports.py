@@ -16,6 +16,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part, moved, scaled
 from jaxkin.geometry.pose import Pose
 from jaxkin.geometry.units import METRES
+from jaxkin.io.export_joints import FREE, joint_of_kind
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate, ExportedPart, read_export
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
@@ -24,9 +25,6 @@ from jaxkin.joints.mates import Feature, mate
 
 Reader = Callable[[Path], tuple[tuple[Part, ...], str]]
 """Reads the solids in a file, in the frame of the file, and its unit; "" where the file says none."""
-
-JOINTS = {"weld": (JointKind.FIXED, LOWER_PAIRS[0, 0][1])} | {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
-"""Names of joints in exports, in small letters -> kind, and movement about or along the z axis of their frame."""
 
 Paths = Mapping[tuple[str, ...], str]
 """Paths of instances -> names of their first solids."""
@@ -180,16 +178,21 @@ def _joints(joints: Iterable[ExportedJoint], where: _Places, metres: float, note
     for each in joints:
         text = f"{each.kind} {each.name!r}"
         parts = where.parts(each.sides[0].path, each.sides[1].path)
-        if parts is None or each.kind.lower() not in JOINTS:
-            why = "it is not between two parts" if parts is None else "this kind is not known"
+        base, follower = (_in_unit(side.frame, metres) for side in each.sides)
+        known = joint_of_kind(each.kind, base, follower)
+        if parts is None or known is None:
+            why = "it is not between two parts" if parts is None else _unknown(each.kind)
             notes.append(f"{text}: {why}; left out")
             continue
-        kind, movement = JOINTS[each.kind.lower()]
-        base, follower = (_in_unit(side.frame, metres) for side in each.sides)
-        offset, tilt = _apart(movement, base, follower)
-        chain = Chain((movement,), base[None])
+        kind, chain = known
+        offset, tilt = _apart(chain.movements[0], base, follower) if len(chain.movements) == 1 else (0.0, 0.0)
         result.append(Constraint(cleaned(each.name), parts, text, chain, kind, offset, tilt))
     return result
+
+
+def _unknown(kind: str) -> str:
+    free = kind.lower().replace("-", "") in FREE
+    return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
 
 
 def _apart(movement: str, base: Pose, follower: Pose) -> tuple[float, float]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -48,9 +50,9 @@ def load(
     A mechanism that `Mechanism.save` wrote (.json) comes back whole: `jk.load(path).mechanism()`.
 
     Lengths stay as they are in the files. STEP and 3MF say their unit, GLB is in metres; for STL, OBJ and PLY, which
-    have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the time in which each file has to be
-    read, by default 20 s and 5 s a megabyte. `progress(done, total)` is called after each part of a STEP file, and
-    after each file of several.
+    have none, `unit` says it ("mm"), and without it the unit is "". `seconds` is the processor time in which each file
+    has to be read, by default 20 s and 5 s a megabyte. `progress(done, total)` is called after each part of a STEP
+    file, and after each file of several.
 
     Raises FileNotFoundError where there is no such file, and ValueError where one holds no solids or is not read in
     time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
@@ -72,11 +74,14 @@ def load(
             raise ValueError(f"loops is the YAML file of the loops of a robot in URDF; {name} is none")
         if root is not None:
             parts, said, exported = read_exported(path, root, lambda file: _read(file, seconds))
-            twice = tuple(f"the parts {twins} are the same solid in the same place" for twins in _twins(parts))
+            twice = tuple(
+                f"the parts {one.name!r} and {other.name!r} are the same solid in the same place"
+                for one, other in _twins(parts)
+            )
             exported = replace(exported, notes=(*exported.notes, *twice))
             return Assembly(parts, _agreed({name: said}, unit), name, exported)
         parts, said = _read(path, seconds, progress=progress)
-        return Assembly(_apart(parts, f"{name}: "), _agreed({name: said}, unit), name)
+        return Assembly(_without_twins(parts, name), _agreed({name: said}, unit), name)
     if not isinstance(source, Mapping) or not source:
         raise ValueError(
             f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
@@ -92,7 +97,10 @@ def load(
         if progress:
             progress(len(units), len(source))
     agreed = _agreed(units, unit)  # first: numbers in different units tell nothing about the same place
-    return Assembly(_apart(tuple(parts)), agreed, ", ".join(Path(file).name for file in source.values()))
+    if twins := next(_twins(tuple(parts)), None):
+        one, other = (part.name for part in twins)
+        raise ValueError(f"the parts {one!r} and {other!r} are the same solid in the same place: leave one out")
+    return Assembly(tuple(parts), agreed, ", ".join(Path(file).name for file in source.values()))
 
 
 def _read(
@@ -123,24 +131,36 @@ def _read(
     return tuple(replace(part, name=name) for part in parts), unit
 
 
-def _apart(parts: tuple[Part, ...], where: str = "") -> tuple[Part, ...]:
-    """Return the parts, no two of them the same solid in the same place; `where` begins the message about two that
-    are."""
-    if twins := next(_twins(parts), None):
-        raise ValueError(f"{where}the parts {twins} are the same solid in the same place: leave one out")
-    return parts
+def _without_twins(parts: tuple[Part, ...], source: str) -> tuple[Part, ...]:
+    """Leave out parts that are the same solid in the same place as another one, which is then said of this one."""
+    twins = {other.name: one.name for one, other in _twins(parts)}
+    if not twins:
+        return parts
+    first, *more = [f"{other!r} (as {one!r})" for other, one in twins.items()]
+    others = f" and {len(more)} more are" if more else " is"
+    warnings.warn(f"{source}: {first}{others} the same solid in the same place as another part: left out", stacklevel=3)
+    notes: dict[str, tuple[str, ...]] = {}
+    for other, one in twins.items():
+        notes[one] = (*notes.get(one, ()), f"{other!r} is the same solid in the same place: left out")
+    kept = (part for part in parts if part.name not in twins)
+    return tuple(replace(part, notes=(*part.notes, *notes.get(part.name, ()))) for part in kept)
 
 
-def _twins(parts: tuple[Part, ...]) -> Iterator[str]:
-    """Yield the names of two parts that are the same solid in the same place; those without faces are none."""
+def _twins(parts: tuple[Part, ...]) -> Iterator[tuple[Part, Part]]:
+    """Yield each part that is the same solid in the same place as one before it, with that one; those without faces
+    are none."""
     near = _TWINS * size(parts)
-    seen: dict[int, list[Part]] = {}
+    seen: dict[tuple[float, ...], list[tuple[Part, np.ndarray]]] = {}
     for part in (part for part in parts if part.faces):
-        for other in seen.setdefault(len(part.triangles), []):
-            same = np.abs(part.box - other.box).max() < near
-            if same and np.linalg.norm(part.triangles.mean(axis=(0, 1)) - other.triangles.mean(axis=(0, 1))) < near:
-                yield f"{other.name!r} and {part.name!r}"
-        seen[len(part.triangles)].append(part)
+        about = np.stack([*part.box, part.triangles.mean(axis=(0, 1))])
+        cell = np.floor(about[2] / near)  # of the middle, so that only what is in the cells around it is compared
+        count = float(len(part.triangles))
+        cells = ((count, *(cell + step).tolist()) for step in product((-1.0, 0.0, 1.0), repeat=3))
+        others = (other for each in cells for other in seen.get(each, ()))
+        if twin := next((other for other, told in others if np.abs(told - about).max() < near), None):
+            yield twin, part
+        else:
+            seen.setdefault((count, *cell.tolist()), []).append((part, about))
 
 
 def _agreed(said: Mapping[str, str], unit: str | None) -> str:

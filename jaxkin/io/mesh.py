@@ -11,6 +11,7 @@ from jaxkin._files import check_file
 from jaxkin.geometry.facets import facets
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Points
 from jaxkin.geometry.regions import regions
 from jaxkin.geometry.shells import bodies, holes_and_cracks, shells, volume, wrong_side
 from jaxkin.geometry.torus import Torus
@@ -19,6 +20,9 @@ from jaxkin.io.mesh_check import MAX_MESH_NODES
 from jaxkin.io.mesh_nodes import Node, read_nodes
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.time_limit import TimeLimit
+
+_TOLD_HOLES = 3
+"""Holes of a mesh that are told: the largest, by which the others are found."""
 
 MESHES = (".stl", ".obj", ".ply", ".3mf", ".glb")
 
@@ -82,11 +86,9 @@ def _part(name: str, solid: Node, source: str) -> Part:
         raise ValueError(f"{where} has no triangles but points and lines: export it as a solid")
     loops, cracks = holes_and_cracks(welded, solid.tolerance)
     if loops:
-        place = ", ".join(f"{x:.4g}" for x in loops[0].mean(axis=0))
-        holes = "a hole" if len(loops) == 1 else f"{len(loops)} holes"
         raise ValueError(
-            f"{where} is not closed, or its triangles are not all wound the same way: there is {holes}, the first near "
-            f"({place}); repair the mesh, or export the part as a solid"
+            f"{where} is not closed, or its triangles are not all wound the same way: there {_holes(loops)}; close "
+            "them in a program for meshes, export the part again with a coarser or finer tolerance, or as a STEP file"
         )
     if cracks:
         place = ", ".join(f"{x:.4g}" for x in cracks[0].place)
@@ -116,3 +118,17 @@ def _part(name: str, solid: Node, source: str) -> Part:
         else:
             faces.append(Face(label, region.surface, corners[region.rows]))
     return Part(name, merge_faces(faces, solid.tolerance), corners, solid.color, tuple(notes), solid.vertex_resolution)
+
+
+def _holes(loops: list[Points]) -> str:
+    """Tell where the largest of some holes are, each by the points of its rim, how wide, and how many edges they
+    have."""
+    widest = sorted(loops, key=lambda rim: -float(np.linalg.norm(np.ptp(rim, axis=0))))[:_TOLD_HOLES]
+    told = [
+        f"near ({', '.join(f'{x:.4g}' for x in rim.mean(axis=0))}), {np.linalg.norm(np.ptp(rim, axis=0)):.3g} across "
+        f"with {len(rim)} edges"
+        for rim in widest
+    ]
+    if len(loops) == 1:
+        return f"is a hole {told[0]}"
+    return f"are {len(loops)} holes, the largest {'; '.join(told)}"

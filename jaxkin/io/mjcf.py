@@ -17,7 +17,7 @@ from jaxkin._names import listed
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_shapes import Shapes
-from jaxkin.io.mjcf_text import Compiler, Defaults, included
+from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
 from jaxkin.io.mjcf_ties import Ties
 from jaxkin.io.robot_model import (
     WORLD,
@@ -27,6 +27,7 @@ from jaxkin.io.robot_model import (
     Shape,
     along,
     direction,
+    limits_between,
     numbers,
     placed,
     tag,
@@ -76,6 +77,7 @@ class _Reader:
     def __init__(self, path: Path, root: Element) -> None:
         self.file, self.root = path.name, root
         self.compiler, self.defaults = Compiler(root, path.name), Defaults(root, path.name)
+        replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
         self.found = Bodies(notes=unknown_parts(root, SECTIONS, path.name))
 
@@ -200,5 +202,5 @@ class _Reader:
         limited = said.get("limited", "auto")
         if limited == "false" or "range" not in said or (limited == "auto" and not self.compiler.auto_limits):
             return ()
-        low, high = numbers(said["range"], 2, where) * unit - value
-        return ((float(low), float(high)),) if low < high else ()
+        low, high = map(float, numbers(said["range"], 2, where) * unit - value)
+        return limits_between(low, high) if low < high else ()

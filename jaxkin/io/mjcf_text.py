@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import deepcopy
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -15,6 +16,9 @@ from jaxkin.io.xml_tree import read_xml
 
 MAX_INCLUDES = 1000
 """Files that one model includes: a scene with a hand has a dozen."""
+
+MAX_COPIED = 100_000
+"""Elements that all <replicate> of a model make together; a wall of bricks has thousands."""
 
 MAIN = "main"
 """Name of the outermost default class where the file gives none."""
@@ -45,6 +49,55 @@ def included(root: Element, path: Path) -> Element:
             seen.add(file.resolve())
             element[position : position + 1] = list(read_xml(file))  # what it includes itself is met next
     return root
+
+
+def replicated(root: Element, compiler: Compiler) -> Element:
+    """Put as many frames in the place of each <replicate> as it counts, each with a copy of what is inside.
+
+    As MuJoCo has it, copy k is turned by k times the angles `euler`, and displaced by `offset`, along axes that turn
+    along, from the one before; names in it end in `sep` and its number, those of an inner <replicate> first. Raises
+    ValueError for a count that is no positive whole number, and for too many copies.
+    """
+    inside_out = [root]
+    for element in inside_out:
+        inside_out += element
+    made = 0
+    for element in reversed(inside_out):
+        for position, each in reversed([*enumerate(element)]):
+            if each.tag == "replicate":
+                copies = _copies(each, compiler)
+                made += sum(len([*copy.iter()]) for copy in copies)
+                if made > MAX_COPIED:
+                    raise ValueError(f"{compiler.file}: its <replicate> make more than {MAX_COPIED} elements")
+                element[position : position + 1] = copies
+    return root
+
+
+def _copies(element: Element, compiler: Compiler) -> list[Element]:
+    """Make the frames that take the place of one <replicate>."""
+    where = f"{compiler.file}: <replicate>"
+    count = element.get("count", "")
+    if not count.isdigit() or not 0 < int(count) * len([*element.iter()]) <= MAX_COPIED:
+        raise ValueError(f"{where}: expected a count of 1 or more, and at most {MAX_COPIED} elements, got {count!r}")
+    angles = numbers(element.get("euler"), 3, where, (0, 0, 0)) * compiler.radians
+    offset = numbers(element.get("offset"), 3, where, (0, 0, 0))
+    place, copies = np.zeros(3), []
+    for number in range(int(count)):
+        turn = compiler.turned(number * angles)
+        frame = Element("frame", pos=_written(place), xyaxes=_written(turn[:, :2].T))
+        if said := element.get("childclass"):
+            frame.set("childclass", said)
+        frame.extend(deepcopy(each) for each in element)
+        for each in frame.iter():
+            if "name" in each.attrib:
+                each.set("name", f"{each.get('name')}{element.get('sep', '')}{number:0{len(str(int(count) - 1))}d}")
+        copies.append(frame)
+        place = place + turn @ offset
+    return copies
+
+
+def _written(values: np.ndarray) -> str:
+    return " ".join(map(repr, values.ravel().tolist()))
 
 
 class Compiler:
@@ -81,7 +134,7 @@ class Compiler:
             x, y, z, angle = numbers(said["axisangle"], 4, where)
             return rotation(direction(np.array([x, y, z]), where), angle * self.radians)
         if "euler" in said:
-            return self._euler(numbers(said["euler"], 3, where) * self.radians)
+            return self.turned(numbers(said["euler"], 3, where) * self.radians)
         if "xyaxes" in said:
             x, y = numbers(said["xyaxes"], 6, where).reshape(2, 3)
             x = direction(x, where)
@@ -91,7 +144,7 @@ class Compiler:
             return along(direction(numbers(said["zaxis"], 3, where), where))
         return np.eye(3)
 
-    def _euler(self, angles: np.ndarray) -> np.ndarray:
+    def turned(self, angles: np.ndarray) -> np.ndarray:
         """Multiply three rotations: about axes that turn along for small letters, about fixed ones for capitals."""
         turn = np.eye(3)
         for letter, angle in zip(self.sequence, angles, strict=True):

@@ -49,7 +49,7 @@ class Ties:
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
             if said.get("active", "true") == "false":
                 self.notes.append(f"{where} is not active; left out")
-            elif each.tag == "joint" or (each.tag == "tendon" and self._lengths(said)):
+            elif each.tag == "joint" or (each.tag == "tendon" and self._lengths(said, where)):
                 continue  # see `couplings`
             elif each.tag not in KINDS:
                 about = [repr(value) for key, value in each.attrib.items() if key.rstrip("12") in ("joint", "tendon")]
@@ -72,7 +72,7 @@ class Ties:
                 if name not in joints:
                     raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
             stiff = [name for name in names if joints[name].kind not in SINGLE]
-            factors = _polycoef(said)
+            factors = _polycoef(said, where)
             if len(names) < 2 or stiff or not factors[1:].any():
                 self.notes.append(
                     f"{where} of {listed(list(map(repr, names)))} is not kept: it ties no two coordinates"
@@ -88,20 +88,20 @@ class Ties:
         """Make the couplings of <tendon>: the lengths of fixed tendons are sums of joints, `y_1 - a_1 y_2 = a_0`."""
         for each in self.root.iterfind("equality/tendon"):
             said, where = self.defaults.said(each, key="equality"), f"{self.file}: {tag(each)}"
-            if said.get("active", "true") == "false" or not (lengths := self._lengths(said)):
+            if said.get("active", "true") == "false" or not (lengths := self._lengths(said, where)):
                 continue
             for name in lengths:
                 if name not in joints:
                     raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
             name = said.get("name") or f"tendon {said['tendon1']}"
-            made = relation(lengths, _polycoef(said)[0], name=name)
+            made = relation(lengths, _polycoef(said, where)[0], name=name)
             at = np.array([-joints[each].values[0] if joints[each].values else 0.0 for each in lengths])
             yield shifted_coupling(made, at)
 
-    def _lengths(self, said: Mapping[str, str]) -> dict[str, float]:
+    def _lengths(self, said: Mapping[str, str], where: str) -> dict[str, float]:
         """Read the factor of each joint in a constraint of tendons; nothing where it is not linear in two joints or
         more."""
-        factors = _polycoef(said)
+        factors = _polycoef(said, where)
         result: dict[str, float] = defaultdict(float)
         for key, by in (("tendon1", 1.0), ("tendon2", -factors[1])):
             if key in said:
@@ -109,7 +109,7 @@ class Ties:
                 if not joints or factors[2:].any():
                     return {}
                 for each in joints:
-                    result[each.get("joint", "")] += by * float(each.get("coef", "1"))
+                    result[each.get("joint", "")] += by * float(numbers(each.get("coef"), 1, f"{where}: coef", (1,))[0])
         moved = {name: factor for name, factor in result.items() if factor}
         return moved if len(moved) > 1 else {}
 
@@ -128,6 +128,8 @@ class Ties:
                 relative = numbers(said.get("relpose"), 7, where, (0, 1, 0, 0, 0, 0, 0))
                 if relative[3:].any():  # else the bodies hold each other as they are written
                     first = self.poses[one] @ placed(quaternion(relative[3:], where), relative[:3])
+        if one == other:
+            raise ValueError(f"{where}: it ties the body {one!r} to itself; give body1 and body2, or two sites")
         if kind is JointKind.SPHERICAL:  # its coordinates are zero where the file has the bodies
             first, second = placed(np.eye(3), first[:3, 3]), placed(np.eye(3), second[:3, 3])
         name = said.get("name") or f"{one}-{other}"
@@ -181,9 +183,11 @@ class Ties:
         return tuple(found)
 
 
-def _polycoef(said: Mapping[str, str]) -> np.ndarray:
-    """Read the five numbers of the polynomial of a constraint."""
-    return np.array([*map(float, (said.get("polycoef") or "0 1").split()), *[0.0] * 5][:5])
+def _polycoef(said: Mapping[str, str], where: str) -> np.ndarray:
+    """Read the five numbers of the polynomial of a constraint; zero those that are not written."""
+    text = said.get("polycoef") or "0 1"
+    found = numbers(text, min(len(text.split()), 5), f"{where}: polycoef")
+    return np.append(found, np.zeros(5 - len(found)))
 
 
 _OTHERS = ("tendon", "site", "body", "cranksite", "slidersite", "refsite")

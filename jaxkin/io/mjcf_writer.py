@@ -18,22 +18,21 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin._names import listed
-from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
-from jaxkin.io.robot_model import WORLD
+from jaxkin.io.robot_model import UNLIMITED, WORLD
+from jaxkin.io.single_motions import BALL, SLIDE, coordinate_names, coordinate_scale, single_motions
 from jaxkin.io.writable import check_writable
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.coordinates import coordinate
+from jaxkin.topology.shallow_tree import shallow_tree
 
 if TYPE_CHECKING:
     from jaxkin.geometry.part import Part
     from jaxkin.mechanism.mechanism import Mechanism
 
-UNLIMITED = 1e9
-"""Radians or metres that stand for the infinite end of a range that has a finite one; MJCF knows no infinity."""
 LARGEST_POWER = 4
 """Of the polynomials by which MuJoCo couples two joints."""
 LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
@@ -79,7 +78,7 @@ class _Writer:
         names = unique([WORLD, *others])
         self.body_names = dict(zip(others, names[1:], strict=True)) | dict.fromkeys(ground, WORLD)
         self.bodies = {WORLD: world}
-        self.joint_names = _joint_names(mechanism.all_joints)
+        self.joint_names = coordinate_names(mechanism.all_joints)
         self._write_bodies()
         self._write_couplings()
         for element in (self.equality, self.tendons, self._actuators()):
@@ -95,7 +94,8 @@ class _Writer:
             if self.body_names[part] != WORLD:
                 self._body(self.body_names[part], WORLD)
         of_tree = set()
-        for part, parent, number, sign in mechanism.structure.tree:
+        costs = [joint.freedoms for joint in mechanism.all_joints]
+        for part, parent, number, sign in shallow_tree(mechanism.structure.joint_parts, mechanism.fixed, costs):
             of_tree.add(number)
             self._chain(self._body(self.body_names[part], self.body_names[parent]), number, sign)
         for number, joint in enumerate(mechanism.all_joints):
@@ -111,34 +111,18 @@ class _Writer:
     def _chain(self, body: Element, number: int, sign: int) -> None:
         """Write the elementary motions of a joint into the body on its second part; backwards where `sign` is -1."""
         joint = self.mechanism.all_joints[number]
-        names, pitch, made = self.joint_names[number], float(joint.pitch) * self.metres, []
-        first = 0
-        for frame, key in zip(np.asarray(joint.frames_1, float), joint.movements, strict=True):
-            movement = MOVEMENTS[key]
-            place = {"pos": _text(*frame[:3, 3] * self.metres)}
-            if movement.ball:
-                made.append({"name": names[first], "type": "ball"} | place)
-            for motion in () if movement.ball else movement.elements:
-                column = first + motion.coordinate
-                name = names[column]
-                if name in [each["name"] for each in made]:  # a joint of MuJoCo has one axis
-                    name += "_again"
-                    self._polynomial(f"{joint.name} {name}", name, names[column], [1.0])
-                axis = _text(*sign * frame[:3, motion.axis])
-                slides = motion.kind == "translate"
-                made.append(
-                    {"name": name, "type": "slide" if slides else "hinge"}
-                    | ({} if slides else place)
-                    | {"axis": axis}
-                    | self._range(joint, column)
-                )
-                if motion.kind == "screw":
-                    advance = f"{names[column]}_advance"
-                    made.append({"name": advance, "type": "slide", "axis": axis})
-                    self._polynomial(f"{joint.name} pitch", advance, names[column], [pitch / (2 * np.pi)])
-            first += len(movement.coordinates)
-        for attributes in made[::sign]:
+        for each in single_motions(joint, self.joint_names[number], self.metres, sign):
+            attributes = {"name": each.name, "type": each.kind}
+            if each.kind != SLIDE:
+                attributes["pos"] = _text(*each.point)
+            if each.kind != BALL:
+                attributes["axis"] = _text(*each.axis)
+            if np.isfinite(each.limits).any():
+                attributes["range"] = _text(*np.clip(each.limits, -UNLIMITED, UNLIMITED))
             SubElement(body, "joint", attributes)
+            if each.follows is not None:
+                leader, factor = each.follows
+                self._polynomial(f"{joint.name} {each.name}", each.name, leader, [factor])
 
     def _close(self, number: int, joint: Joint) -> None:
         """Close a loop at a joint that the tree leaves out."""
@@ -170,18 +154,6 @@ class _Writer:
         SubElement(self.bodies[self.body_names[solid.name]], "geom", type="mesh", mesh=solid.name, contype="0",
                    conaffinity="0")  # fmt: skip
 
-    def _range(self, joint: Joint, column: int) -> dict[str, str]:
-        """Write the range of a coordinate, counted from the assembled pose."""
-        low, high = joint.limits[column] if joint.limits else (-np.inf, np.inf)
-        if np.isinf([low, high]).all():
-            return {}
-        scale = self._scale(joint, column)
-        return {"range": _text(*np.clip([low * scale, high * scale], -UNLIMITED, UNLIMITED))}
-
-    def _scale(self, joint: Joint, column: int) -> float:
-        """Return the metres in the unit of a coordinate that is a length, 1 for an angle."""
-        return self.metres if is_length(joint.coordinates[column]) else 1.0
-
     def _polynomial(self, name: str, follower: str, leader: str, factors: Sequence[float], constant: float = 0) -> None:
         """Couple two joints: follower = constant + factors[0] leader + factors[1] leader^2 + ..."""
         written = [constant, *factors, *[0.0] * LARGEST_POWER][: LARGEST_POWER + 1]
@@ -191,7 +163,9 @@ class _Writer:
         for coupling in self.mechanism.linkage.couplings:
             places = [coordinate(self.mechanism.linkage, name) for name in coupling.coordinates]
             names = [self.joint_names[joint][column] for joint, column in places]
-            scales = [self._scale(self.mechanism.all_joints[joint], column) for joint, column in places]
+            scales = [
+                coordinate_scale(self.mechanism.all_joints[joint], column, self.metres) for joint, column in places
+            ]
             self._coupling(coupling, names, np.array(scales))
 
     def _coupling(self, coupling: Coupling, names: Sequence[str], scales: np.ndarray) -> None:
@@ -222,25 +196,6 @@ class _Writer:
             joint, column = coordinate(self.mechanism.linkage, motor)
             SubElement(actuators, "motor", name=motor, joint=self.joint_names[joint][column])
         return actuators
-
-
-def _joint_names(joints: Sequence[Joint]) -> list[list[str]]:
-    """Make a name for each coordinate: that of the joint, followed by that of the coordinate if there are several.
-
-    The angles of a ball have one name together, since a ball is one joint.
-    """
-    result: list[list[str]] = []
-    taken: list[str] = []
-    for joint in joints:
-        together = joint.driven_together
-        own: list[str] = []
-        for columns in together:
-            coordinate = "ball" if len(columns) > 1 else joint.coordinates[min(columns)]
-            name = joint.name if len(together) == 1 else f"{joint.name}_{coordinate}"
-            taken = unique([*taken, name])
-            own += [taken[-1]] * len(columns)
-        result.append(own)
-    return result
 
 
 def _text(*numbers: float) -> str:

@@ -14,7 +14,10 @@ from typing import NamedTuple
 from jaxkin.io.yaml_subset import Value, read_yaml
 from jaxkin.joints.kinds import JointKind
 
-RETYPED = {"spherical": JointKind.SPHERICAL, "cardan": JointKind.UNIVERSAL, "fixed": JointKind.FIXED}
+SPHERICAL = "SPHERICAL"
+"""Entry of `joint_type` of a ball."""
+
+RETYPED = {SPHERICAL.lower(): JointKind.SPHERICAL, "cardan": JointKind.UNIVERSAL, "fixed": JointKind.FIXED}
 """Entries of `joint_type` in small letters -> kind."""
 
 LOOPS = {"6d": JointKind.FIXED, "3d": JointKind.SPHERICAL}

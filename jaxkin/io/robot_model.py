@@ -19,6 +19,9 @@ from jaxkin.joints.kinds import JointKind
 WORLD = "world"
 """Name of the part that stands for the ground, in the formats that have such a name."""
 
+UNLIMITED = 1e9
+"""Radians or metres from which on the end of a range is none: formats that know no infinity write such numbers."""
+
 
 @dataclass(frozen=True, eq=False)
 class Shape:
@@ -109,6 +112,12 @@ def limit(text: str | None, where: str, none: float) -> float:
     if np.isnan(found):
         raise ValueError(f"{where}: expected a number, got {text!r}")
     return found
+
+
+def limits_between(low: float, high: float) -> Limits:
+    """Make the limits of one coordinate; none where neither end is below `UNLIMITED`."""
+    low, high = (-np.inf if low <= -UNLIMITED else low), (np.inf if high >= UNLIMITED else high)
+    return ((low, high),) if np.isfinite([low, high]).any() else ()
 
 
 def direction(vector: np.ndarray, where: str) -> np.ndarray:

@@ -7,13 +7,15 @@ all who watch it be gone or stopped, by itself.
 
 from __future__ import annotations
 
+import math
 import os
+import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-from jaxkin.io.time_limit import TimeLimit
+from jaxkin.io.time_limit import PATIENCE, TimeLimit
 
 _SAID = 100_000
 """Characters that are kept of what a reader says."""
@@ -25,17 +27,23 @@ _LONGER = 5.0
 # needs no lock of Python, which native code that does not return keeps for ever.
 _BOUNDED = """
 import faulthandler, os, runpy, sys
-seconds, memory = float(sys.argv.pop(1)), int(sys.argv.pop(1))
+seconds, processor, memory = float(sys.argv.pop(1)), int(sys.argv.pop(1)), int(sys.argv.pop(1))
 sys.argv.pop(0)
 nowhere = open(os.devnull, "w")
 faulthandler.dump_traceback_later(seconds, exit=True, file=nowhere)
 try:
     import resource
     resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_CPU, (processor, processor + 5))
 except (ImportError, ValueError):  # not on every system
     pass
 runpy.run_path(sys.argv[0], run_name="__main__")
 """
+
+_OVERTIME = -getattr(signal, "SIGXCPU", 0) & 255 or None
+"""Exit status, as the guardian gives it, of a reader that took more of the processor than it may; None where systems
+have no such limit, and the clock alone counts."""
 
 _GUARDIAN = Path(__file__).with_name("guardian.py")
 
@@ -44,11 +52,13 @@ def run_apart(worker: str, *arguments: object, folder: str, limit: TimeLimit, me
     """Run a file of this package as a program with arguments; its exit status and what it said, output and errors.
 
     `folder` has the files that it makes, and is removed where this process is killed before it can do so. `memory`
-    bounds its address space, in bytes. Raises ValueError where the reader is not done within the limit.
+    bounds its address space, in bytes. Raises ValueError where the reader takes more of the processor than the limit
+    allows, or `PATIENCE` times as much of the clock.
     """
-    seconds = limit.remaining()
+    processor = limit.remaining()
+    seconds = PATIENCE * processor
     program = Path(__file__).with_name(worker)
-    bounds = [str(seconds + _LONGER), str(memory)]
+    bounds = [str(seconds + _LONGER), str(math.ceil(processor)), str(memory)]
     reader = [sys.executable, "-P", "-c", _BOUNDED, *bounds, str(program), *map(str, arguments)]
     command = [sys.executable, "-I", "-S", str(_GUARDIAN), folder, *reader]
     # threads of numpy take address space and are not used; each arena of malloc takes 64 MB of it
@@ -62,5 +72,7 @@ def run_apart(worker: str, *arguments: object, folder: str, limit: TimeLimit, me
             finally:  # by leaving: closes its standard input, at which it ends the reader, and waits for it
                 if guardian.stdin is not None:
                     guardian.stdin.close()
+        if status == _OVERTIME:
+            raise limit.exceeded()
         said.seek(0)
         return status, said.read(_SAID)

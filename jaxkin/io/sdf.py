@@ -19,6 +19,7 @@ from jaxkin.io.robot_model import (
     along,
     direction,
     limit,
+    limits_between,
     numbers,
     placed,
     tag,
@@ -39,9 +40,6 @@ KINDS = {
 
 RELATIONS = ("gearbox",)
 """Types of SDF that relate two joints and join nothing."""
-
-NO_LIMIT = 1e15
-"""Limits from here on are none: SDF writes 1e16 for infinity."""
 
 SQUARE = 1e-6
 """Cosine between the axes of a universal joint up to which they are perpendicular: six digits."""
@@ -238,10 +236,9 @@ class _Reader:
             limit(None if axis is None else axis.findtext(f"limit/{side}"), f"{where}: limit", none)
             for side, none in (("lower", -np.inf), ("upper", np.inf))
         )
-        low, high = (-np.inf if low < -NO_LIMIT else low), (np.inf if high > NO_LIMIT else high)
         if low > high:
             self.notes.append(f"{where}: its lower limit {low:g} is above the upper one {high:g}; left out")
-        return ((low, high),) if low <= high and np.isfinite([low, high]).any() else ()
+        return limits_between(low, high) if low <= high else ()
 
     def _pitch(self, each: Element, where: str) -> float:
         """Read the pitch, metres a turn. The older <thread_pitch> is radians a metre, positive if left-handed."""

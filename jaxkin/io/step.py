@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,12 +13,12 @@ import numpy as np
 from jaxkin._files import check_file
 from jaxkin.geometry.part import Part
 from jaxkin.io.names import cleaned, is_damaged, unique
-from jaxkin.io.step_check import missing
+from jaxkin.io.step_check import far_away, missing
 from jaxkin.io.step_colors import one_color_each
 from jaxkin.io.step_convert import convert
 from jaxkin.io.step_glb import Instance, instances
 from jaxkin.io.step_solid import Solid, make_solid
-from jaxkin.io.step_tree import placed_parts
+from jaxkin.io.step_tree import nameless_occurrences, placed_parts
 from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
@@ -56,8 +56,8 @@ def read_step(
     unit_name, metres = length_unit(text, path.name)
     off = uncertainty(text)
     placed = placed_parts(text, path.name)
-    found, defects = _instances(one_color_each(text).encode("latin-1"), limit)
-    defects += missing(text, placed, found)
+    found, defects = _instances(one_color_each(text).encode("latin-1"), nameless_occurrences(text), limit)
+    defects += missing(text, placed, found) + far_away(found)
     names = unique(_name(instance, number) for number, instance in enumerate(found, start=1))
     solids: dict[bytes, Solid] = {}  # many instances are of one
     parts = []
@@ -83,12 +83,12 @@ def read_step(
     return tuple(parts), unit_name
 
 
-def _instances(data: bytes, limit: TimeLimit) -> tuple[list[Instance], list[str]]:
+def _instances(data: bytes, products: Mapping[str, str], limit: TimeLimit) -> tuple[list[Instance], list[str]]:
     """Read the solids of a file as placed meshes, one at least, and what is said about its damages."""
     glb, damages = convert(data, limit)
-    found = list(instances(glb))
+    found = list(instances(glb, products))
     if not all(instance.complete for instance in found):  # of a product some is coloured, and some is not
-        plain = list(instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0]))
+        plain = list(instances(convert(data.replace(b"STYLED_ITEM", b"UNSTYLED_ITEM"), limit)[0], products))
         colors = [it.color for it in found] if len(plain) == len(found) else [None] * len(plain)
         found = [replace(bare, color=color) for bare, color in zip(plain, colors, strict=True)]
     if not found:

@@ -17,6 +17,13 @@ from jaxkin.io.step_side import Triangles, areas
 _CUT_SAMPLES = 24
 """Triangles of a part at which it is looked whether it cuts itself."""
 
+MAX_FAR = 2e4
+"""Distance of a part from an origin over its size up to which single precision leaves its place right to a thousandth
+of its size. Small screws of an aileron are 6e2 of their size away."""
+
+_SINGLE = 6e-8
+"""Rounding of single precision, relative."""
+
 _OUTER = re.compile(r"\b(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*'(?:[^']|'')*'\s*,\s*#(\d+)")
 
 _SHELL = re.compile(r"#(\d+)\s*=\s*CLOSED_SHELL\s*\(\s*'(?:[^']|'')*'\s*,\s*\(([^()]*)\)")
@@ -51,6 +58,28 @@ def unsound(triangles: Triangles, tolerance: float) -> list[Defect]:
         what = "it cuts itself, or bodies touch or overlap in it"
         return [Defect(what, place, "unite them if they move apart", False)]
     return []
+
+
+def far_away(found: Sequence[Instance]) -> list[str]:
+    """Find parts so far from an origin that single precision, in which they are read, leaves too few digits of them.
+
+    Corners are from the origin of their part, places from that of the assembly; lengths in metres.
+    """
+    worst, least = None, 0.0
+    for instance in found:
+        corners = instance.mesh.triangles.reshape(-1, 3)
+        if len(corners):
+            size = float(np.linalg.norm(np.ptp(corners, axis=0))) or np.finfo(float).tiny
+            far = max(float(np.abs(corners).max()), float(np.abs(instance.pose[:3, 3]).max()))
+            if far / size > max(least, MAX_FAR):
+                worst, least = instance, far / size
+    if worst is None:
+        return []
+    name = next(filter(None, worst.names), "without a name")
+    return [
+        f"the part {name!r} is {least:.2g} times its size from the origin, so that its place is right to "
+        f"{least * _SINGLE:.1g} of its size only: export it nearer to the origin"
+    ]
 
 
 def missing(text: str, placed: int, found: Sequence[Instance]) -> list[str]:

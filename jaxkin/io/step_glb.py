@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
@@ -60,20 +60,23 @@ class Instance:
     """False where triangles are missing: cascadio names the faces of the first colour of a mesh only."""
 
 
-def instances(glb: bytes) -> Iterator[Instance]:
-    """List all placed meshes that have triangles, in the order of the file."""
+def instances(glb: bytes, products: Mapping[str, str] | None = None) -> Iterator[Instance]:
+    """List all placed meshes that have triangles, in the order of the file.
+
+    `products` are the names of sub-assemblies by what the reader calls them where they have none of their own.
+    """
     length = int.from_bytes(glb[12:16], "little")
     tree, binary = json.loads(glb[20 : 20 + length]), glb[28 + length :]
     roots = tree["scenes"][tree.get("scene", 0)].get("nodes", [])
     read: dict[str, Mesh] = {}  # by the arrays, which all instances of a product name
-    todo = [(node, np.eye(4), (), inner) for node, inner in reversed(_inside(tree, roots, ()))]
+    todo = [(node, np.eye(4), (), inner) for node, inner in reversed(_inside(tree, roots, (), products or {}))]
     if len(roots) == 1:  # the assembly of the file, whose name tells no part from another
         todo = [(roots[0], np.eye(4), (), ())]
     while todo:
         index, above, path, inner = todo.pop()
         node = tree["nodes"][index]
         pose = above @ _rigid(node)
-        below = _inside(tree, node.get("children", []), inner)
+        below = _inside(tree, node.get("children", []), inner, products or {})
         todo += [(child, pose, inner, deeper) for child, deeper in reversed(below)]
         mesh: dict[str, Any] = tree["meshes"][node["mesh"]] if "mesh" in node else {"primitives": []}
         primitives = [primitive for primitive in mesh["primitives"] if primitive.get("mode", 4) == 4]
@@ -85,9 +88,12 @@ def instances(glb: bytes) -> Iterator[Instance]:
             yield Instance(names, path, pose, read[arrays], *_color(tree, primitives))
 
 
-def _inside(tree: dict[str, Any], nodes: list[int], path: tuple[str, ...]) -> list[tuple[int, tuple[str, ...]]]:
+def _inside(
+    tree: dict[str, Any], nodes: list[int], path: tuple[str, ...], products: Mapping[str, str]
+) -> list[tuple[int, tuple[str, ...]]]:
     """Each of some nodes side by side, and the path of what is in it: names that come again are numbered."""
-    names = unique(cleaned(tree["nodes"][node].get("name", "")) or "assembly" for node in nodes)
+    given = [tree["nodes"][node].get("name", "") for node in nodes]
+    names = unique(cleaned(products.get(name, name)) or "assembly" for name in given)
     return [(node, (*path, name)) for node, name in zip(nodes, names, strict=True)]
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from jaxtyping import Int
 
-from jaxkin.geometry.fit import fit_surface, flipped, rounding
+from jaxkin.geometry.fit import fit_surface, fit_torus, flipped, rounding
+from jaxkin.geometry.fit_together import Piece, fit_together
 from jaxkin.geometry.merge import merge_faces
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Points, Pose, apply, unit
@@ -34,6 +36,9 @@ _SPLINE_ANGLE = 1e-3
 
 Normals are float32, which takes exact conversions to 3e-4; free forms whose corners lie on a cylinder by chance were
 met with 2.6e-3."""
+
+_OTHERS = ("torus",)
+"""Kinds that the reader of STEP files names, and that are none of the four: nothing is fitted to these."""
 
 Rows = Int[np.ndarray, "rows"]
 
@@ -64,19 +69,15 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
     tolerance = rounding(triangles)
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) if len(triangles) else 0.0
     faces, notes, damages, repaired = [], [], [], False
-    for index, described in enumerate(mesh.faces):
-        label, rows = f"face {index + 1}", np.flatnonzero(mesh.face_of == index)
+    rows_of = [np.flatnonzero(mesh.face_of == index) for index in range(len(mesh.faces))]
+    surfaces = _surfaces(mesh, triangles, rows_of, metres, tolerance)
+    for index, (described, rows, surface) in enumerate(zip(mesh.faces, rows_of, surfaces, strict=True)):
+        label = f"face {index + 1}"
         if len(rows) == 0:
             damages.append(f"{label}: it came without triangles, so where it ends is not known: left out")
             continue
-        corners, normals = triangles[rows].reshape(-1, 3), mesh.normals[rows].reshape(-1, 3)
-        surface = _analytic(described, corners, metres)
         if surface is None:
-            extent = float(np.linalg.norm(np.ptp(corners, axis=0)))
-            within = max(tolerance, _SPLINE_ACCURACY * extent)
-            surface = fit_surface(corners, normals, within, _SPLINE_ANGLE, thorough=True)
-        if surface is None:
-            kind = described["type"] if described else "freeform surface"
+            kind = described["type"] if described else _unnamed(triangles[rows], mesh.normals[rows], tolerance)
             notes.append(f"{label}: {kind}, not one of the four surfaces")
             continue
         surface, corners, note = _oriented(surface, triangles, rows)
@@ -91,6 +92,33 @@ def make_solid(mesh: Mesh, metres: float, uncertainty: float = 0.0) -> Solid:
         faces.append(Face(label, surface, corners))
     defects = [] if repaired or not len(triangles) else unsound(triangles, tolerance)
     return Solid(merge_faces(faces, tolerance), triangles, tuple(notes), tuple(damages), tuple(defects))
+
+
+def _surfaces(
+    mesh: Mesh, triangles: Triangles, rows_of: Sequence[Rows], metres: float, tolerance: float
+) -> list[Surface | None]:
+    """Find the surface of each face: as the file says it, or fitted to a spline; None where it is none of the four."""
+    found: list[Surface | None] = [None] * len(rows_of)
+    fitted: dict[int, Piece] = {}
+    for index, (described, rows) in enumerate(zip(mesh.faces, rows_of, strict=True)):
+        if len(rows) == 0:
+            continue
+        corners, normals = triangles[rows].reshape(-1, 3), mesh.normals[rows].reshape(-1, 3)
+        found[index] = _analytic(described, corners, metres)
+        if found[index] is None and (described is None or described["type"] not in _OTHERS):
+            within = max(tolerance, _SPLINE_ACCURACY * float(np.linalg.norm(np.ptp(corners, axis=0))))
+            surface = fit_surface(corners, normals, within, _SPLINE_ANGLE, thorough=True)
+            fitted[index] = Piece(corners, normals, surface)
+    together = fit_together([*fitted.values()], tolerance, _SPLINE_ACCURACY, _SPLINE_ANGLE)
+    for index, surface in zip(fitted, together, strict=True):
+        found[index] = surface
+    return found
+
+
+def _unnamed(triangles: Triangles, normals: Triangles, tolerance: float) -> str:
+    """Name the surface of a spline that is none of the four: a fillet, a race or a seal is a torus."""
+    torus = fit_torus(triangles.reshape(-1, 3), normals.reshape(-1, 3), tolerance)
+    return "freeform surface" if torus is None else torus.kind
 
 
 def _analytic(described: dict[str, Any] | None, corners: Points, metres: float) -> Surface | None:

@@ -1,4 +1,7 @@
-"""How many parts a STEP file asks for, before they are made: a few lines of nested assemblies ask for billions."""
+"""What the text of a STEP file says of its assemblies: how many parts they place, and what sub-assemblies are called.
+
+The parts are counted before they are made: a few lines of nested assemblies ask for billions.
+"""
 
 from __future__ import annotations
 
@@ -30,3 +33,39 @@ def placed_parts(text: str, name: str) -> int:
     if (parts := sum(times[each] for each in tree if tree.out_degree(each) == 0)) > MAX_STEP_PARTS:
         raise ValueError(f"{name} holds more than {MAX_STEP_PARTS} parts: export it part by part")
     return parts
+
+
+_STRING = r"\s*'((?:[^']|'')*)'\s*"
+_REFERENCE = r"\s*#(\d+)\s*"
+_OCCURRENCE = re.compile(rf"NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\({_STRING},{_STRING},[^#]*#\d+\s*,{_REFERENCE},")
+_STATEMENT = re.compile(
+    rf"#(\d+)\s*=\s*(PRODUCT_DEFINITION_FORMATION\w*|PRODUCT_DEFINITION|PRODUCT)\s*\({_STRING},(?:{_STRING}|\s*\$\s*),"
+    rf"(?:{_REFERENCE})?"
+)
+
+
+def nameless_occurrences(text: str) -> dict[str, str]:
+    """Find the names of the products of those occurrences that have an identifier only, such as "NAUO3", by this.
+
+    Readers call an occurrence without a name by its identifier, which tells a user nothing. Names in the encodings of
+    STEP, and identifiers that mean different products, are left out.
+    """
+    above: dict[str, str] = {}  # what a product definition, or its formation, is of
+    names: dict[str, str] = {}  # of products, by their numbers
+    occurrences: dict[str, set[str]] = {}
+    for statement in text.split(";"):
+        if "PRODUCT" in statement and (found := _STATEMENT.search(statement)):
+            number, kind, identifier, name, of = found.groups()
+            if kind == "PRODUCT":
+                names[number] = name or identifier
+            elif of:
+                above[number] = of
+        elif "NEXT_ASSEMBLY_USAGE_OCCURRENCE" in statement and (found := _OCCURRENCE.search(statement)):
+            identifier, name, of = found.groups()
+            if name.strip() in ("", identifier):
+                occurrences.setdefault(identifier, set()).add(of)
+    products = {
+        each: {names.get(above.get(above.get(of, ""), ""), "") for of in ofs} for each, ofs in occurrences.items()
+    }
+    single = {identifier: next(iter(found)) for identifier, found in products.items() if len(found) == 1}
+    return {identifier: name for identifier, name in single.items() if name.strip() and "\\" not in name}

@@ -19,6 +19,7 @@ from jaxkin.io.robot_model import (
     along,
     direction,
     limit,
+    limits_between,
     numbers,
     placed,
     roll_pitch_yaw,
@@ -186,7 +187,7 @@ class _Reader:
         low, high = (limit(found.get(side), f"{where}: limit", 0.0) for side in ("lower", "upper"))
         if low > high:
             self.notes.append(f"{where}: its lower limit {low:g} is above the upper one {high:g}; left out")
-        return ((low, high),) if low <= high else ()
+        return limits_between(low, high) if low <= high else ()
 
     def _shapes(self, link: Element) -> tuple[Shape, ...]:
         """Read what is seen of a link; where that is nothing, what it collides with."""

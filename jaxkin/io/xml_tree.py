@@ -21,7 +21,7 @@ def read_xml(path: Path) -> Element:
     Raises FileNotFoundError where there is no file, and ValueError, in one line, where the file is larger or deeper
     than the bounds, declares a document type (the only place of entities), or is damaged.
     """
-    if (size := check_file(path, "XML file")) > MOST_BYTES:
+    if (size := check_file(path, "file in XML")) > MOST_BYTES:
         raise ValueError(f"{path.name}: {size} bytes of XML; at most {MOST_BYTES} are read")
     builder, depth = TreeBuilder(), 0
     parser = expat.ParserCreate()

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import MOVEMENTS, displaced_columns
-from jaxkin.geometry.pose import Pose, inverse, rotation
+from jaxkin.geometry.pose import Pose, cross, inverse, skew
 from jaxkin.joints.joint import Joint
 
 DEPENDENT = 1e-9
@@ -44,16 +44,16 @@ def chain(
         pose = pose @ frame
         for element in MOVEMENTS[movement].elements:
             k = first + element.coordinate
-            axis, step = pose[:3, element.axis], np.eye(4)
+            axis, advance, turn = pose[:3, element.axis].copy(), None, None
             if element.kind != "translate":
                 screws[:3, k] += axis
-                screws[3:, k] += np.cross(pose[:3, 3], axis)
-                step[:3, :3] = rotation(np.eye(3)[element.axis], q[k])
+                screws[3:, k] += cross(pose[:3, 3], axis)
+                turn = np.cos(q[k]), np.sin(q[k])
             if element.kind != "rotate":
-                advance = 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
-                screws[3:, k] += advance * axis
-                step[element.axis, 3] = advance * q[k]
-            pose = pose @ step
+                rate = 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
+                screws[3:, k] += rate * axis
+                advance = rate * q[k]
+            pose[:3] = np.stack(displaced_columns([*pose[:3].T], element.axis, advance, turn), axis=1)
         pose = pose @ inverse(leave)
         first += len(MOVEMENTS[movement].coordinates)
     return pose, screws
@@ -94,8 +94,10 @@ def complement(screws: Screws) -> Float[np.ndarray, "constraints 6"]:
 
 def moved(pose: Pose, screws: Screws) -> Screws:
     """Displace screws together with the body that they belong to."""
-    rotated = pose[:3, :3] @ screws[:3]
-    return np.concatenate([rotated, pose[:3, :3] @ screws[3:] + np.cross(pose[:3, 3], rotated, axisb=0, axisc=0)])
+    adjoint = np.zeros((6, 6))
+    adjoint[:3, :3] = adjoint[3:, 3:] = pose[:3, :3]
+    adjoint[3:, :3] = skew(pose[:3, 3]) @ pose[:3, :3]
+    return adjoint @ screws
 
 
 def freedoms(movements: Sequence[str]) -> int:

@@ -72,8 +72,8 @@ def sweep(
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
     known = tolerance is None or not traced(tolerance)
-    asked = _closure_tolerance(options.tolerance if known else tolerance)
-    _warn_of_float32()
+    asked = closure_tolerance(options.tolerance if known else tolerance)
+    warn_of_float32()
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
@@ -87,7 +87,7 @@ def sweep(
             element.system,
             options,
             element.joints,
-            _padded([followed[i] for i in element.inputs]),
+            padded([followed[i] for i in element.inputs]),
             asked,
             element.axes,
             element.line,
@@ -129,7 +129,7 @@ def _of_least_residual(
     return every, found
 
 
-def _closure_tolerance(asked: Any) -> ClosureTolerance:
+def closure_tolerance(asked: Any) -> ClosureTolerance:
     """Make the tolerance of a number, known or traced, or for None that of the floating-point precision."""
     dtype = dtypes.canonicalize_dtype(float)
     if asked is None or isinstance(asked, float):
@@ -149,7 +149,7 @@ def _known_tolerance(asked: float | None, dtype: np.dtype) -> ClosureTolerance:
 _collect = jax.jit(collect, static_argnums=0)
 
 
-def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
+def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     """Repeat the last pose up to one of few lengths, so that ranges of similar length share a compiled program.
 
     Lengths are powers of two from 32 to 256 poses, above that multiples of an eighth of one, above 32768 of a 32nd.
@@ -174,7 +174,7 @@ def _padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
 _warned = False
 
 
-def _warn_of_float32() -> None:
+def warn_of_float32() -> None:
     global _warned  # noqa: PLW0603
     if _warned or dtypes.canonicalize_dtype(float) == jnp.float64:
         return

@@ -125,7 +125,7 @@ function choose() {
   const [kind, key] = address(), every = Object.hasOwn(ENTRIES, kind) ? ENTRIES[kind] : [];
   const entry = every.find(each => each.key === key) ?? every[Number(key) - 1];
   const shown = new Set(entry?.parts ?? []), around = new Set((entry?.parts ?? []).flatMap(i => bodyOf(i).parts));
-  parts.forEach((part, i) => { part.alpha = !entry || shown.has(i) ? 1 : around.has(i) ? BESIDE : GHOST; });
+  parts.forEach((part, i) => { part.alpha = !shown.size || shown.has(i) ? 1 : around.has(i) ? BESIDE : GHOST; });
   paths.forEach((path, i) => { path.shown = !!entry && entry.joints.includes(movable[i]); });
   if (entry) card(kind, entry);
   else $("chosen").replaceChildren(make("p", "Click on a part, or on a row of the lists."));

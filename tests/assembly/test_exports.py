@@ -114,13 +114,13 @@ def test_contacts_are_looked_at_where_they_are_asked_for(lift_table_of_solids):
 def test_what_is_not_understood_is_named_and_the_rest_moves(tmp_path):
     tree = instance("base", grounded="true") + instance("wheel") + instance("pinion", (0.1, 0, 0))
     joints = joint("Revolute", "axle", "base", "wheel", (0, 0, 0)) + joint(
-        "Gimbal", "odd", "wheel", "pinion", (0, 0, 0)
+        "Telescoping", "odd", "wheel", "pinion", (0, 0, 0)
     )
     gear = mate("Gear", "teeth", ("wheel", "line", (0, 0, 0), Z), ("pinion", "line", (0, 0, 0), Z))
     curve = mate("Coincident", "spline", ("wheel", "curve", (0, 0, 0), Z), ("pinion", "line", (0, 0, 0), Z))
     mechanism = load(tmp_path, tree, joints, gear + curve).mechanism()
     assert np.all(mechanism.sweep({"axle": np.linspace(0, 6, 7)}).closed)
-    for said in ("Gimbal 'odd'", "Gear 'teeth' of a line and a line", "Coincident 'spline' of a curve and a line"):
+    for said in ("Telescoping 'odd'", "Gear 'teeth' of a line and a line", "Coincident 'spline' of a curve and a line"):
         assert any(said in note and "left out" in note for note in mechanism.notes)
     assert any("'pinion' is tied to nothing" in note for note in mechanism.notes)
 
@@ -215,3 +215,38 @@ def test_solids_in_several_units_are_converted_and_solids_of_one_instance_are_on
     np.testing.assert_allclose(np.ptp(pin.box, axis=0), 1000 * np.ptp(metres.box, axis=0), rtol=1e-6)
     for face in pin.faces:  # the surfaces are scaled with their triangles
         assert np.abs(face.surface.distance(face.triangles.reshape(-1, 3))).max() < 1e-3
+
+
+KINDS = [
+    ("Weld", 0), ("Revolute", 1), ("Prismatic", 1), ("Cylindrical", 2), ("Planar", 3), ("Spherical", 3),
+    ("Ball", 3), ("Gimbal", 3), ("PinSlot", 2),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("kind", "freedoms"), KINDS)
+def test_each_kind_of_joint_leaves_its_freedoms(tmp_path, kind, freedoms):
+    tree = instance("base", grounded="true") + instance("arm")
+    mechanism = load(tmp_path, tree, joint(kind, "j", "base", "arm", (0.1, 0.2, 0.3))).mechanism()
+    assert mechanism.mobility().freedoms == freedoms
+    assert not any("left out" in note for note in mechanism.notes)
+
+
+def test_a_universal_joint_turns_about_x_of_its_base_and_y_of_its_follower(tmp_path):
+    tree = instance("base", grounded="true") + instance("shaft")
+    mechanism = load(tmp_path, tree, joint("Universal", "cross", "base", "shaft", (0, 0, 0))).mechanism()
+    for coordinate, axis in (("phi", (1, 0, 0)), ("theta", (0, 1, 0))):
+        turned = mechanism.sweep(
+            {"cross.phi": np.zeros(2), "cross.theta": np.zeros(2)} | {f"cross.{coordinate}": np.array([0, 0.3])}
+        )
+        rotation = np.asarray(turned.transforms["shaft"])[1, :3, :3]
+        np.testing.assert_allclose(rotation @ axis, axis, atol=1e-12)  # a rotation keeps its axis
+        assert np.trace(rotation) == pytest.approx(1 + 2 * np.cos(0.3))
+
+
+@pytest.mark.parametrize("kind", ["Cartesian", "Rectangular", "Bearing", "LeadScrew", "Bushing", "6-DOF"])
+def test_kinds_that_are_no_joints_here_are_named(tmp_path, kind):
+    tree = instance("base", grounded="true") + instance("arm", (0.1, 0, 0))
+    tag = kind.replace("6-", "Six")  # no tag of XML begins with a digit
+    mechanism = load(tmp_path, tree, joint(tag, "odd", "base", "arm", (0, 0, 0))).mechanism()
+    assert any(f"{tag} 'odd'" in note and "left out" in note for note in mechanism.notes)
+    assert any("'arm' is tied to nothing" in note for note in mechanism.notes)

@@ -58,11 +58,11 @@ def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
     source, old, new = ENDLESS[name]
     file = damaged(tmp_path, DATA / source, old, new)
     begin = time.monotonic()
-    late = r"\(0\.0\d+ MB\) was not read within 0\.8 seconds: .*with seconds=4 in load or load_study$"
+    late = r"\(0\.0\d+ MB\) was not read within 0\.8 seconds of a processor, .* or with --seconds 4$"
     # a kernel that fills its memory sooner than its time has crashed
     with pytest.raises(ValueError, match=rf"^bad\.step ?(: the reader of STEP files crashed .* 4 GB of memory|{late})"):
         load(file, seconds=0.8)
-    assert time.monotonic() - begin < 10.0  # the machine may be busy
+    assert time.monotonic() - begin < 20.0  # 8 s on a machine that is as busy as it may be, and to start
     assert capfd.readouterr() == ("", "")
     assert list(tmp_path.iterdir()) == [file]
 
@@ -121,6 +121,19 @@ def test_the_time_allowed_grows_with_the_file(tmp_path):
         assert TimeLimit.start(file).seconds == pytest.approx(seconds)
         assert TimeLimit.start(file).remaining() == pytest.approx(seconds, abs=1.0)
     assert TimeLimit.start(file, 3).seconds == 3.0
+
+
+def test_other_programs_do_not_shorten_the_time(tmp_path, monkeypatch):
+    """Of what the clock says only work counts: a file is read while it stands still for longer than is allowed."""
+    begin = time.monotonic()
+    limit = TimeLimit.start(path("cam"), 0.3)
+    time.sleep(0.4)
+    assert time.monotonic() - begin > 0.3 and limit.remaining() > 0.2
+    work = time.thread_time()
+    while time.thread_time() - work < 0.31:
+        pass
+    with pytest.raises(ValueError, match=r"cam\.step .* was not read within 0\.3 seconds of a processor, or 3 in all"):
+        limit.remaining()
 
 
 @pytest.mark.parametrize("seconds", [0, -1.0, math.nan, math.inf, "60", True])

@@ -4,6 +4,7 @@ The STL files are tessellations of the STEP files, one of all parts, with float3
 is a connected body, in the order of the parts.
 """
 
+import lzma
 from collections import Counter
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +20,7 @@ from jaxkin.io.mesh import read_mesh
 from tessellation import tessellated, write_stl
 
 CONTACT_STATES = Path(__file__).parents[1] / "contacts" / "data" / "states.step"
+LIFT_TABLE = Path(__file__).parents[1] / "assembly" / "data" / "lift_table.step.xz"
 ANGLES = {"fourbar": 0.2, "slider_crank": 0.3, "cam": 0.1, "eighteen_bars": 0.35, "air_cylinder": 0.25}
 
 
@@ -61,6 +63,25 @@ def test_the_same_joints_and_the_same_motion(name, tmp_path):
             corners @ T[:, :3, :3].mT + T[:, None, :3, 3] for T in map(np.asarray, (motion.transforms[part], pose))
         )
         np.testing.assert_allclose(moved, there, atol=1e-5 * length, err_msg=part)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("angle", [0.2, 0.35])
+def test_a_machine_that_others_drew_has_the_same_joints_from_one_stl_file_a_part(angle, tmp_path):
+    """The lift table: pins with play, enclosed pins and equal bores have to be inferred from triangles alike."""
+    file = tmp_path / "lift_table.step"
+    file.write_bytes(lzma.decompress(LIFT_TABLE.read_bytes()))
+    step = jk.load(file)
+    files = {}
+    for number, part in enumerate(tessellated(file, angle)):
+        files[part.name] = write_stl(tmp_path / f"{number}.stl", part.triangles)
+    fixed = ["Base*", "CylBracket*"]
+    found, wanted = (each.mechanism(fixed=fixed) for each in (jk.load(files, unit=step.unit), step))
+    assert found.bodies == wanted.bodies
+    assert [(joint.parts, joint.kind) for joint in found.all_joints] == [
+        (joint.parts, joint.kind) for joint in wanted.all_joints
+    ]
+    assert found.mobility().useful == wanted.mobility().useful == 1
 
 
 @pytest.mark.long

@@ -48,7 +48,10 @@ def test_a_ring_with_faces_tessellated_apart_keeps_its_faces(chords, turn, tmp_p
 def test_a_ring_without_a_flat_face_is_refused(tmp_path):
     """Two rims 10 apart in one plane are a hole, however long they are."""
     triangles = ring(48, 48)
-    with pytest.raises(ValueError, match=r"is not closed.*the first near"):
+    with pytest.raises(
+        ValueError,
+        match=r"not closed.* are 2 holes, the largest near \(.*, 113 across with 48 edges; near \(.*, 84.9 across with",
+    ):
         load({"ring": write_stl(tmp_path / "ring.stl", triangles[: -2 * 48])})
 
 
@@ -68,3 +71,59 @@ def test_corners_in_the_middle_of_edges_and_slivers_do_no_harm(tmp_path):
     split = np.concatenate([triangles[1:], [[a, middle, c], [middle, b, c]]])
     (part,) = load({"ring": write_stl(tmp_path / "ring.stl", split)}).parts
     assert len([face for face in part.faces if face.surface.kind == "cylinder"]) == 2
+
+
+def zipped(outer, inner):
+    """Triangles between two closed polygons about z with any numbers of corners, facing up."""
+    angles = [np.unwrap(np.arctan2(points[:, 1], points[:, 0])) for points in (outer, inner)]
+    angles = [np.append(each, each[0] + 2 * np.pi) for each in angles]
+    triangles, i, j = [], 0, 0
+    while i < len(outer) or j < len(inner):
+        a, b = outer[i % len(outer)], inner[j % len(inner)]
+        if j == len(inner) or (i < len(outer) and angles[0][i + 1] <= angles[1][j + 1]):
+            triangles.append([a, outer[(i + 1) % len(outer)], b])
+            i += 1
+        else:
+            triangles.append([a, inner[(j + 1) % len(inner)], b])
+            j += 1
+    return np.array(triangles)
+
+
+def prism(profile, height, bore=None):
+    """A prism over a polygon around the origin, with a round bore of so many chords if asked for."""
+    top = profile + np.array([0.0, 0.0, height])
+    walls = [band(profile, top)]
+    middle = np.zeros((1, 3)) if bore is None else circle(4.0, bore, 0)
+    if bore is not None:
+        walls.append(band(middle + [0.0, 0.0, height], middle))
+    return np.concatenate([*walls, zipped(top, middle + [0.0, 0.0, height]), zipped(profile, middle)[:, ::-1]])
+
+
+def test_two_flat_faces_at_a_small_angle_are_flat(tmp_path):
+    """A sole that rises by 30 degrees, as of a base with bevelled sides: the angle is that of a coarse round face."""
+    section = [(-30.0, -20.0), (10.0, -20.0), (30.0, -20.0 + 20 * np.tan(np.pi / 6)), (30.0, 20.0), (-30.0, 20.0)]
+    corners = np.array([(x, y, 0.0) for x, y in section])
+    (part,) = load({"base": write_stl(tmp_path / "base.stl", prism(corners, 15.0))}).parts
+    assert Counter(face.surface.kind for face in part.faces) == {"plane": 7} and not part.notes
+
+
+def test_bends_far_larger_than_those_of_round_faces_are_edges(tmp_path):
+    """Walls of uneven lengths that turn by 20 to 25 degrees each, beside a bore of chords of 6 degrees."""
+    turns = np.deg2rad(np.cumsum([20, 25, 20, 22, 25, 20, 23, 25, 20, 25, 22, 24, 20, 23, 22, 24]))
+    assert np.isclose(turns[-1], 2 * np.pi)
+    normals = np.stack([np.cos(turns), np.sin(turns)], axis=-1)
+    away = np.random.default_rng(1).uniform(29.0, 31.0, 16)
+    both = np.stack([normals, np.roll(normals, -1, axis=0)], axis=1)
+    corners = np.linalg.solve(both, np.stack([away, np.roll(away, -1)], axis=-1)[..., None])[..., 0]
+    corners = np.column_stack([corners, np.zeros(16)])
+    (part,) = load({"base": write_stl(tmp_path / "base.stl", prism(corners, 15.0, bore=60))}).parts
+    assert Counter(face.surface.kind for face in part.faces) == {"plane": 18, "cylinder": 1} and not part.notes
+
+
+def test_a_free_form_wall_is_no_row_of_flat_faces(tmp_path):
+    """An elliptic wall of 60 chords beside a bore of 60: bends are alike, so it stays one face on no surface."""
+    angle = 2 * np.pi * np.arange(60) / 60
+    corners = np.stack([40 * np.cos(angle), 22 * np.sin(angle), 0 * angle], axis=-1)
+    (part,) = load({"cam": write_stl(tmp_path / "cam.stl", prism(corners, 15.0, bore=60))}).parts
+    assert Counter(face.surface.kind for face in part.faces)["plane"] == 2
+    assert any("freeform surface" in note for note in part.notes)

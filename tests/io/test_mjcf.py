@@ -196,3 +196,41 @@ def test_axes_and_loops_are_those_of_mujoco(cassie, tmp_path):
             number = model.joint(name).id
             np.testing.assert_allclose(joint.frames_1[0][:3, 3], data.xanchor[number], atol=1e-12)
             np.testing.assert_allclose(joint.frames_1[0][:3, 2], data.xaxis[number], atol=1e-12)
+
+
+FEATURES = """<mujoco model="m"><compiler angle="degree" eulerseq="zyx"/>
+<default><joint damping="1"/><geom size="0.05"/><default class="a"><joint axis="1 0 0" range="-30 40"/>
+<default class="b"><joint type="slide" pos="0.1 0 0"/></default></default></default>
+<worldbody><body name="root" pos="1 2 3" euler="10 20 30" childclass="a"><geom/><joint name="j0" ref="15"/>
+ <frame pos="0.1 0.2 0.3" axisangle="0 1 0 35" childclass="b">
+  <body name="in frame" pos="0 0 1"><geom/><joint name="j1" ref="0.2"/><joint name="j2" class="a" axis="0 1 1"/></body>
+ </frame>
+ <replicate count="3" offset="0.2 0 0.1" euler="10 20 5" sep="-">
+  <body name="leg" pos="0 0.1 0" zaxis="0 1 1"><geom/><joint name="hip"/>
+   <replicate count="2" offset="0 0 0.1"><body name="toe" pos="0 0 0.2"><geom/><joint name="knee" class="b"/></body>
+  </replicate></body>
+ </replicate>
+</body></worldbody></mujoco>"""
+
+
+def test_classes_frames_and_copies_are_those_of_mujoco(tmp_path):
+    mujoco = pytest.importorskip("mujoco")
+    model = mujoco.MjModel.from_xml_string(FEATURES)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    (tmp_path / "model.xml").write_text(FEATURES)
+    mechanism = jk.load(tmp_path / "model.xml").mechanism()
+    for number in range(model.njnt):
+        joint = mechanism.joints[model.joint(number).name]
+        np.testing.assert_allclose(joint.frames_1[0][:3, 3], data.xanchor[number], atol=1e-14)  # rounding
+        np.testing.assert_allclose(joint.frames_1[0][:3, 2], data.xaxis[number], atol=1e-14)
+        expected = model.jnt_range[number] - model.qpos0[model.jnt_qposadr[number]]
+        np.testing.assert_allclose(joint.limits, [expected], atol=1e-14)
+    assert {model.body(number).name for number in range(1, model.nbody)} <= {*mechanism.parts}
+
+
+@pytest.mark.parametrize("count", ["", "0", "two", "100001"])
+def test_copies_without_a_sensible_count_are_refused(tmp_path, count):
+    text = f'<mujoco><worldbody><replicate count="{count}"><body name="a"/></replicate></worldbody></mujoco>'
+    with pytest.raises(ValueError, match="<replicate>: expected a count"):
+        load(tmp_path, text)

@@ -11,36 +11,12 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from jaxkin.examples import path
-from jaxkin.io.mjcf_writer import UNLIMITED
 from reference.catalogue import GROUND, delta, oldham, scotch_yoke, swash_plate
 from reference.mechanisms import cam, planar_fourbar, slider_crank
+from reference.round_trips import METRES, host_pose, in_metres
+from reference.tied import coupled, press
 
 Z = (0.0, 0.0, 1.0)
-
-
-def coupled():
-    """A differential behind a polynomial: three coordinates in one relation, two in a curved one."""
-    names = ("a", "b", "carrier")
-    joints = [
-        jk.revolute(name, GROUND, f"{name} wheel", point=(0, 0, 10.0 * k), axis=Z) for k, name in enumerate(names)
-    ]
-    slide = jk.prismatic("slide", GROUND, "bar", axis=(1, 0, 0))
-    couplings = [jk.differential("a", "b", "carrier"), jk.polynomial("slide", "a", [0.0, 2.0, 0.5], name="curve")]
-    return jk.Mechanism.build(fixed=[GROUND], joints=[*joints, slide], couplings=couplings, unit="mm")
-
-
-def press():
-    """A screw that lifts the end of a rod between balls: a pitch, in inches."""
-    return jk.Mechanism.build(
-        fixed=[GROUND],
-        unit="in",
-        joints=[
-            jk.screw("spindle", GROUND, "nut", point=(0, 0, 0), axis=Z, pitch=0.5),
-            jk.spherical("low", "nut", "rod", point=(1, 0, 0)),
-            jk.universal("top", "rod", "slider", point=(1, 1, 3), axis1=(1, 0, 0), axis2=(0, 1, 0)),
-            jk.prismatic("rail", "slider", GROUND, axis=(0, 0, 1)),
-        ],
-    )
 
 
 CASES = {
@@ -54,8 +30,6 @@ CASES = {
     "delta": (delta, None),
     "couplings": (coupled, {"a": np.linspace(0, 1, 5), "b": np.linspace(0, -2, 5)}),
 }
-METRES = {"": 1.0, "m": 1.0, "mm": 1e-3, "in": 0.0254}
-"""Mechanisms without a unit are taken for metres."""
 
 
 def drive_of(mechanism, drive):
@@ -64,12 +38,6 @@ def drive_of(mechanism, drive):
         return drive
     names = mechanism.mobility().drivable[: mechanism.mobility().freedoms]
     return {name: np.linspace(0, 0.2, 5) for name in names}
-
-
-def moved(mechanism, motion):
-    """Displacements of the parts, with lengths in metres."""
-    scale = np.array([[1, 1, 1, METRES[mechanism.unit]]] * 3 + [[1, 1, 1, 1]])
-    return {part: np.asarray(each) * scale for part, each in motion.transforms.items()}
 
 
 @pytest.mark.parametrize("name", ["four-bar", "press", "couplings", *(
@@ -82,8 +50,8 @@ def test_it_is_read_back_as_the_same_mechanism(name, tmp_path):
     back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml")).mechanism()
     assert back.mobility().freedoms == mechanism.mobility().freedoms
     drive_back = {written_as(mechanism, key): values * scale_of(mechanism, key) for key, values in drive.items()}
-    expected = moved(mechanism, mechanism.sweep(drive, throw=True))
-    found = moved(back, back.sweep(drive_back, throw=True))
+    expected = in_metres(mechanism, mechanism.sweep(drive, throw=True).transforms)
+    found = in_metres(back, back.sweep(drive_back, throw=True).transforms)
     size = max(1.0, *(float(np.abs(each).max()) for each in expected.values()))
     for part, transforms in expected.items():
         # 1e-12 of the largest number: both sweeps close to rounding, and conditioning takes two digits
@@ -123,7 +91,7 @@ def test_limits_come_back_in_metres(tmp_path):
     pin = jk.cylindrical("pin", "bar", "end", point=(0, 0, 0), axis=Z, limits={"phi": (-0.5, 2.0)})
     mechanism = jk.Mechanism.build(fixed=[GROUND], joints=[slide, pin], unit="mm")
     back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml")).mechanism()
-    assert back.joints["slide"].limits == ((-0.005, UNLIMITED),)
+    assert back.joints["slide"].limits == ((-0.005, np.inf),)
     assert back.joints["pin_phi"].limits == ((-0.5, 2.0),)
     assert back.joints["pin_z"].limits == ()
 
@@ -169,3 +137,26 @@ def test_mujoco_closes_it_where_we_do(name, tmp_path):
             expected = np.asarray(motion.transforms[model.body(body).name])[pose]
             np.testing.assert_allclose(data.xpos[body], expected[:3, 3], rtol=0, atol=1e-12)
             np.testing.assert_allclose(data.xmat[body].reshape(3, 3), expected[:3, :3], rtol=0, atol=1e-12)
+
+
+def test_mujoco_settles_where_we_close_it(tmp_path):
+    """Its own simulation from a start that is open, slowed down: what it comes to is a pose of ours."""
+    mujoco = pytest.importorskip("mujoco")
+    sizes = {"ground": 1.0, "crank": 0.4, "coupler": 1.2, "rocker": 0.8}
+    mechanism = planar_fourbar(**sizes)
+    model = mujoco.MjModel.from_xml_path(str(jk.write_mjcf(mechanism, tmp_path / "model.xml")))
+    data = mujoco.MjData(model)
+    model.opt.gravity[:] = 0
+    model.dof_armature[0] = 1e-5  # ten times the rest, so that the loop closes near where the crank is put
+    data.qpos[0] = 0.3
+    for _ in range(10_000):
+        data.qvel[:] *= 0.9
+        mujoco.mj_step(model, data)
+    mujoco.mj_forward(model, data)
+    soft = np.abs(data.efc_pos[: data.ne]).max()
+    assert soft < 1e-6 and data.qpos[0] > 0.01
+    places = host_pose(mechanism, {"A.phi": float(data.qpos[0])})
+    for body in ("crank", "coupler", "rocker"):
+        # the loop is regular: angles follow what is left open, with factors of a few
+        np.testing.assert_allclose(data.body(body).xpos, places[body][:3, 3], atol=1e-9 + 100 * soft)
+        np.testing.assert_allclose(data.body(body).xmat.reshape(3, 3), places[body][:3, :3], atol=1e-9 + 100 * soft)

@@ -193,8 +193,8 @@ def test_a_face_without_triangles_is_named(monkeypatch):
     """The kernel cannot triangulate every face; here the triangles of one are taken away."""
     import jaxkin.io.step as step
 
-    def without_face_3(glb):
-        for whole in instances(glb):
+    def without_face_3(*given):
+        for whole in instances(*given):
             mesh = whole.mesh
             arrays = {name: getattr(mesh, name)[mesh.face_of != 2] for name in ("triangles", "normals", "face_of")}
             yield replace(whole, mesh=replace(mesh, **arrays))

@@ -9,7 +9,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.mechanism.drive_plan import plan_drive
-from jaxkin.mechanism.sweep import _closure_tolerance
+from jaxkin.mechanism.sweep import closure_tolerance
 from jaxkin.solve.execution import programs
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
@@ -33,7 +33,7 @@ def general(monkeypatch):
 def both_ways(mechanism, drive, values):
     """Displacements and status by formula and by the general program."""
     (element,) = plan_drive(mechanism.linkage, (drive,)).elements
-    given = element.system, SolverOptions(), element.joints, np.asarray(values)[None], _closure_tolerance(None)
+    given = element.system, SolverOptions(), element.joints, np.asarray(values)[None], closure_tolerance(None)
     return programs.solve(*given, element.axes), programs.solve(*given)
 
 

@@ -7,22 +7,34 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import Bore, shared
 
 MAX_TILT = 2e-3
 """Radians between the axes of a pin and its hole: a tenth of a millimetre over the length of a finger."""
 MAX_CLEARANCE = 0.25
 """Radial clearance over the radius of the hole. Of 191 loose pins in 18 assemblies that people drew, 177 are within."""
 MAX_INTERFERENCE = 0.1
-"""The same of pins that are thicker than their holes: 63 of 92, and threads drawn as plain cylinders."""
+"""The same of pins that are thicker than their holes: 63 of 92."""
+MAX_THREAD = 0.25
+"""The same of screws in holes that are drawn as they are drilled for the thread: M3 to M10 have 0.17 to 0.21."""
 EQUAL_BORES = 0.1
 """Radii of two bores without a pin that are one axis differ by so much at most, over the larger one."""
+MAX_TAPPED = 0.35
+"""The same of a hole that a screw goes through and one that it is screwed into, where the screw is not drawn: M3 to M10
+have 0.22 to 0.28 by tables, and more with wide holes. Two such axes are asked for, and faces that touch."""
 MAX_OFFSET = 0.05
 """Distance of axes that count as one beside the clearance, over the radius."""
 _OTHER_RADIUS = 1.02
 """Radii of which one is larger by this factor are those of two surfaces, a pin and a sleeve on it."""
+MIN_ENGAGED = 0.05
+"""Length of a pin in its hole, over the radius, at least: a pin that ends where a hole of the next part begins is not
+in it."""
 MAX_GAP = 4.0
 """Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
+MAX_FAR = 20.0
+"""The same of parts that nothing else ties: plates on spacers that are not drawn."""
+MAX_LOOSE = 0.5
+"""Radial clearance over the radius of the hole of parts that nothing else ties: bushes that are not drawn."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +60,21 @@ class CommonAxis:
         return self.other.radius - self.one.radius
 
     @property
+    def tight(self) -> bool:
+        """Whether the pin is thicker than its hole by more than what counts as one radius."""
+        return self.one.radius > _OTHER_RADIUS * self.other.radius
+
+    @property
+    def threaded(self) -> bool:
+        """Whether the pin is thicker than its hole as a screw is in the hole drilled for its thread."""
+        return not self.virtual and self.clearance < -MAX_INTERFERENCE * self.other.radius
+
+    @property
+    def tapped(self) -> bool:
+        """Whether there is no pin, and the two bores are not equal: those of a screw that is not drawn."""
+        return self.virtual and abs(self.clearance) > EQUAL_BORES * max(self.one.radius, self.other.radius)
+
+    @property
     def parts(self) -> tuple[str, str]:
         return self.one.part, self.other.part
 
@@ -66,6 +93,25 @@ def common_axes(bores: Sequence[Bore], clearance: float | None = None) -> list[C
     filled = {id(bore) for each in pins for bore in (each.one, each.other)}
     empty = [each for each in near if each.one.hole and each.other.hole and _equal(each)]
     return [*pins, *(each for each in empty if not {id(each.one), id(each.other)} & filled)]
+
+
+def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAxis]:
+    """Find pairs of bores on one axis that are too far from each other, or too loose, to be among the `near` ones."""
+    if len(bores) < 2:
+        return []
+    known, result = {(id(pair.one), id(pair.other)) for pair in near}, []
+    for pair in _coaxial(bores, None):
+        radius = pair.other.radius
+        if (id(pair.one), id(pair.other)) in known or pair.offset > MAX_OFFSET * radius:
+            continue
+        if pair.virtual:
+            far = abs(pair.clearance) <= EQUAL_BORES * radius and -engaged(pair) <= MAX_FAR * radius
+        else:
+            far = pair.other.hole and 0 <= pair.clearance <= MAX_LOOSE * radius and engaged(pair) > MIN_ENGAGED * radius
+        if far:
+            result.append(pair)
+    filled = {id(bore) for pair in (*near, *result) if not pair.virtual for bore in (pair.one, pair.other)}
+    return [pair for pair in result if not pair.virtual or not {id(pair.one), id(pair.other)} & filled]
 
 
 def _coaxial(bores: Sequence[Bore], clearance: float | None) -> list[CommonAxis]:
@@ -92,32 +138,40 @@ def _fits(pair: CommonAxis, clearance: float | None) -> bool:
     loose, radius = pair.clearance, pair.other.radius
     centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
     most = MAX_CLEARANCE * radius if clearance is None else clearance
-    return -MAX_INTERFERENCE * radius <= loose <= most and centred and engaged(pair) > 0
+    return -MAX_THREAD * radius <= loose <= most and centred and engaged(pair) > MIN_ENGAGED * radius
 
 
 def _equal(pair: CommonAxis) -> bool:
+    """Tell whether two bores without a pin belong to one axis: equal ones, or those of a screw that is not drawn."""
     radius = max(pair.one.radius, pair.other.radius)
-    same = abs(pair.clearance) <= EQUAL_BORES * radius and pair.offset <= MAX_OFFSET * radius
-    return same and -engaged(pair) <= MAX_GAP * radius
+    if pair.offset > MAX_OFFSET * radius or abs(pair.clearance) > MAX_TAPPED * radius:
+        return False
+    return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_GAP) * radius
 
 
 def engaged(pair: CommonAxis) -> float:
     """Measure the length along the axis that both bores share; negative where there is a gap between them."""
-    return _overlap(pair.one, pair.other)
+    return shared_length(pair.one, pair.other)
 
 
-def _overlap(one: Bore, other: Bore) -> float:
-    (low1, high1), (low2, high2) = one.reach(one.axis), other.reach(one.axis)
-    return min(high1, high2) - max(low1, low2)
+def shared_length(one: Bore, other: Bore) -> float:
+    """Measure the length that two bores on one axis share along it; negative where there is a gap between them."""
+    return shared(one.spans_along(one.axis), other.spans_along(one.axis))
 
 
 def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
-    """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin."""
+    """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin.
+
+    A pin that is thicker than the hole is not in it where another hole holds it without interference.
+    """
+    apart = MIN_ENGAGED * pair.other.radius
     for each in pins:
         thicker = each.other is pair.other and each.one.radius > _OTHER_RADIUS * pair.one.radius
-        if thicker and each.one.part != pair.one.part and _overlap(pair.one, each.one) > 0:
+        if thicker and each.one.part != pair.one.part and shared_length(pair.one, each.one) > apart:
             return True
         tighter = each.one is pair.one and _OTHER_RADIUS * each.other.radius < pair.other.radius
-        if tighter and each.other.part != pair.other.part and _overlap(each.other, pair.other) > 0:
+        fits = each.one is pair.one and pair.tight and not each.tight
+        beside = each.other.part != pair.other.part and (tighter or fits)
+        if beside and (fits or not each.tight) and shared_length(each.other, pair.other) > apart:
             return True
     return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +38,8 @@ class Bore:
     """Whether the material is outside, as in a hole; otherwise the faces are those of a pin."""
     half: float
     """Half the length along the axis."""
+    spans: tuple[tuple[float, float], ...]
+    """Where the faces are along the axis, from `point`: two lugs of one part have one bore of two spans."""
 
     def on_axis_of(self, other: Bore, angle: float = NEAR_ANGLE, length: float = NEAR_LENGTH) -> bool:
         """Tell whether the axis is that of another bore, within `angle` (radians) and `length` (over the other's
@@ -50,6 +52,12 @@ class Bore:
         """Find where the bore begins and ends, along a direction that is parallel to its axis."""
         middle = float(self.point @ along)
         return middle - self.half, middle + self.half
+
+    def spans_along(self, along: Vector) -> tuple[tuple[float, float], ...]:
+        """Find the spans along a direction that is parallel to its axis, from the origin."""
+        middle, way = float(self.point @ along), 1.0 if self.axis @ along > 0 else -1.0
+        spans = ((middle + way * low, middle + way * high) for low, high in self.spans)
+        return tuple((min(span), max(span)) for span in spans)
 
 
 def bores(part: Part) -> list[Bore]:
@@ -86,6 +94,35 @@ def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     if opening > MAX_OPEN:
         return None
     low, high = float(along.min()), float(along.max())
-    point = surface.point + (low + high) / 2 * surface.axis
+    middle = (low + high) / 2
+    point = surface.point + middle * surface.axis
+    heights = along.reshape(-1, 3) - middle
+    spans = zip(heights.min(axis=1), heights.max(axis=1), strict=True)  # a face may be in two lugs, a triangle not
     names = tuple(face.name for face in faces)
-    return Bore(part, names, point, surface.axis, surface.radius, surface.side < 0, (high - low) / 2)
+    return Bore(
+        part,
+        names,
+        point,
+        surface.axis,
+        surface.radius,
+        surface.side < 0,
+        (high - low) / 2,
+        merged(spans, SAME_LENGTH * surface.radius),
+    )
+
+
+def merged(spans: Iterable[tuple[float, float]], apart: float = 0.0) -> tuple[tuple[float, float], ...]:
+    """Unite spans that overlap or are no farther than `apart` from each other."""
+    result: list[tuple[float, float]] = []
+    for low, high in sorted((float(low), float(high)) for low, high in spans):
+        if result and low <= result[-1][1] + apart:
+            result[-1] = result[-1][0], max(high, result[-1][1])
+        else:
+            result.append((low, high))
+    return tuple(result)
+
+
+def shared(one: Sequence[tuple[float, float]], other: Sequence[tuple[float, float]]) -> float:
+    """Measure the length that two sets of spans share; where there is none, less the least gap between them."""
+    lengths = [min(high1, high2) - max(low1, low2) for low1, high1 in one for low2, high2 in other]
+    return sum(length for length in lengths if length > 0) or max(lengths)

@@ -8,9 +8,10 @@ from itertools import combinations
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import SAME_ANGLE, SAME_LENGTH, Bore, merged, shared
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -18,21 +19,38 @@ MAX_HEAD = 4.0
 """Farthest a fastener reaches from its axis, over its smallest radius: flanges and large washers are within."""
 MAX_NUT = 3.0
 """The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
+MIN_ROUND = 0.84
+"""Roundness of a screw seen along its axis, at least: a hexagon has 0.866."""
+MIN_PIN = 0.4
+"""Share of a fastener that is pin, where it is not round: pins with a flag or a handle have more, levers less."""
+MAX_CROSS = 0.4
+"""Radius of bores on other axes than that of a fastener, over the smallest one on it: holes for cotter pins, lock wire
+and the screw of a flag have up to a third."""
 MAX_EXPOSED = 1.0
 """Length of a pin outside of its holes, over the length inside: rods that something slides on have more."""
 
 
-def fasteners(parts: Sequence[Part], bores: Sequence[Bore]) -> set[str]:
-    """Find the parts that have the form of a fastener: all bores on one axis, and nothing far from that axis."""
+def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, Sequence[Bore]]) -> set[str]:
+    """Find the parts that have the form of a fastener: all bores on one axis, and nothing far from that axis.
+
+    `bores` are those on an axis with others; of all other bores of a part, which are in `every`, small ones across are
+    those of cotter pins.
+    """
     by_part: dict[str, list[Bore]] = {}
     for bore in bores:
         by_part.setdefault(bore.part, []).append(bore)
     solids = {part.name: part for part in parts}
-    return {name for name, own in by_part.items() if _on_one_axis(own) and _slim(solids[name], own)}
+    return {
+        name
+        for name, own in by_part.items()
+        if _on_one_axis(own, every[name]) and _slim(solids[name], own) and _is_mostly_pin(solids[name], own)
+    }
 
 
-def _on_one_axis(own: Sequence[Bore]) -> bool:
-    return all(bore.on_axis_of(own[0], SAME_ANGLE, SAME_LENGTH) for bore in own[1:])
+def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
+    least = MAX_CROSS * min(bore.radius for bore in own)
+    across = [bore for bore in every if bore.radius > least and bore not in own]
+    return all(bore.on_axis_of(own[0], SAME_ANGLE, SAME_LENGTH) for bore in (*own[1:], *across))
 
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
@@ -40,6 +58,20 @@ def _slim(part: Part, own: Sequence[Bore]) -> bool:
     away = np.linalg.norm(corners - np.outer(corners @ own[0].axis, own[0].axis), axis=1)
     reach = MAX_NUT if all(bore.hole for bore in own) else MAX_HEAD
     return bool(away.max() <= reach * min(bore.radius for bore in own))
+
+
+def _is_mostly_pin(part: Part, own: Sequence[Bore]) -> bool:
+    """Tell whether a part with a pin is round about its axis, or is little more than the pin, such as one with a
+    flag."""
+    pins = [bore for bore in own if not bore.hole]
+    if not pins:
+        return True
+    axis = pins[0].axis
+    x = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    x /= np.linalg.norm(x)
+    outline = (part.outermost - pins[0].point) @ np.column_stack([x, np.cross(axis, x)])
+    pinned = sum(2 * np.pi * bore.radius**2 * bore.half for bore in pins)
+    return roundness(outline, np.zeros(2)) > MIN_ROUND or pinned > MIN_PIN * part.volume
 
 
 _PARALLEL = float(np.cos(0.01))
@@ -78,30 +110,35 @@ def stacks(
             p for each in touching if each & members for p in each
         }
         bore = next(b for pair in pairs for b in (pair.one, pair.other) if b.part in members)
-        inside = sum(max(engaged(pair), 0.0) for pair in pairs if pair.one.part in members)
-        length = max((2 * pair.one.half for pair in pairs if pair.one.part in members), default=0.0)
+        holes = [pair for pair in pairs if pair.one.part in members]
+        covered = merged(span for pair in holes for span in pair.other.spans_along(bore.axis))
+        pins = merged(span for pair in holes for span in pair.one.spans_along(bore.axis))
+        inside = max(shared(pins, covered), 0.0) if holes else 0.0
+        length = sum(high - low for low, high in pins)
         names = tuple(sorted(members, key=order.__getitem__))
         through = tuple(sorted(held - {*fastening}, key=order.__getitem__))
         result.append(Stack(names, through, bore, length - inside > MAX_EXPOSED * inside))
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
 
 
-def patterns(found: Sequence[CommonAxis], every: Sequence[Stack]) -> dict[frozenset[str], list[Bore]]:
-    """Find the parallel axes that two parts have in common, two or more, through fasteners or as bores without a
+def patterns(
+    found: Sequence[CommonAxis], every: Sequence[Stack], body: Mapping[str, str]
+) -> dict[frozenset[str], list[Bore]]:
+    """Find the parallel axes that two bodies have in common, two or more, through fasteners or as bores without a
     pin."""
     shared: dict[frozenset[str], list[Bore]] = {}
     through = [
         (frozenset(pair), stack.axis) for stack in every if not stack.guides for pair in combinations(stack.held, 2)
     ]
-    empty = [(frozenset(pair.parts), pair.one) for pair in found if pair.virtual]
+    empty = [(frozenset(body[part] for part in pair.parts), pair.one) for pair in found if pair.virtual]
     for pair, bore in (*through, *empty):
         known = shared.setdefault(pair, [])
-        if all(_beside(bore, other) for other in known):
+        if all(beside(bore, other) for other in known):
             known.append(bore)
-    return {pair: axes for pair, axes in shared.items() if len(axes) > 1}
+    return {pair: axes for pair, axes in shared.items() if len(pair) > 1 and len(axes) > 1}
 
 
-def _beside(one: Bore, other: Bore) -> bool:
+def beside(one: Bore, other: Bore) -> bool:
     """Tell whether two axes are parallel and not the same."""
     offset = other.point - one.point
     apart2 = float(offset @ offset) - float(offset @ one.axis) ** 2

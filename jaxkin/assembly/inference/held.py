@@ -6,10 +6,11 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.embedded import MIN_INSIDE
+from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -20,11 +21,13 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     related = known.touching | {frozenset(pair.parts) for pair in known.axes}
     result = []
     for part in (known.solids[name] for name in known.names if name in fastening):
+        thinnest = min((bore.radius for bore in known.bores[part.name] if not bore.hole), default=np.inf)
         near = [each for each in known.measured.beside(part) if frozenset((each.name, part.name)) not in related]
-        found = [(known.measured.share_inside(part, each), each.name) for each in near]
-        for share, host in sorted(((share, name) for share, name in found if share >= MIN_INSIDE), reverse=True)[:1]:
-            text = f"{part.name!r} stands in the material of {host!r}, {share:.0%} of its corners"
-            evidence = Evidence(EvidenceKind.ENCLOSED, (("share inside", share),), text)
+        found = [(known.measured.depth_inside(part, each), each.name) for each in near]
+        found = [(depth, name) for depth, name in found if depth >= MIN_DEPTH * thinnest]
+        for depth, host in sorted(found, reverse=True)[:1]:
+            text = f"{part.name!r} stands in the material of {host!r}, {depth:.3g} deep"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (("depth", depth),), text)
             result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
     return result
 
@@ -43,7 +46,9 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
                 directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
     result = []
     for (pin, other), ways in directions.items():
-        coaxial = any(bore.on_axis_of(axis_of[pin]) for bore in known.bores[other] if not bore.hole)
+        # where there is a hole on the axis, the pin or what it is on goes through
+        sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
+        coaxial = sides == {False}
         if len(ways) == 2 or coaxial:
             where = "between two faces" if len(ways) == 2 else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
@@ -72,38 +77,63 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
         held = tuple(dict.fromkeys(body[part] for part in stack.held))
         return Stack(stack.fasteners, held, stack.axis, stack.guides)
 
-    shared = patterns(known.axes, list(map(of_bodies, every)))
+    flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
+    tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]
+    shared = patterns([*known.axes, *tapped], list(map(of_bodies, every)), body)
     return [each for each in bolted(shared, known.order) if len({body[part] for part in each.parts}) > 1]
 
 
 def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Join fasteners with the body that holds them: the only one, or that which holds them farthest out, as a fork
-    does."""
+    does.
+
+    A rod that something slides on belongs to the body that holds it on both sides of all others, or more tightly.
+    """
     body, result = known.body, []
     for stack in every:
-        loose = [part for part in stack.fasteners if body[part] not in {body[held] for held in stack.held}]
-        holder = _holder(known, stack, body)
-        if stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2:
-            continue  # a rod that something slides on, not a pin that belongs to what holds it
-        parts = (*([holder] if holder and loose else []), *stack.fasteners)
+        owners = {body[part] for part in stack.fasteners}
+        hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
+        slides = stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
+        holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
+        if slides and holder is None:
+            continue
+        parts = (*([holder] if holder else []), *stack.fasteners)
         if len({body[part] for part in parts}) > 1:
-            several = len({body[part] for part in stack.held}) > 1
-            where = (
-                f"held by {holder!r}{' farthest out' if several else ' only'}" if holder and loose else "on one axis"
-            )
-            text = f"{', '.join(map(repr, stack.fasteners))} {where}"
+            told = f"held by {holder!r} {where}" if holder else "on one axis"
+            text = f"{', '.join(map(repr, stack.fasteners))} {told}"
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", stack.axis.radius),), text)))
     return result
 
 
-def _holder(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
-    """Find the part that holds a stack: of the body whose bores reach farthest along the axis."""
-    along, reach = stack.axis.axis, {}
+def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -> tuple[str | None, str]:
+    """Find the part that holds a stack, and how: of the body whose bores reach farthest along the axis.
+
+    Where others slide on the stack, that body reaches farther on both sides, or fits more tightly; None if none does.
+    """
+    along = stack.axis.axis
+    reach: dict[str, list[tuple[float, float, str]]] = {}
+    fits: dict[str, float] = {}
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
             if pin.part in stack.fasteners and hole.part in stack.held:
-                reach.setdefault(body[hole.part], []).append((*hole.reach(along), hole.part))
+                owner = body[hole.part]
+                reach.setdefault(owner, []).append((*hole.reach(along), hole.part))
+                fits[owner] = min(fits.get(owner, np.inf), max(pair.clearance, 0.0))
     if not reach:
-        return stack.held[0] if stack.held else None
-    widest = max(reach.values(), key=lambda ends: max(end[1] for end in ends) - min(end[0] for end in ends))
-    return widest[0][2]
+        return (stack.held[0] if stack.held else None), "only"
+    ends = {
+        owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
+    }
+    widest = max(ends, key=lambda owner: ends[owner][1] - ends[owner][0])
+    low, high, part = ends[widest]
+    if len({body[each] for each in stack.held}) == 1:
+        return part, "only"
+    turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
+    others = [ends[owner] for owner in ends if owner != widest]
+    if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
+        return part, "farthest out"
+    tightest = min(fits, key=fits.__getitem__)
+    looser = [fit for owner, fit in fits.items() if owner != tightest]
+    if looser and min(looser) - fits[tightest] > SAME_FIT * stack.axis.radius:
+        return ends[tightest][2], "more tightly than by others"
+    return None, ""

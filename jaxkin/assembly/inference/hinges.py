@@ -2,28 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from enum import IntEnum
+from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, nearest, play
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
+CENTRED = 0.02
+"""Distance between the middles of a pin and of its holes, over the radius, that counts as none."""
 
-def hinges(known: Known) -> list[tuple[Inference, bool]]:
-    """Infer joints of two bodies about common axes; tell of each whether exact contacts say it but for the slide."""
+
+class Hinge(NamedTuple):
+    """An inferred joint of two bodies about a common axis."""
+
+    inference: Inference
+    stop: Stop
+    """What is in doubt: see `Stop`."""
+
+
+class Stop(IntEnum):
+    """What stops a slide along a common axis that exact contacts allow, the surest first."""
+
+    NONE = 0
+    """The joint is not one of exact contacts."""
+    FACES = 1
+    """Faces on both sides."""
+    ONE_FACE = 2
+    """A face on one side, and on the other one the thread or the retaining ring of a fastener."""
+    CENTRED = 3
+    """Nothing that is drawn; the pin and its holes have their middles in one place."""
+
+
+def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
+    """Infer joints of two bodies about common axes, by default all that are known; some are those of exact contacts but
+    for the slide."""
+    axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
     body, between = known.body, {}
     given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
     by_hand = {frozenset(body[part] for part in pair) for pair in given}
-    for pair in _neighbours(known.axes, body):
+    for pair in _neighbours(axes, body):
         owners = frozenset(body[part] for part in pair.parts)
         if len(owners) == 2 and owners not in by_hand:
             between.setdefault(owners, []).append(pair)
@@ -41,7 +70,12 @@ def hinges(known: Known) -> list[tuple[Inference, bool]]:
             across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
             if not all(across):
                 continue  # faces along the axis keep it from turning: exact contacts say what is left
-            result += [(joint, any(pins)) for joint in _hinge(known, pair, owners, any(pins), any(across))]
+            pinned = [each.one for each in found if not each.virtual]
+            guided = not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:])
+            if guided:
+                result.append(_guided(known, pair))
+            else:
+                result += _hinge(known, pair, owners, any(pins), any(across), pair.one.part in fastening)
     return result
 
 
@@ -69,7 +103,7 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
     return [pair for pair in axes if id(pair) in kept]
 
 
-def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool) -> list[Inference]:
+def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool, fastened: bool) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
@@ -79,19 +113,28 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         [stop for part in known.parts if body[part.name] == owner for stop in known.measured.stops(part, hole)]
         for owner in owners
     )
-    free = play(one, other, hole.radius)
+    free, stop = play(one, other, hole.radius), Stop.FACES
     if free is not None and free > MAX_PLAY * hole.radius:
         free = None
     free = 0.0 if touching else free
     if exact and free is None:
-        return []
+        if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
+            free, stop = gap, Stop.ONE_FACE
+        elif abs(float((pair.one.point - hole.point) @ hole.axis)) <= CENTRED * hole.radius:
+            free, stop = 0.0, Stop.CENTRED
+        else:
+            return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
     make = pairs.cylindrical if free is None else pairs.revolute
-    # several links on one pin then turn about one axis, by however much their holes are off
-    middle = pair.one.point + ((hole.point - pair.one.point) @ pair.one.axis) * pair.one.axis
-    joint = make("-".join(parts), *parts, point=middle, axis=pair.one.axis)
+    line = _line(known, pair, owners)
+    middle = line.point + ((hole.point - line.point) @ line.axis) * line.axis
+    joint = make("-".join(parts), *parts, point=middle, axis=line.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
     ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
+    if exact and stop is Stop.ONE_FACE:
+        ends = f"a face {free:.2g} away and the fastener stop its slide"
+    elif exact and stop is Stop.CENTRED:
+        ends = "the pin and its holes have one middle, where it is taken to stay"
     sizes += [] if free is None else [("play", free)]
     if pair.virtual:
         kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
@@ -100,4 +143,40 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
-    return [Inference(parts, evidence, replace(joint, evidence=evidence))]
+    return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+
+
+def _guided(known: Known, pair: CommonAxis) -> Hinge:
+    """Make a prismatic joint along two or more parallel pins with play, such as guide rods."""
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
+    sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
+    text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
+    evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
+    return Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.NONE)
+
+
+def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
+    """Find the bore whose axis the joint turns about, where those of the two bodies are not quite one.
+
+    It is an axis that parts of both bodies have alike, whatever is off it, such as a bolt. Else it is that of the pin:
+    several links on one pin then turn about one axis, by however much their holes are off. Else it is that of the bore
+    that is inside of the other one, as the eye is in a fork.
+    """
+    if pair.offset <= SAME_LENGTH * pair.other.radius:
+        return pair.one
+    body, near = known.body, (pair.offset + NEAR_LENGTH * pair.other.radius) / pair.one.radius
+    around = [bore for part in known.names if body[part] in owners for bore in known.bores[part]]
+    around = [bore for bore in around if bore.on_axis_of(pair.one, MAX_TILT, near)]
+    around = [bore for bore in around if shared_length(bore, pair.other) > -pair.other.radius]
+    for bore in around:
+        alike = [each for each in around if each.on_axis_of(bore, SAME_ANGLE, SAME_LENGTH)]
+        if {body[each.part] for each in alike} == owners:
+            return bore
+    if not pair.virtual:
+        return pair.one
+    reach = {
+        owner: [end for bore in around if body[bore.part] == owner for end in bore.reach(pair.one.axis)]
+        for owner in owners
+    }
+    return min((pair.one, pair.other), key=lambda bore: np.ptp(reach[body[bore.part]] or [0.0]))

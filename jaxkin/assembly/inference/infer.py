@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
+from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -13,12 +14,15 @@ from jaxkin.assembly.inference.held import (
     embedded_pins,
     with_hosts,
 )
-from jaxkin.assembly.inference.hinges import hinges
+from jaxkin.assembly.inference.hinges import Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
-from jaxkin.assembly.inference.screwed import screwed_bodies
+from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
+from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves
+from jaxkin.assembly.inference.slides import loose_slides
+from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -31,22 +35,27 @@ def infer(
     joints: Sequence[Joint] = (),
     ignored: Collection[Pair] = (),
     clearance: float | None = None,
-) -> tuple[list[Inference], list[Inference]]:
+) -> tuple[list[Inference], list[list[Inference]]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
     Bearings, pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with
     clearance or interference, bores without a pin, parts that lie on one other only, and parts that touch nothing.
-    Apart from these comes what would stop slides that exact contacts allow: for those slides that are of no use.
+    Apart from these comes what would stop slides that exact contacts allow, the surest first: for those slides that are
+    of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
-    fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)])
-    fastening -= {name for each in rolling for name in (each.outer, each.inner)}
+    set_in = sleeves(known)
+    known.add(seated_sleeves(known, set_in))
+    known.sleeves = {each.part for each in set_in}
+    fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
+    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | {each.part for each in set_in}
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
+    known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     every = with_hosts(stacks(known.axes, fastening, known.touching, known.order), known)
@@ -55,8 +64,16 @@ def infer(
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
     known.found += bearing_joints(known, rolling)
-    joined = hinges(known)
-    known.found += [joint for joint, exact in joined if not exact]
+    joined = hinges(known, fastening)
+    known.found += [each.inference for each in joined if each.stop is Stop.NONE]
+    known.found += loose_slides(known)
+    known.add(screwed_flat(known))
     known.add(lying_on_one(known))
+    far = far_joints(known)
+    known.add([each for each in far if each.joint is None])
+    known.found += [each for each in far if each.joint]
     known.add(tied_to_nothing(known))
-    return known.found, [joint for joint, exact in joined if exact]
+    body = known.body
+    stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
+    levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]
+    return known.found, levels

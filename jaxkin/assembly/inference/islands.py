@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import numpy as np
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Vector
@@ -23,38 +23,50 @@ NEAR = 0.02
 
 
 def lying_on_one(known: Known) -> list[Inference]:
-    """Find bodies that touch one other body only, and that by one plane."""
+    """Find bodies that only touch others with their plane faces, which look one way: another one, or one of their
+    sub-assembly."""
     body = known.body
-    ties: dict[str, set[str]] = {}
-    planes: dict[Pair, list[Vector]] = {}
-    jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
+    around: dict[str, dict[str, list[Vector]]] = {}
     # in the order of the file: the first of several bodies that could be added decides what the others touch
-    touching = [sorted(pair, key=known.order.__getitem__) for pair in known.touching]
-    touching.sort(key=lambda pair: [known.order[part] for part in pair])
-    for parts in (*touching, *jointed):
+    contacts = sorted(known.contacts, key=lambda each: sorted(known.order[part] for part in each.parts))
+    jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
+    for contact in contacts:
+        for k, part in enumerate(contact.parts):
+            surface, other = contact.surfaces[k], body[contact.parts[1 - k]]
+            normal = surface.normal if isinstance(surface, Plane) else np.zeros(3)
+            around.setdefault(body[part], {}).setdefault(other, []).append(normal)
+    for parts in jointed:
         one, other = (body[part] for part in parts)
-        ties.setdefault(one, set()).add(other)
-        ties.setdefault(other, set()).add(one)
-    for contact in known.contacts:
-        owners = frozenset(body[part] for part in contact.parts)
-        surface = contact.surfaces[0]
-        planes.setdefault(owners, []).append(surface.normal if isinstance(surface, Plane) else np.zeros(3))
-        if not contact.contact_state.is_flat:
-            planes[owners].append(np.zeros(3))
-    hinged = {frozenset(body[part] for part in parts) for parts in jointed}
+        around.setdefault(one, {}).setdefault(other, []).append(np.zeros(3))
+        around.setdefault(other, {}).setdefault(one, []).append(np.zeros(3))
     result = []
-    for one, others in ties.items():
-        others = others - {one}
-        if len(others) != 1 or body[one] == body[known.fixed[0]]:
+    for one, others in around.items():
+        normals = [normal for other, some in others.items() for normal in some if other != one]
+        if one == body[known.fixed[0]] or not normals or not _one_way(normals):
             continue
-        (other,) = others
-        normals = planes.get(frozenset((one, other)), [])
-        flat = normals and all(np.linalg.norm(np.cross(n, normals[0])) < ACROSS and np.any(n) for n in normals)
-        if flat and frozenset((one, other)) not in hinged:
-            text = f"{one!r} touches {other!r} only, and that on one plane"
-            parts = tuple(sorted((one, other), key=known.order.__getitem__))
-            result.append(Inference(parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+        if len(others.keys() - {one}) == 1:
+            (other,) = others.keys() - {one}
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{one!r} touches {other!r} only, and that on one plane")
+        else:
+            mates = [other for other in others if other != one and _together(known, body, one, other)]
+            if len(mates) != 1:
+                continue
+            (other,) = mates
+            text = f"{one!r} only lies on others, of which {other!r} is in its sub-assembly"
+            evidence = Evidence(EvidenceKind.SUBASSEMBLY, (), text)
+        result.append(Inference(tuple(sorted((one, other), key=known.order.__getitem__)), evidence))
     return result
+
+
+def _one_way(normals: Sequence[Vector]) -> bool:
+    """Tell whether all are normals of parallel planes; zeros stand for other surfaces."""
+    return all(np.any(n) and np.linalg.norm(np.cross(n, normals[0])) < ACROSS for n in normals)
+
+
+def _together(known: Known, body: Mapping[str, str], one: str, other: str) -> bool:
+    """Tell whether some parts of two bodies are in one sub-assembly that does not hold everything."""
+    groups = [{known.group[part] for part in known.names if body[part] == owner} - {()} for owner in (one, other)]
+    return bool(groups[0] & groups[1])
 
 
 def tied_to_nothing(known: Known) -> list[Inference]:
@@ -68,7 +80,7 @@ def tied_to_nothing(known: Known) -> list[Inference]:
     for name in known.fixed:
         group_of |= dict.fromkeys(groups[group_of[name]], group_of[known.fixed[0]])
     home, result = group_of[known.fixed[0]], []
-    for distance, part, host in _distances(known, group_of):
+    for _, distance, part, host in _distances(known, group_of):
         own, other = group_of[part], group_of[host]
         if own != other:
             text = f"{part!r} is tied to nothing, and {distance:.3g} from {host!r}"
@@ -86,9 +98,12 @@ def _nearest(parts: tuple[str, str], distance: float, text: str) -> Inference:
     return Inference(parts, Evidence(EvidenceKind.NEAREST, (("distance", distance),), text))
 
 
-def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[float, str, str]]:
-    """Measure the distances of parts that nothing ties to the parts next to them, the shortest first; long ones are
-    left out."""
+def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[bool, float, str, str]]:
+    """Measure the distances of parts that nothing ties to the parts next to them: first within sub-assemblies, the
+    shortest first.
+
+    Long ones are left out, but within sub-assemblies. The first entry is whether the two are in different ones.
+    """
     home = group_of[known.fixed[0]]
     low, high = (np.array([part.box[end] for part in known.parts]) for end in (0, 1))
     numbers = np.array([group_of[name] for name in known.names])
@@ -97,7 +112,13 @@ def _distances(known: Known, group_of: Mapping[str, int]) -> list[tuple[float, s
         gaps = np.linalg.norm(np.maximum(np.maximum(low - high[index], low[index] - high), 0.0), axis=1)
         gaps[numbers == numbers[index]] = np.inf
         part = known.parts[index]
-        for other in np.argsort(gaps, kind="stable")[:CANDIDATES].tolist():
-            if gaps[other] <= limit and (distance := known.measured.distance(part, known.parts[other])) <= limit:
-                found.append((distance, part.name, known.parts[other].name))
-    return sorted(found, key=lambda each: (each[0], known.order[each[2]], known.order[each[1]]))
+        own = known.group[part.name]
+        apart = np.array([own == () or known.group[name] != own for name in known.names])
+        for other in np.lexsort((gaps, apart))[:CANDIDATES].tolist():
+            far = bool(apart[other])
+            reach = limit if far else np.inf
+            if np.isfinite(gaps[other]) and gaps[other] <= reach:
+                distance = known.measured.distance(part, known.parts[other])
+                if distance <= reach:
+                    found.append((far, distance, part.name, known.parts[other].name))
+    return sorted(found, key=lambda each: (each[0], each[1], known.order[each[3]], known.order[each[2]]))

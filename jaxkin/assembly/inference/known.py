@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.contacts.contact import Contacts
+from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
@@ -31,13 +33,19 @@ class Known:
         self.solids = {part.name: part for part in self.parts}
         self.names = tuple(self.solids)
         self.order = {name: place for place, name in enumerate(self.names)}
+        self.group = _subassemblies(self.parts)
+        """The sub-assembly that each part is in, by its path; () for those of the whole assembly."""
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = {frozenset(joint.parts) for joint in joints}
         self.touching = {frozenset(contact.parts) for contact in contacts}
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
+        self.sleeves: set[str] = set()
         self.bores, found = measured.bores, measured.axes(clearance)
-        self.axes = [pair for pair in found if frozenset(pair.parts) not in ignored]
+        self.ignored, self.clearance = ignored, clearance
+        found = [pair for pair in found if frozenset(pair.parts) not in ignored]
+        self.axes = [pair for pair in found if not pair.tapped]
+        self.tapped = [pair for pair in found if pair.tapped]
 
     @property
     def body(self) -> Mapping[str, str]:
@@ -45,12 +53,30 @@ class Known:
         groups = [each.parts for each in self.found if each.joint is None]
         return bodies(self.names, self.fixed, [*self.rigid, *groups])
 
+    @property
+    def far(self) -> list[CommonAxis]:
+        """Axes that are taken only for parts that nothing else ties; none where a largest clearance is asked for."""
+        if self.clearance is not None:
+            return []
+        return [pair for pair in self.measured.far_axes(None) if frozenset(pair.parts) not in self.ignored]
+
     def add(self, inferences: Sequence[Inference]) -> None:
-        """Take inferences of parts that are not one body already, one after another."""
+        """Take inferences of parts that are not one body already, one after another.
+
+        Parts that joints by hand or inferred joints join are left apart.
+        """
         body = self.body
+        jointed = [*self.by_hand, *(frozenset(each.parts) for each in self.found if each.joint)]
         for each in inferences:
             owners = {body[part] for part in each.parts}
-            if len(owners) > 1:
+            if len(owners) > 1 and not any({body[part] for part in pair} <= owners for pair in jointed):
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
                 body = {part: first if owner in owners else owner for part, owner in body.items()}
+
+
+def _subassemblies(parts: Sequence[Part]) -> dict[str, tuple[str, ...]]:
+    """Map each part to the path of its innermost sub-assembly; to () where that holds every part."""
+    paths = [part.path for part in parts]
+    same = next((k for k, level in enumerate(zip(*paths, strict=False)) if len(set(level)) > 1), min(map(len, paths)))
+    return {part.name: part.path if len(part.path) > same else () for part in parts}

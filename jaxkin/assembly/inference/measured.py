@@ -8,13 +8,12 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.axes import CommonAxis, common_axes
+from jaxkin.assembly.inference.axes import CommonAxis, common_axes, far_axes
 from jaxkin.assembly.inference.bearings import Bearing, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
-from jaxkin.assembly.inference.embedded import samples, share_inside
+from jaxkin.assembly.inference.embedded import depth_inside
 from jaxkin.assembly.inference.trapped import Stop, stops
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.pose import Points
 
 CORNERS = 12
 """Corners of a part, the nearest to the box of the other one, from which distances are measured."""
@@ -27,7 +26,6 @@ class Measured:
         self.parts = tuple(parts)
         self._axes: dict[float | None, list[CommonAxis]] = {}
         self._stops: dict[tuple[str, int], list[Stop]] = {}
-        self._samples: dict[str, Points] = {}
         self._inside: dict[tuple[str, str], float] = {}
         self._distances: dict[frozenset[str], float] = {}
 
@@ -47,6 +45,10 @@ class Measured:
             self._axes[clearance] = common_axes([bore for own in self.bores.values() for bore in own], clearance)
         return self._axes[clearance]
 
+    def far_axes(self, clearance: float | None) -> list[CommonAxis]:
+        """Find the axes of parts that nothing else ties: see `far_axes`."""
+        return far_axes([bore for own in self.bores.values() for bore in own], self.axes(clearance))
+
     @cached_property
     def boxes(self) -> Float[np.ndarray, "parts 2 3"]:
         """Lowest and highest corner of each part."""
@@ -65,13 +67,12 @@ class Measured:
             self._stops[key] = stops(part, axis)
         return self._stops[key]
 
-    def share_inside(self, part: Part, other: Part) -> float:
-        """Measure the share of a part's corners that lie in the material of another one."""
+    def depth_inside(self, part: Part, other: Part) -> float:
+        """Measure the length of the pins of a part that lies in the material of another one."""
         key = part.name, other.name
         if key not in self._inside:
-            if part.name not in self._samples:
-                self._samples[part.name] = samples(part)
-            self._inside[key] = share_inside(self._samples[part.name], other)
+            pins = [bore for bore in self.bores[part.name] if not bore.hole]
+            self._inside[key] = float(sum(depth_inside(pin, other) for pin in pins))
         return self._inside[key]
 
     def distance(self, one: Part, other: Part) -> float:

@@ -1,4 +1,5 @@
-"""Screws that end in nothing that is drawn: they point at the part that they are screwed into."""
+"""Screws in holes drilled for their threads, and screws that end in nothing that is drawn: they point at the part that
+they are screwed into."""
 
 from __future__ import annotations
 
@@ -15,6 +16,20 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MAX_SHORTFALL = 2.0
 """Distance from the end of a screw to the part that it points at, over its radius: a thread drawn a little short."""
+
+
+def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Join screws with the parts in which they are in a hole drilled for their thread, nuts among them."""
+    result = []
+    for pair in known.axes:
+        if pair.threaded and pair.one.part in fastening:
+            screw, host = pair.parts
+            radii = f"{pair.one.radius:.4g} is screwed into a hole of {pair.other.radius:.4g}"
+            text = f"{screw!r} of radius {radii} of {host!r}"
+            sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
+            parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
 
 
 def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:

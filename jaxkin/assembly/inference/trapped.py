@@ -20,8 +20,13 @@ REACH = 3.0
 MAX_PLAY = 3.0
 """Play of a hinge along its axis, over the radius, in all: a link between two lugs, with washers that are not drawn.
 What slides on purpose has a stroke of more."""
+MAX_LIFT = 0.5
+"""Distance from a face, over the radius, at which a screw or a pin with a head holds a part to it."""
 MAX_OVERLAP = 0.2
 """Faces that overlap by no more, over the radius, are drawn a little too thick."""
+MIN_MET = 0.02
+"""Width, over the radius, of the ring about the axis in which two faces meet, at least: a piston passes a shoulder that
+begins where the piston ends."""
 
 
 class Stop(NamedTuple):
@@ -31,6 +36,10 @@ class Stop(NamedTuple):
     """Where it stands along the axis."""
     forwards: bool
     """Whether its outward normal is along the axis, not against it."""
+    inner: float
+    """Least distance of the face from the axis."""
+    outer: float
+    """Greatest one: what turns about the axis meets faces that are as far from it."""
 
 
 def stops(part: Part, axis: Bore) -> list[Stop]:
@@ -39,11 +48,14 @@ def stops(part: Part, axis: Bore) -> list[Stop]:
     if not planes:
         return []
     tilts = np.linalg.norm(np.cross([plane.normal for plane, _ in planes], axis.axis), axis=1)
-    return [
-        Stop(float(plane.point @ axis.axis), bool(plane.normal @ axis.axis > 0))
-        for (plane, triangles), tilt in zip(planes, tilts, strict=True)
-        if tilt <= ACROSS and _distance(triangles, axis.point, axis.axis) <= REACH * axis.radius
-    ]
+    found = []
+    for (plane, triangles), tilt in zip(planes, tilts, strict=True):
+        if tilt <= ACROSS and (inner := _distance(triangles, axis.point, axis.axis)) <= REACH * axis.radius:
+            corners = triangles.reshape(-1, 3) - axis.point
+            outer = np.linalg.norm(corners - np.outer(corners @ axis.axis, axis.axis), axis=1).max()
+            forwards = bool(plane.normal @ axis.axis > 0)
+            found.append(Stop(float(plane.point @ axis.axis), forwards, inner, float(outer)))
+    return found
 
 
 def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:
@@ -65,7 +77,16 @@ def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | N
     return None if ahead is None or behind is None else ahead + behind
 
 
+def nearest(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+    """Return how far one body is from being stopped by the other, on the side where that is less; None without
+    stops."""
+    gaps = [gap for gap in (_gap(one, other, radius), _gap(other, one, radius)) if gap is not None]
+    return min(gaps, default=None)
+
+
 def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
-    """Measure the least gap from faces of one that look forwards to faces of the other that look backwards."""
-    gaps = [b.height - a.height for a in one if a.forwards for b in other if not b.forwards]
+    """Measure the least gap from faces of one that look forwards to faces of the other that look backwards, as far from
+    the axis."""
+    facing = [(a, b) for a in one if a.forwards for b in other if not b.forwards]
+    gaps = [b.height - a.height for a, b in facing if min(a.outer, b.outer) - max(a.inner, b.inner) > MIN_MET * radius]
     return min((max(gap, 0.0) for gap in gaps if gap >= -MAX_OVERLAP * radius), default=None)

@@ -202,10 +202,7 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
-    """Correct predicted states by Newton's method, and by the damped corrector those that Newton's method leaves open.
-
-    With `follow_limits=False` of the problem the damped corrector does not run.
-    """
+    """Correct predicted states by Newton's method; what that leaves open by the damped one, if limits are followed."""
     options, predicted = problem.options, attempt.predicted
     target_residual = rounding_residual(predicted.x.dtype, TARGET_ROUNDINGS)
     state, closed, residual_norm = newton(problem, predicted, target_residual, extrapolate_residual=True)
@@ -219,6 +216,8 @@ def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarq
         steps = jnp.where(attempt.closing, options.rescue_steps, steps)
         return select_poses(left_open, levenberg_marquardt(problem, predicted, steps, target_residual), quick)
 
+    if problem.follow_limits is False:
+        return quick
     return lax.cond(any_in_lockstep(left_open) & problem.follow_limits, damped, lambda: quick)
 
 

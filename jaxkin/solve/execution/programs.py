@@ -26,6 +26,7 @@ from jaxkin.solve.closed_form.range_by_formula import (
     joint_displacements,
     line_of,
 )
+from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -53,6 +54,8 @@ for work occupy the core that another shard needs. Several cores work on shards 
 Given = Float[Array | np.ndarray, "driven poses"]
 """Inputs, radians or lengths of the mechanism."""
 
+_limited: set[tuple[Any, ...]] = set()
+"""Systems, options and sizes of the ranges that were found to have limits on their way."""
 _traces = 0
 """Number of programs that find poses and were traced in this process."""
 
@@ -92,7 +95,7 @@ def solve(
     # inside a function that is being traced, what a program returns is traced, though it is given numbers
     inside = traced(jax.device_put(np.zeros(0)))
     if known and not inside:
-        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance)
+        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance, limits_ahead=by_formula)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     inside = inside or traced(numbers)
     if inside:
@@ -104,6 +107,19 @@ def solve(
     # compiler options apply to whole programs only: inside a traced function, the search is part of its program
     poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
     return _displacements_program(system, joints, inputs, poses), _outcome(poses)
+
+
+def project(
+    system: LoopSystem,
+    options: SolverOptions,
+    joints: Joints,
+    given: Float[Array | np.ndarray, "columns poses"],
+    weights: Float[Array | np.ndarray, " columns"],
+    tolerance: ClosureTolerance,
+) -> NearestPoses:
+    """Find the closed poses nearest to `given` coordinates of all joints: see `correctors.nearest_pose`."""
+    known = not traced((joints, given, weights, tolerance, jax.device_put(np.zeros(0))))
+    return _projection_program(known)(system, options.of_program, joints, given, weights, tolerance)
 
 
 def compilations() -> int:
@@ -165,19 +181,33 @@ def _poses_by_formula(
 
 
 def _solve_numbers(
-    system: LoopSystem, options: SolverOptions, joints: Joints, inputs: np.ndarray, tolerance: ClosureTolerance
+    system: LoopSystem,
+    options: SolverOptions,
+    joints: Joints,
+    inputs: np.ndarray,
+    tolerance: ClosureTolerance,
+    limits_ahead: bool,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Solve for known (not traced) numbers, long ranges in shards."""
-    of_program = options.of_program
+    """Solve for known (not traced) numbers, long ranges in shards.
+
+    Most ranges need only the program that follows no limits, which takes half as long to compile. The other program is
+    compiled where that one leaves a pose open, or with `limits_ahead`, and solves ranges of the same size from then on.
+    """
+    given = system, options.of_program
     if options.method != CONTINUATION:
-        return _solve_program()(system, of_program, joints, inputs, tolerance)
+        return _solve_program()(*given, joints, inputs, tolerance)
     ordered, places = _in_order(inputs, options.interpolate_from)
     count = shard_count(system, ordered.shape[1], options)
 
-    def of_shard(inputs: np.ndarray, shard_start: np.ndarray | None = None):
-        return _solve_program()(system, of_program, joints, inputs, tolerance, shard_start, shard_count=count)
+    def solved(follow_limits: bool) -> tuple[Float[Array, "columns poses"], Outcome]:
+        program = partial(_solve_program(), *given, joints, shard_count=count, follow_limits=follow_limits)
+        return run_on_cores(system, lambda inputs, start=None: program(inputs, tolerance, start), ordered, count)
 
-    found = run_on_cores(system, of_shard, ordered, count)
+    key = *given, ordered.shape, ordered.dtype
+    found = None if limits_ahead or key in _limited else solved(follow_limits=False)
+    if found is None or (np.asarray(found[1].status) != Status.CLOSED.value).any():
+        _limited.add(key)
+        found = solved(follow_limits=True)
     return found if places is None else jax.tree.map(lambda rows: rows[..., places], found)
 
 
@@ -200,9 +230,10 @@ def _solve(
     tolerance: ClosureTolerance,
     shard_start: Int[Array, ""] | None = None,
     shard_count: int = 1,
+    follow_limits: bool = True,
 ) -> tuple[Float[Array, "columns shard"], Outcome]:
     count_trace()
-    poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start)
+    poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start, follow_limits)
     own = shard(inputs, shard_count, shard_start)
     return displacements(system, joints, own, poses), Outcome(poses.status, poses.residual_norm)
 
@@ -233,7 +264,7 @@ _displacements_program = jax.jit(displacements, static_argnames="system")
 @cache
 def _solve_program():
     """Make the program of a plain sweep: poses and displacements."""
-    return jax.jit(_solve, static_argnames=("system", "options", "shard_count"), **jit_options())
+    return jax.jit(_solve, static_argnames=("system", "options", "shard_count", "follow_limits"), **jit_options())
 
 
 @cache
@@ -256,6 +287,12 @@ _formula_displacements_program = jax.jit(displacements_by_formula, static_argnam
 def _poses_program(whole: bool):
     """Make the function that finds poses without displacements: a program of its own, or part of a traced one."""
     return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
+
+
+@cache
+def _projection_program(whole: bool):
+    """Make the program of the nearest closed poses: one of its own, or part of a traced one."""
+    return jax.jit(nearest_poses, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
 @cache

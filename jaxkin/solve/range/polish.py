@@ -54,6 +54,8 @@ def correct_poses(
         status = jnp.where(prediction.covered, status, Status.STALLED.value)
         return select_poses(good, found, Poses(corrected, status, residual_norm))
 
+    if problem.follow_limits is False:  # known when the program is made: it holds no damped corrector
+        return found
     return lax.cond(any_in_lockstep(~good) & problem.follow_limits, damped, lambda: found)
 
 

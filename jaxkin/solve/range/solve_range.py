@@ -163,6 +163,8 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
     def corrected(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
         found = correct_poses(problem, samples, at, inputs, asked.tolerance)
+        if follow_limits is False:  # known when the program is made: it holds no second continuation
+            return found
         failed = found.status != Status.CLOSED.value
 
         def straight() -> Poses:

@@ -65,7 +65,9 @@ def test_faces_that_stop_the_slide_make_it_a_hinge():
     assert joint.kind == "revolute" and dict(joint.evidence.sizes)["play"] == pytest.approx(3.0)
 
 
-@pytest.mark.parametrize(("gap", "kind"), [(0.0, "revolute"), (40.0, None), (12.0, "cylindrical")])
+@pytest.mark.parametrize(
+    ("gap", "kind"), [(0.0, "revolute"), (12.0, "cylindrical"), (40.0, "cylindrical"), (130.0, None)]
+)
 def test_equal_bores_without_a_pin_are_a_hinge_where_faces_touch(gap, kind):
     """One stop is enough here: with a virtual pin, nothing is said about what holds the other side."""
     base = part("base", BASE, ring(5.0, 12.0, -8, 0))

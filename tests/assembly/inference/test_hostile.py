@@ -117,3 +117,16 @@ def test_what_is_excluded_is_not_proposed_either():
     drawn = assembly(*boxes(["base", "b", "c"]))
     for proposal in drawn.without(["b*"]).proposals():
         assert "base" not in proposal.fixed and "b" not in proposal.fixed
+
+
+@pytest.mark.parametrize("play", [0.0, 0.2])
+def test_links_over_a_sheet_of_equal_holes_turn_about_their_pivots_only(play):
+    """All bores of the lever are coaxial with holes of the sheet, and one pin only is in two of them: it is a hinge."""
+    holes = [(10.0 * i, 10.0 * j) for i in range(6) for j in range(4)]
+    sheet = plate("sheet", (-5, -5, -2), (55, 35, 0), holes, 2.0 + play)
+    lever = plate("lever", (-4, -4, 0), (34, 4, 3), [(0.0, 0.0)], 2.0 + play)
+    pivot = part("pivot", [cylinder("face 1", (0, 0, 0.5), (0, 0, 1), 2.0, 5.0)])
+    mechanism = assembly(sheet, lever, pivot).mechanism(fixed=["sheet"])
+    (joint,) = (each for each in mechanism.all_joints if each.freedoms)
+    assert joint.kind == "revolute" and mechanism.mobility().useful == 1
+    np.testing.assert_allclose(joint.frames_1[0, :2, 3], 0.0, atol=1e-9)

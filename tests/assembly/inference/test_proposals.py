@@ -36,3 +36,10 @@ def test_what_cannot_move_is_said(fourbar):
     (proposal,) = assembly.proposals()
     assert proposal.problem
     assert proposal.drive == ()
+
+
+def test_many_coordinates_are_counted():
+    """All of them are in `drive`; a line of text tells the first."""
+    drive = tuple(f"j{number}.phi" for number in range(18))
+    told = str(jk.Proposal(("base",), drive, 18, 19, 18))
+    assert "'j0.phi'" in told and "and 13 more can be driven" in told and "'j17.phi'" not in told

@@ -1,0 +1,61 @@
+"""Robots from files: the first sweep of all motors in a fresh process, the same again, and 10,000 poses.
+
+    python benchmarks/robots.py FOLDER
+
+Takes each .urdf of the folder with the .yaml of its name, and each .xml. Every robot runs in a process of its own,
+which finds no compiled program. *first* is processor time, of all threads, from the call to the poses, and *again* the
+wall time of the best of five calls: 360 poses each, all motors at once from 0 to 0.1.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+POSES, MANY = 360, 10_000
+
+
+def child(path: Path) -> None:
+    """Time one robot."""
+    import jax
+    import numpy as np
+
+    jax.config.update("jax_enable_x64", True)
+    import jaxkin as jk
+
+    loops = path.with_suffix(".yaml")
+    mechanism = jk.load(path, loops=loops if loops.exists() else None).mechanism()
+
+    def sweep(poses: int, to: float) -> float:
+        drive = {motor: np.linspace(0, to, poses) for motor in mechanism.motors}
+        begin = time.perf_counter()
+        motion = mechanism.sweep(drive, throw=True)
+        jax.block_until_ready(motion.displacements)
+        return time.perf_counter() - begin
+
+    begin = time.process_time()
+    sweep(POSES, 0.1)
+    first = time.process_time() - begin
+    again = min(sweep(POSES, 0.09) for _ in range(5))
+    sweep(MANY, 0.1)
+    many = min(sweep(MANY, 0.09) for _ in range(3))
+    loops_there, motors = len(mechanism.structure.loops), len(mechanism.motors)
+    print(f"{path.stem:40} {loops_there:5} {motors:6} {first:9.1f} {1e3 * again:9.1f} {1e3 * many:11.0f}")
+
+
+def main() -> None:
+    files = sorted(each for each in Path(sys.argv[1]).iterdir() if each.suffix in (".urdf", ".xml"))
+    print(f"{'':40} loops motors  first, s again, ms 10,000, ms", flush=True)
+    for path in files:
+        environment = {key: value for key, value in os.environ.items() if key != "JAX_COMPILATION_CACHE_DIR"}
+        subprocess.run(
+            [sys.executable, __file__, "--one", str(path)], env=environment | {"PYTHONPATH": str(ROOT)}, check=True
+        )
+
+
+if __name__ == "__main__":
+    child(Path(sys.argv[2])) if sys.argv[1] == "--one" else main()

@@ -1,0 +1,55 @@
+"""Guides: slides whose faces hold two bodies to each other from all sides, with room to travel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin.geometry.part import Face
+from jaxkin.geometry.trig import TURN
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+TILT = 1e-3
+"""Radians by which normals may be off opposite directions: two cheeks leave a slide along them, and are no guide."""
+ROOM = 2.0
+"""Length of the longer faces over that of the shorter ones, along the slide, from which on a carriage travels on a
+rail: those of catalogues have five and more, what is put over a lip and welded there one."""
+
+
+def is_guide(mechanism: Mechanism, joint: Joint) -> bool:
+    """Tell whether a slide between solids is that of a carriage on its rail.
+
+    Its faces hold both bodies together whichever way one is pulled across the slide, and those of one body are longer
+    than those of the other.
+    """
+    contacts = mechanism.contacts.get(joint.name, ())
+    if joint.kind is not JointKind.PRISMATIC or not contacts:
+        return False
+    faces = {(part.name, face.name): face for part in mechanism.solids for face in part.faces}
+    first = next(parts for parts in mechanism.bodies.values() if joint.parts[0] in parts)
+    sides: tuple[list[Face], list[Face]] = ([], [])
+    for contact in contacts:
+        for part, face in zip(contact.parts, contact.faces, strict=True):
+            sides[part not in first].append(faces[part, face])
+    pose = np.asarray(joint.frames_1, float)[0]
+    return _hold(sides[0], pose[:3, :2]) and _have_room(sides, pose[:3, 2])
+
+
+def _hold(faces: list[Face], across: Float[np.ndarray, "3 2"]) -> bool:
+    """Tell whether the normals of faces, seen along a slide, leave no half of all directions free."""
+    corners = np.concatenate([face.triangles for face in faces])
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) @ across
+    angles = np.sort(np.arctan2(normals[:, 1], normals[:, 0]))
+    return float(np.diff(np.append(angles, angles[0] + TURN)).max()) < np.pi - TILT
+
+
+def _have_room(sides: tuple[list[Face], list[Face]], along: Float[np.ndarray, " 3"]) -> bool:
+    """Tell whether the faces of one side are longer along a slide than those of the other."""
+    lengths = [np.ptp(np.concatenate([face.triangles.reshape(-1, 3) for face in faces]) @ along) for faces in sides]
+    return bool(max(lengths) >= ROOM * min(lengths))

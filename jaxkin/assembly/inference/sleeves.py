@@ -1,0 +1,89 @@
+"""Sleeves: bushes, liners and nuts in a hole of one part, round a pin or a hole of another."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bearings import ROUND
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import play
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+SAME_FIT = 0.002
+"""Clearances that differ by less, over the radius, are one fit: the loosest press fit of a tolerance table."""
+FLUSH = 0.1
+"""A sleeve that ends where its hole does, within so much over its radius, is set into the hole from there."""
+
+
+class Sleeve(NamedTuple):
+    """A round part with a hole, in a hole of another part."""
+
+    part: str
+    housing: CommonAxis
+    """The outside of the sleeve and the hole that it is in."""
+    pin: CommonAxis | None
+    """What goes through the sleeve, where something does."""
+
+
+def sleeves(known: Known) -> list[Sleeve]:
+    """Find the sleeves among the parts that are round: their outside in a hole, and a hole of their own on that
+    axis."""
+    pins = [pair for pair in known.axes if not pair.virtual and not pair.threaded]
+    result = []
+    for name in known.names:
+        outside = [pair for pair in pins if pair.one.part == name]
+        if not outside or name in known.fixed:
+            continue
+        housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
+        own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
+        if any(bore.hole for bore in own) and _is_round(known, name, own):
+            through = [pair for pair in pins if pair.other.part == name and pair.other in own]
+            pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
+            result.append(Sleeve(name, housing, pin))
+    return result
+
+
+def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
+    """Join each sleeve with the part that it is in, or with the pin that it is on.
+
+    It sits where it fits more tightly. Where it fits both alike, it is set into its hole, but for a ring in a groove of
+    the pin: that is held between faces of the pin, and not where its hole ends.
+    """
+    result = []
+    for each in found:
+        seat, why = each.housing, "set into the hole of"
+        if each.pin is not None:
+            looser = max(each.housing.clearance, 0.0) - max(each.pin.clearance, 0.0)
+            if looser > SAME_FIT * each.housing.one.radius:
+                seat, why = each.pin, "tighter on the pin of"
+            elif abs(looser) <= SAME_FIT * each.housing.one.radius and _in_groove(known, each.housing, each.pin):
+                seat, why = each.pin, "held in a groove of"
+        host = seat.other.part if seat is each.housing else seat.one.part
+        evidence = Evidence(
+            EvidenceKind.FASTENER,
+            (("radius", seat.one.radius), ("clearance", seat.clearance)),
+            f"the sleeve {each.part!r} is {why} {host!r}, with a clearance of {seat.clearance:.2g}",
+        )
+        result.append(Inference(tuple(sorted((each.part, host), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def _is_round(known: Known, name: str, own: list[Bore]) -> bool:
+    widest = max((bore for bore in own if not bore.hole), key=lambda bore: bore.radius)
+    corners = known.solids[name].outermost - widest.point
+    away = np.linalg.norm(corners - np.outer(corners @ widest.axis, widest.axis), axis=1)
+    return bool(away.max() <= ROUND * widest.radius)
+
+
+def _in_groove(known: Known, housing: CommonAxis, pin: CommonAxis) -> bool:
+    """Tell whether faces of the pin hold a sleeve on both sides, inside of a hole that goes on beyond it."""
+    (low, high), (first, last) = (bore.reach(housing.one.axis) for bore in (housing.one, housing.other))
+    if min(low - first, last - high) <= FLUSH * housing.one.radius:
+        return False
+    one, other = (known.measured.stops(known.solids[part], housing.other) for part in (housing.one.part, pin.one.part))
+    return play(one, other, housing.one.radius) is not None

@@ -1,0 +1,82 @@
+"""Slides with clearance: a part between faces of another one on both sides, in two directions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_PLAY = 0.06
+"""Play of a part between two faces, over its width there, in all: drawers that people drew have half a
+millimetre on each side of 20."""
+
+
+def loose_slides(known: Known) -> list[Inference]:
+    """Infer prismatic joints of parts that are between faces of another one, with play, and have no contact with it."""
+    body, result = known.body, []
+    tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
+    tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    for part in known.parts:
+        for other in known.measured.beside(part):
+            owners = frozenset((body[part.name], body[other.name]))
+            if known.order[part.name] > known.order[other.name] or len(owners) < 2 or owners in tied:
+                continue
+            found = _slide(part, other)
+            if found is not None:
+                axis, play = found
+                parts = (part.name, other.name)
+                text = f"faces on both sides in two directions, with a play of {play:.2g}"
+                evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
+                joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
+                result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+                tied.add(owners)
+    return result
+
+
+def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
+    """Find the direction in which one of two parts slides between faces of the other, and its largest play."""
+    facing = [
+        (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
+        for a in one.faces
+        if isinstance(a.surface, Plane)
+        for b in other.faces
+        if (gap := _gap(a, b)) is not None
+    ]
+    held: list[tuple[Vector, float]] = []
+    for k, (normal, gap, place) in enumerate(facing):
+        for back, other_gap, other_place in facing[:k]:
+            width = abs(place + other_place)
+            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
+                held.append((normal, gap + other_gap))
+    for normal, play in held:
+        for across, other_play in held:
+            axis = np.cross(normal, across)
+            if np.linalg.norm(axis) > 0.5:
+                axis /= np.linalg.norm(axis)
+                stopped = any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, _ in held)
+                return None if stopped else (axis, max(play, other_play))
+    return None
+
+
+def _gap(a: Face, b: Face) -> float | None:
+    """Measure the gap between two faces that look at each other; None where they do not, or only beside each other."""
+    one, other = a.surface, b.surface
+    if not isinstance(one, Plane) or not isinstance(other, Plane) or np.linalg.norm(one.normal + other.normal) > ACROSS:
+        return None
+    gap = float((other.point - one.point) @ one.normal)
+    if gap < 0:
+        return None
+    x = np.cross(one.normal, np.eye(3)[np.argmin(np.abs(one.normal))])
+    across = np.column_stack([x, np.cross(one.normal, x)])
+    first, second = (face.triangles.reshape(-1, 3) @ across for face in (a, b))
+    low, high = np.maximum(first.min(axis=0), second.min(axis=0)), np.minimum(first.max(axis=0), second.max(axis=0))
+    return gap if np.all(high > low) else None

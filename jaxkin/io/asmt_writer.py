@@ -1,0 +1,261 @@
+"""ASMT, the assemblies of FreeCAD's solver, written from a mechanism: parts with markers, joints between two markers.
+
+The frame of each part is that of the world in the assembled pose, so markers are joint frames as they are. Joints make
+a graph there, so that loops need nothing of their own.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from jaxkin._files import whole
+from jaxkin._names import listed
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.asmt import COORDINATES, FIRST_LINES, KINDS, LIMITS, MOTIONS, SCREW
+from jaxkin.io.names import unique
+from jaxkin.io.robot_model import WORLD, along, placed
+from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
+from jaxkin.io.writable import check_writable
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.linkage.coordinates import coordinate
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+JOINT_OF = {kind: name for name, kind in KINDS.items()}
+"""Kind of joint -> what ASMT calls it."""
+
+SINGLE_OF = {
+    HINGE: JOINT_OF[JointKind.REVOLUTE],
+    SLIDE: JOINT_OF[JointKind.PRISMATIC],
+    BALL: JOINT_OF[JointKind.SPHERICAL],
+}
+"""Kind of a single motion -> joint."""
+
+ACROSS = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]])
+"""Rotation whose z axis is the first axis of a universal joint, y."""
+
+ALONG = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+"""Rotation whose z axis is the second axis of a universal joint, x."""
+
+EXPRESSION = {"RotationalMotion": "RotationZ", "TranslationalMotion": "TranslationZ"}
+"""Motions -> the key of their law."""
+
+MOTION_OF = {coordinate: name for name, coordinate in MOTIONS.items()}
+LIMIT_OF = {coordinate: name for name, coordinate in LIMITS.items()}
+
+LAST = (
+    "\tForceTorques\n\tConstantGravity\n\t\t0\t0\t0\n\tSimulationParameters\n\t\ttstart\n\t\t\t0\n\t\ttend\n\t\t\t1\n"
+    "\t\thmin\n\t\t\t1e-09\n\t\thmax\n\t\t\t1\n\t\thout\n\t\t\t0.1\n\t\terrorTol\n\t\t\t1e-06\n\tAnimationParameters\n"
+    "\t\tnframe\n\t\t\t11\n\t\ticurrent\n\t\t\t1\n\t\tistart\n\t\t\t1\n\t\tiend\n\t\t\t11\n\t\tisForward\n\t\t\ttrue\n"
+    "\t\tframesPerSecond\n\t\t\t30\n"
+)
+"""What the solver expects behind the joints: how it is to simulate, which no mechanism says."""
+
+
+def write_asmt(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
+    """Write a mechanism as an assembly of FreeCAD's solver (.asmt), in its own unit, and return its path.
+
+    The file holds parts, joints, limits, and motors as motions that hold still; it names no unit, and has no place for
+    solids. Joints that the format does not have are chains of joints of one coordinate each, named "joint_phi". The
+    file appears whole or not at all.
+
+    Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
+    pose, for couplings, and for a joint with a coordinate that turns or slides twice, as a constant velocity joint.
+    """
+    target = Path(path)
+    if target.suffix.lower() != ".asmt":
+        raise ValueError(f"an assembly of FreeCAD's solver is an .asmt file, got {str(target)!r}")
+    text = _Writer(mechanism, target.stem).text()
+    with whole(target) as draft:
+        draft.write_text(text, encoding="utf-8")
+    return target
+
+
+class _Written(NamedTuple):
+    """A joint of the file."""
+
+    kind: str
+    name: str
+    sides: tuple[tuple[str, Pose], tuple[str, Pose]]
+    """Of each marker its part, and its pose."""
+    more: tuple[tuple[str, str], ...] = ()
+
+
+class _Writer:
+    """What one file holds."""
+
+    def __init__(self, mechanism: Mechanism, name: str) -> None:
+        check_writable(mechanism.all_joints, "assembly")
+        if mechanism.linkage.couplings:
+            coupling = mechanism.linkage.couplings[0]
+            raise ValueError(
+                f"ASMT cannot say the coupling {coupling.name!r}, {coupling}: write the mechanism without it, and what "
+                f"it ties, {listed(list(map(repr, coupling.coordinates)))}, moves on its own; jk.write_mjcf and "
+                "mechanism.save keep couplings"
+            )
+        self.name = name
+        self.parts = [part for part in mechanism.parts if part != WORLD]
+        self.motors = {coordinate(mechanism.linkage, motor): motor for motor in mechanism.motors}
+        self.joints: list[_Written] = []
+        self.motions: list[tuple[str, str]] = []
+        """Of each motor the joint, and its coordinate there, "phi" or "z"."""
+        self.limits: list[tuple[str, str, tuple[float, float]]] = []
+        names = coordinate_names(mechanism.all_joints)
+        taken = [each for own in names for each in own] + [joint.name for joint in mechanism.all_joints]
+        for part in mechanism.fixed:
+            if part != WORLD:
+                sides = ((WORLD, np.eye(4)), (part, np.eye(4)))
+                name = unique([*dict.fromkeys(taken), f"{part} on the ground"])[-1]
+                self.joints.append(_Written(JOINT_OF[JointKind.FIXED], name, sides))
+        for number, joint in enumerate(mechanism.all_joints):
+            moved = [column for place, column in self.motors if place == number]
+            if self._is_one(joint, moved):
+                self._one(number, joint, moved)
+            else:
+                self._chain(joint, names[number], moved)
+
+    def _is_one(self, joint: Joint, moved: Sequence[int]) -> bool:
+        """Tell whether the format has the joint, with the limits and motors that it has."""
+        if joint.kind not in JOINT_OF and joint.kind is not JointKind.SCREW:
+            return False
+        return joint.kind in COORDINATES or not (joint.limits or moved)
+
+    def _one(self, number: int, joint: Joint, moved: Sequence[int]) -> None:
+        """Write a joint that the format has."""
+        frame = np.asarray(joint.frames_1, float)[0]
+        first = second = frame
+        if joint.kind is JointKind.UNIVERSAL:
+            first, second = frame @ placed(ACROSS, np.zeros(3)), frame @ placed(ALONG, np.zeros(3))
+        sides = ((joint.parts[0], first), (joint.parts[1], second))
+        screw = joint.kind is JointKind.SCREW
+        kind = JOINT_OF[JointKind.CYLINDRICAL if screw else joint.kind]
+        self.joints.append(_Written(kind, joint.name, sides))
+        if screw:
+            self.joints.append(
+                _Written(SCREW, f"{joint.name} thread", sides, (("pitch", _number(float(joint.pitch))),))
+            )
+        columns = COORDINATES.get(joint.kind, ())
+        self.motions += [(joint.name, columns[column]) for column in moved]
+        self.limits += [(joint.name, *both) for both in zip(columns, joint.limits, strict=False)]
+
+    def _chain(self, joint: Joint, names: Sequence[str], moved: Sequence[int]) -> None:
+        """Write a joint as a chain of joints of one coordinate each, with parts between them."""
+        driven = {names[column] for column in moved}
+        before, last = joint.parts
+        motions = single_motions(joint, names, 1.0)
+        for step, motion in enumerate(motions, start=1):
+            if motion.follows is not None:
+                raise ValueError(
+                    f"ASMT cannot say the joint {joint.name!r} ({joint.kind}): its {motion.follows[0]!r} moves twice, "
+                    "and the format has no couplings; jk.write_mjcf and mechanism.save keep it"
+                )
+            if motion.kind == BALL and motion.name in driven:
+                raise ValueError(
+                    f"ASMT cannot say that angles of the ball {joint.name!r} are motors: its motions turn about one "
+                    "axis; give the mechanism without these motors, replace(mechanism, motors=())"
+                )
+            after = last if step == len(motions) else unique([*self.parts, f"{joint.name} link {step}"])[-1]
+            self.parts += [after] if after != last else []
+            frame = placed(np.eye(3) if motion.kind == BALL else along(motion.axis), motion.point)
+            self.joints.append(_Written(SINGLE_OF[motion.kind], motion.name, ((before, frame), (after, frame))))
+            key = "z" if motion.kind == SLIDE else "phi"
+            self.motions += [(motion.name, key)] if motion.name in driven else []
+            self.limits += [(motion.name, key, motion.limits)] if motion.kind != BALL else []
+            before = after
+
+    def text(self) -> str:
+        """Write the assembly, in the order that its solver reads."""
+        names = unique(each.name for each in self.joints)
+        path = {each.name: f"/{self.name}/{name}" for each, name in zip(self.joints, names, strict=True)}
+        markers: dict[str, list[tuple[str, Pose]]] = {part: [] for part in (WORLD, *self.parts)}
+        joints = ""
+        for each, name in zip(self.joints, names, strict=True):
+            said = _node(4, "Name", name)
+            for side, (part, frame) in zip("IJ", each.sides, strict=True):
+                marker = f"Marker{len(markers[part]) + 1}"
+                markers[part].append((marker, frame))
+                said += _node(4, f"Marker{side}", self._path(part, marker))
+            joints += f"\t\t\t{each.kind}\n{said}{''.join(_node(4, *pair) for pair in each.more)}"
+        parts = "".join(
+            f"\t\tPart\n{_node(3, 'Name', part)}{_place(3, np.eye(4))}{_at_rest(3)}\t\t\tFeatureOrder\n{_mass(3)}"
+            f"{_markers(3, markers[part])}"
+            for part in self.parts
+        )
+        return (
+            f"{FIRST_LINES[0]}\nAssembly\n{_node(1, 'Notes', 'written by jaxkin')}{_node(1, 'Name', self.name)}"
+            f"{_place(1, np.eye(4))}{_at_rest(1)}{_markers(1, markers[WORLD])}\tParts\n{parts}\tKinematicIJs\n"
+            f"\tConstraintSets\n\t\tJoints\n{joints}\t\tMotions\n{self._motions(path)}{self._limits(path)}"
+            f"\t\tGeneralConstraintSets\n{LAST}"
+        )
+
+    def _path(self, part: str, marker: str) -> str:
+        return f"/{self.name}/{marker}" if part == WORLD else f"/{self.name}/{part}/{marker}"
+
+    def _motions(self, path: dict[str, str]) -> str:
+        result = ""
+        for number, (joint, key) in enumerate(self.motions, start=1):
+            kind = MOTION_OF[key]
+            result += f"\t\t\t{kind}\n{_node(4, 'Name', f'Motion{number}')}{_node(4, 'MotionJoint', path[joint])}"
+            result += _node(4, EXPRESSION[kind], "0.0")
+        return result
+
+    def _limits(self, path: dict[str, str]) -> str:
+        """Write the limits; no heading where there are none, since older versions of the solver know none."""
+        result, number = "", 0
+        for joint, key, ends in self.limits:
+            for bound, kind in zip(ends, ("=>", "=<"), strict=True):
+                if np.isfinite(bound):
+                    number += 1
+                    result += f"\t\t\t{LIMIT_OF[key]}\n{_node(4, 'Name', f'Limit{number}')}"
+                    result += _node(4, "MotionJoint", path[joint]) + _node(4, "Limit", _number(bound))
+                    result += _node(4, "Type", kind) + _node(4, "Tol", "1e-09")
+        return f"\t\tLimits\n{result}" if result else ""
+
+
+def _node(depth: int, key: str, value: str) -> str:
+    tabs = "\t" * depth
+    return f"{tabs}{key}\n{tabs}\t{value}\n"
+
+
+def _row(depth: int, numbers: Iterable[float]) -> str:
+    return "\t" * depth + "\t".join(map(_number, numbers)) + "\n"
+
+
+def _place(depth: int, pose: Pose) -> str:
+    tabs = "\t" * depth
+    rows = "".join(_row(depth + 1, row) for row in pose[:3, :3])
+    return f"{tabs}Position3D\n{_row(depth + 1, pose[:3, 3])}{tabs}RotationMatrix\n{rows}"
+
+
+def _at_rest(depth: int) -> str:
+    return "".join(_node(depth, key, "0\t0\t0") for key in ("Velocity3D", "Omega3D"))
+
+
+def _mass(depth: int) -> str:
+    """Write the mass of a part, which the solver asks for: 1, since a mechanism has none."""
+    inner = depth + 1
+    said = _node(inner, "Name", "MassMarker") + _place(inner, np.eye(4)) + _node(inner, "Mass", "1")
+    said += _node(inner, "MomentOfInertias", "1\t1\t1") + _node(inner, "Density", "1")
+    return "\t" * depth + "PrincipalMassMarker\n" + said
+
+
+def _markers(depth: int, markers: Sequence[tuple[str, Pose]]) -> str:
+    """Write the points of reference of a part: one, with all its markers."""
+    tabs = "\t" * depth
+    said = "".join(
+        f"{tabs}\t\t\tMarker\n{_node(depth + 4, 'Name', name)}{_place(depth + 4, pose)}" for name, pose in markers
+    )
+    point = f"{tabs}\tRefPoint\n{_place(depth + 2, np.eye(4))}{tabs}\t\tMarkers\n{said}"
+    return f"{tabs}RefPoints\n{point}{tabs}RefCurves\n{tabs}RefSurfaces\n"
+
+
+def _number(value: float) -> str:
+    """Write a number in full precision."""
+    return repr(float(value))

@@ -1,0 +1,44 @@
+"""Joints of the exports of CAD systems, by the names of their kinds: movements and frames."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from jaxkin.geometry.pose import Pose
+from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.kinds import JointKind
+
+_PAIRS = {"weld": (JointKind.FIXED, LOWER_PAIRS[0, 0][1])} | {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
+_BALLS = ("gimbal", "ball")
+"""Other names of the spherical pair: three rotations, as angles about successive axes."""
+FREE = ("6dof", "sixdof", "bushing")
+"""Joints that hold nothing: all six freedoms, perhaps with springs, which exports do not say."""
+PERPENDICULAR = 1e-6
+"""Largest cosine between the two axes of a universal joint."""
+
+
+def joint_of_kind(kind: str, base: Pose, follower: Pose) -> tuple[JointKind, Chain] | None:
+    """Return the kind and the displacements of a joint between two frames; None for kinds that are not known.
+
+    The axis of most kinds is the z axis of the frames. A universal joint turns about the x axis of the base and the y
+    axis of the follower; the slot of a pin is along the x axis of the base.
+    """
+    name = "".join(letter for letter in kind.lower() if letter.isalnum()).removesuffix("joint")
+    name = str(JointKind.SPHERICAL) if name in _BALLS else name
+    if name in _PAIRS:
+        found, movement = _PAIRS[name]
+        return found, Chain((movement,), base[None])
+    if name == "universal":
+        x, y = follower[:3, 1], base[:3, 0]
+        if abs(float(x @ y)) > PERPENDICULAR:
+            return None
+        cross = base.copy()
+        cross[:3, :3] = np.column_stack([x, y, np.cross(x, y)])
+        return JointKind.UNIVERSAL, Chain(("T_theta_phi",), cross[None])
+    if name in ("pinslot", "pininslot"):
+        slot = base.copy()
+        slot[:3, :3] = base[:3, [1, 2, 0]]
+        pin = base.copy()
+        pin[:3, 3] = follower[:3, 3]
+        return JointKind.PIN_IN_SLOT, Chain(("T_z", "T_phi"), np.stack([slot, pin]))
+    return None

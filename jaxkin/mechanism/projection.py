@@ -1,0 +1,208 @@
+"""Project coordinates of all joints onto the nearest closed poses: `project`, and what it gives back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import dtypes
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin._names import by_name, nearest
+from jaxkin._traced import traced
+from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.mechanism.collect import nan_where_not_finite
+from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.sweep import closure_tolerance, padded, warn_of_float32
+from jaxkin.solve.correctors.nearest_pose import NearestPoses
+from jaxkin.solve.execution.programs import project as nearest_poses
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.status import SEVERITY, Status
+from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+@dataclass(frozen=True, eq=False)
+class Projection:
+    """Closed poses nearest to given coordinates. A pytree; every array has the poses as its first axis."""
+
+    motion: Motion
+    """The poses. Its inputs are the coordinates that were held; the motors, where none were."""
+    distance: Float[Array, " poses"]
+    """Root of the sum of squares, over all coordinates of joints in loops, of how far they were moved, with their
+    weights: radians, and lengths over the characteristic length of the loops."""
+    nearest: Bool[Array, " poses"]
+    """Which poses are nearest: closed, and no closed pose beside them is nearer. The others are closed where their
+    status says so, but no more than near."""
+
+    def __str__(self) -> str:
+        poses, closed = len(self.motion), np.asarray(self.motion.on_branch)
+        if not poses:
+            return "no poses"
+        lines = [
+            f"{closed.sum()} of {poses} poses close; {int(np.sum(self.nearest))} of them are the nearest closed pose"
+        ]
+        if closed.any():
+            far = np.asarray(self.distance)[closed]
+            lines.append(f"  moved by {np.median(far):.3g} in the median, {far.max():.3g} at most")
+        return "\n".join(lines)
+
+
+jax.tree_util.register_dataclass(Projection, data_fields=["motion", "distance", "nearest"], meta_fields=[])
+
+
+def project(
+    mechanism: Mechanism,
+    given: Mapping[str, Any],
+    *,
+    hold: Iterable[str] = (),
+    weights: Mapping[str, float | int] | None = None,
+    options: SolverOptions | None = None,
+) -> Projection:
+    """Move coordinates of joints, many poses at once, to the nearest ones at which the loops close.
+
+    `given` maps joints to their displacements from the assembled pose, arrays (poses, coordinates) as those of
+    `motion.coordinates`, or (poses,) for a joint of one coordinate; joints that are not given are at zero. Nearest is
+    the least sum of squared differences, of angles in radians and of lengths over the characteristic length of the
+    loops; balls count by the angle between their rotations, but for those at which a loop is cut: these follow. Joints
+    in no loop stay as they are given; coordinates along the normal of planar loops rest.
+
+    - `hold`: coordinates that stay as they are given, such as those of motors.
+    - `weights`: factors of the differences of coordinates; a large one moves little. 1 where none is given.
+
+    It starts from what is given, not from the assembled pose: nothing says that the motion leads from one to the other,
+    and `CLOSED` means no more than that the loops close. Poses that cannot be closed have the status UNREACHABLE, those
+    with NaN or infinity NONFINITE. Works inside `jit`, `vmap` and `grad`; derivatives are those of the nearest pose,
+    zero where `nearest` is False. Raises ValueError for names that are not there, arrays of other shapes, and weights
+    that are not positive.
+    """
+    linkage, options = mechanism.linkage, options or SolverOptions()
+    warn_of_float32()
+    rows = _given(mechanism, given)
+    held = coordinates(linkage, tuple(hold)) if (hold := tuple(hold)) else {}
+    factors = _weights(mechanism, weights or {})
+    xp = jnp if traced(rows) else np
+    every = [rows[joint.name] for joint in mechanism.all_joints]
+    finite = xp.isfinite(xp.concatenate(every, axis=1)).all(axis=1)
+    tolerance = closure_tolerance(options.tolerance)
+    solved, found = [], []
+    for number, loop_group in enumerate(linkage.structure.loop_groups):
+        inside = tuple(place for place in held.values() if place[0] in loop_group.joints)
+        system, columns = group_system(linkage, loop_group, inside, linkage.classes[number])
+        joints = group_joints(linkage, linkage.solved_joints, loop_group)
+        begun = padded([xp.where(finite, every[joint][:, k], 0.0) for joint, k in columns])
+        found.append(
+            nearest_poses(system, options, joints, begun, np.array([factors[place] for place in columns]), tolerance)
+        )
+        resting = tuple(place for place in factors if place[0] in loop_group.joints and place not in columns)
+        solved.append((columns, resting))
+    displacements, status, residual, distance, best = _collect(tuple(solved), every, finite, found)
+    if linkage.ideal:  # what closed are the nearest joints that agree
+        status = jnp.where(status == Status.CLOSED.value, Status.MISFIT.value, status)
+    names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
+    inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
+    motion = Motion(mechanism, inputs, displacements, status, residual, options=options)
+    return Projection(motion, distance, best)
+
+
+@partial(jax.jit, static_argnums=0)
+def _collect(
+    solved: tuple[tuple[Columns, Columns], ...],
+    given: list[Float[Array, "poses _"]],
+    finite: Bool[Array, " poses"],
+    found: list[NearestPoses],
+) -> tuple[
+    tuple[Float[Array, "poses _"], ...],
+    Int[Array, " poses"],
+    Float[Array, " poses"],
+    Float[Array, " poses"],
+    Bool[Array, " poses"],
+]:
+    """Collect displacements of all joints, status, residual, distance and whether it is the nearest pose.
+
+    `solved` are the (joint, coordinate) of each loop group that were moved, and those that rest.
+    """
+    poses = len(finite)
+    moved = {(joint, k): row for joint, rows in enumerate(given) for k, row in enumerate(rows.T)}
+    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
+    worst = jnp.where(finite, 0, SEVERITY.index(Status.NONFINITE))
+    square = residual = jnp.zeros(poses, given[0].dtype)
+    best = finite
+    for (columns, resting), each in zip(solved, found, strict=True):
+        moved |= {place: row[:poses] for place, row in zip(columns, each.displacements, strict=True)}
+        moved |= dict.fromkeys(resting, jnp.zeros(poses, given[0].dtype))  # along the normal of a planar group
+        worst = jnp.maximum(worst, rank[each.status[:poses]])
+        square, residual = square + each.square[:poses], residual + each.residual_norm[:poses] ** 2
+        best = best & each.nearest[:poses]
+    status = jnp.array([each.value for each in SEVERITY], jnp.int32)[worst]
+    displacements = tuple(
+        jnp.stack([moved[joint, k] for k in range(rows.shape[1])], axis=1) if rows.shape[1] else rows
+        for joint, rows in enumerate(given)
+    )
+    norms = jnp.sqrt(residual), _root(square)
+    displacements, (residual, distance) = nan_where_not_finite((displacements, norms), finite)
+    return displacements, status, residual, distance, best
+
+
+def _root(square: Float[Array, " poses"]) -> Float[Array, " poses"]:
+    """Compute the square root, with a derivative of zero at zero."""
+    moved = square > 0
+    return jnp.where(moved, jnp.sqrt(jnp.where(moved, square, 1.0)), 0.0)
+
+
+def _first(mechanism: Mechanism) -> tuple[str, ...]:
+    """Name all coordinates of the first joint that moves, for a motion of a mechanism without motors."""
+    joint = next(joint for joint in mechanism.all_joints if joint.freedoms)
+    return tuple(f"{joint.name}.{name}" for name in joint.coordinates)
+
+
+def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Array | np.ndarray, "poses _"]]:
+    """Check the coordinates that are given, and fill in those that are not; ValueError for others than there are."""
+    found: dict[str, Any] = {}
+    dtype = dtypes.canonicalize_dtype(float)
+    for name, values in by_name(given, "coordinates", "{'A': angles, 'ball': (poses, 3)}").items():
+        if name not in mechanism.joints:
+            raise ValueError(f"there is no joint {name!r}{nearest(str(name), mechanism.joints)}")
+        freedoms = mechanism.joints[name].freedoms
+        try:
+            rows = (jnp if traced(values) else np).asarray(values, dtype)
+        except (TypeError, ValueError):
+            rows = np.zeros((0, 0, 0))  # refused below
+        rows = rows.reshape(-1, 1) if rows.ndim == 1 and freedoms == 1 else rows
+        if rows.ndim != 2 or rows.shape[1] != freedoms:
+            raise ValueError(
+                f"joint {name!r} has {freedoms} coordinate{'s' * (freedoms != 1)} "
+                f"({', '.join(mechanism.joints[name].coordinates)}): expected an array (poses, {freedoms}), got shape "
+                f"{np.shape(values)}"
+            )
+        found[name] = rows
+    if not found:
+        raise ValueError("no coordinates are given: name at least one joint, as in {'A': angles}")
+    counts = {name: len(rows) for name, rows in found.items()}
+    if len({*counts.values()}) > 1:
+        raise ValueError(f"all joints need as many poses, got {counts}")
+    poses = next(iter(counts.values()))
+    return {
+        joint.name: found.get(joint.name, np.zeros((poses, joint.freedoms), dtype)) for joint in mechanism.all_joints
+    }
+
+
+def _weights(mechanism: Mechanism, weights: Mapping[str, float | int]) -> dict[tuple[int, int], float]:
+    """Find the weight of each coordinate, (joint, coordinate); ValueError for one that is not positive."""
+    every = {(number, k): 1.0 for number, joint in enumerate(mechanism.all_joints) for k in range(joint.freedoms)}
+    for name, weight in weights.items():
+        try:
+            value = float(weight)
+        except (TypeError, ValueError):
+            value = np.nan
+        if not 0 < value < np.inf:
+            raise ValueError(f"the weight of {name!r} must be a positive number, got {weight!r}; hold= keeps it fixed")
+        every[coordinate(mechanism.linkage, name)] = value
+    return every
