@@ -21,7 +21,7 @@ import numpy as np
 import scipy.optimize
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-import peers
+from peer_engines import Missing, pylinkage_linkage
 
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.optimize import MET, POOL, _Bar, _best_of, _search
@@ -175,8 +175,8 @@ def batch() -> None:
         ("Jansen legs", "Jansen leg", LEGS, 0.01),
     ):
         try:
-            linkage = peers.pylinkage_linkage(template, 1.0, float(inputs[1]))
-        except peers.Missing as missing:
+            linkage = pylinkage_linkage(template, 1.0, float(inputs[1]))
+        except Missing as missing:
             print(f"  {name} by pylinkage: {missing}")
             continue
         from pylinkage.population import Ensemble

@@ -7,18 +7,19 @@ from pathlib import Path
 
 
 def main() -> None:
-    """Run the command line, in float64 and with compiled programs kept in the user's cache between runs."""
-    import jax
+    """Run the command line, in float64 and with compiled programs kept in the user's cache between runs.
 
+    JAX is not imported here, which takes longer than help and errors of arguments do: it reads the environment.
+    """
     from jaxkin.cli.app import app
     from jaxkin.cli.threads import one_thread
 
     one_thread()
-    jax.config.update("jax_enable_x64", True)
+    os.environ["JAX_ENABLE_X64"] = "1"
     if "JAX_COMPILATION_CACHE_DIR" not in os.environ:
-        jax.config.update("jax_compilation_cache_dir", str(cache_folder()))
+        os.environ["JAX_COMPILATION_CACHE_DIR"] = str(cache_folder())
         # a sweep is some ten small programs; JAX by itself keeps only those that took a second
-        jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.1)
+        os.environ.setdefault("JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS", "0.1")
     app(prog_name="jaxkin")
 
 

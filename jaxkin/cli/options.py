@@ -8,12 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from jaxkin.io.ranges import FORM, Range, read_range
-
 if TYPE_CHECKING:
+    from jaxkin.io.ranges import Range
     from jaxkin.io.study import Study
 
-_HELP = f"write JOINT={FORM}"
 _BETWEEN = re.compile(r"\s-\s|,(?!\s*\d)")
 """What stands between the parts of an option: a comma, or the dash of the reports; but "face 3, 8" is one face."""
 
@@ -85,11 +83,13 @@ def parse_drives(options: Iterable[str]) -> dict[str, Range]:
 
     Raises ValueError for an option that cannot be read, and for a name given twice.
     """
+    from jaxkin.io.ranges import FORM, Range, read_range
+
     drives: dict[str, Range] = {}
     for option in options:
         name, equals, values = option.rpartition("=")
         if not equals or not name:
-            raise ValueError(f"--drive {option}: {_HELP}")
+            raise ValueError(f"--drive {option}: write JOINT={FORM}")
         if name in drives:
             raise ValueError(f"--drive {option}: {name} was given a range already; give each joint coordinate once")
         try:

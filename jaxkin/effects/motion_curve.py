@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
-from scipy.optimize import root_scalar
 
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.continuation.step import CROSSING
@@ -120,6 +119,7 @@ class Curve:
 
     def locate(self, here: Here, length: float, event: Callable[[Here], float]) -> tuple[float, Here]:
         """Find the arc length within a step at which a function of the pose is zero, and the pose there."""
+        from scipy.optimize import root_scalar
 
         def value(s: float) -> float:
             there = self.at(here, s)

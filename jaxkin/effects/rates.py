@@ -20,9 +20,9 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import resolve
 from jaxkin.linkage.joint_motion import transforms
+from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.mechanism.sweep import nan_where_not_finite
 from jaxkin.solve.execution.programs import whole_program
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure

@@ -66,7 +66,7 @@ TAN_EIGHTH = math.sqrt(2) - 1
 
 
 @jax.custom_jvp
-def cos_sin(angles: Float[Array, "*rows poses"]) -> Float[Array, "2 *rows poses"]:
+def cos_sin(angles: Float[Array, "*rows"]) -> Float[Array, "2 *rows"]:
     """Compute the cosines (first row) and sines (second row) of angles in radians.
 
     Only float64 uses the polynomial; other precisions use the library functions.
@@ -118,7 +118,8 @@ def angle(sin: Numbers, cos: Numbers) -> Numbers:
     arc = tangent + tangent * (square * total) + jnp.where(beyond, 0.25 * math.pi, 0.0)
     arc = jnp.where(one > other, 0.5 * math.pi - arc, arc)
     arc = jnp.where(cos < 0, math.pi - arc, arc)
-    return jnp.where(sin < 0, -arc, arc)
+    # divide by the sign, as in `cos_sin`
+    return arc / jnp.where(sin < 0, -1.0, 1.0)
 
 
 @angle.defjvp

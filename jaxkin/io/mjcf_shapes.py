@@ -5,7 +5,6 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from jaxkin.geometry.pose import inverse
 from jaxkin.io.mjcf_text import Compiler, Defaults
@@ -74,6 +73,8 @@ class Shapes:
 
 def _inline(said: dict[str, str], where: str) -> np.ndarray:
     """Read the triangles (n, 3, 3) of a mesh that the model holds itself: of its faces, else of its convex hull."""
+    from scipy.spatial import ConvexHull, QhullError
+
     try:
         points = np.array(said["vertex"].split(), float).reshape(-1, 3)
         faces = np.array(said.get("face", "").split(), int).reshape(-1, 3)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -78,7 +79,10 @@ def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Arra
     followed through the same inputs as without the replaced poses. Returns the displacements, and which poses were
     finite (None if all were).
     """
-    xp = jnp if traced(given) else np
+    on_host = all(isinstance(values, np.ndarray) for values in given)
+    if on_host and all(math.isfinite(values.sum()) for values in given):
+        return given, None
+    xp = jnp if not on_host and traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
     if not len(finite) or (xp is np and finite.all()):
         return given, None
@@ -125,7 +129,9 @@ def _pair(linkage: Linkage, name: str) -> list[str]:
 def _values(key: str, values: Any) -> Given:
     """Check the displacements of one coordinate and convert them to floats; `key` is its name, for messages."""
     dtype = dtypes.canonicalize_dtype(float)
-    if traced(values):
+    if isinstance(values, np.ndarray) and values.dtype == dtype:
+        pass
+    elif traced(values):
         values = jnp.asarray(values, dtype)
     else:
         try:

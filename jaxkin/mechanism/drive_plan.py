@@ -20,10 +20,13 @@ from jaxkin.linkage.first_order import IN_SUBGROUP
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
+from jaxkin.mechanism.collect import DisplacementSources
+from jaxkin.mechanism.formula_sweep import FormulaSweep
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
+from jaxkin.solve.closed_form.line import Line, full_turn
 from jaxkin.solve.system.from_linkage import Columns, coupled_places, group_joints, group_system, solved_coordinates
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -58,6 +61,8 @@ class DrivenElement(NamedTuple):
     axes: Axes | None
     """The axes of the assembled pose, from which formulas compute the poses; None where they are traced, or where a
     group has no formula: see `jaxkin.solve.closed_form`."""
+    line: Line | None
+    """What the formulas say of a full turn of the input; None where it has none, or where there are no `axes`."""
     given: GivenLoops | None
     """What the poses are brought to the least residual of, where the loops solved are those of `linkage.ideal`."""
 
@@ -73,6 +78,8 @@ class DrivePlan(NamedTuple):
     """Structure elements that are solved; they do not depend on each other."""
     infeasible: InfeasibleDrive | None
     """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
+    by_formula: FormulaSweep | None = None
+    """The sweep of all elements by one program; None where one of them has no formula, or numbers are traced."""
 
 
 def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
@@ -80,20 +87,17 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
 
     The plan is kept as long as the linkage lives, unless its numbers, or what JAX makes of them here, are traced.
     """
-    if traced(linkage):
-        return _plan_drive(linkage, keys)
     key = keys, dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
     if key in (kept := _kept(linkage)):
         return kept[key]
+    if traced(linkage):
+        return _plan_drive(linkage, keys)
     plan = _plan_drive(linkage, keys)
-    on_device = jax.device_put([(element.joints, element.axes) for element in plan.elements])
+    on_device = jax.device_put([element.joints for element in plan.elements])
     if traced(on_device):
         return plan
-    elements = tuple(
-        element._replace(joints=joints, axes=axes)
-        for element, (joints, axes) in zip(plan.elements, on_device, strict=True)
-    )
-    kept[key] = plan._replace(elements=elements)
+    elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
+    kept[key] = plan._replace(elements=elements, by_formula=_formula_sweep(plan))
     return kept[key]
 
 
@@ -145,10 +149,24 @@ def _element(
         every = group_system(linkage, loop_group, driven, LoopClass())
         given = GivenLoops(*every, group_joints(linkage, linkage.joints, loop_group))
     joints = group_joints(linkage, linkage.solved_joints, loop_group)
-    axes = None
+    axes, line = None, None
     if on_host is not None and why_not_all(system) is None:
         axes = assembled_axes(system, group_joints(on_host, on_host.solved_joints, loop_group))
-    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, given)
+        line = full_turn(system, axes) if system.periodic else None
+    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, line, given)
+
+
+def _formula_sweep(plan: DrivePlan) -> FormulaSweep | None:
+    """Make the sweep of all elements by formulas; None where one has no formula, or joints that disagree."""
+    elements = [
+        (element.columns, element.system, element.inputs[0], element.axes, element.line, element.joints)
+        for element in plan.elements
+        if element.axes is not None and element.given is None
+    ]
+    if not elements or len(elements) < len(plan.elements):
+        return None
+    columns, *rest = map(tuple, zip(*elements, strict=True))
+    return FormulaSweep(DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns), *rest)
 
 
 def ranked_groups(

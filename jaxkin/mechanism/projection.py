@@ -16,8 +16,9 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate, coordinates
+from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.sweep import closure_tolerance, nan_where_not_finite, padded, warn_of_float32
+from jaxkin.mechanism.sweep import closure_tolerance, padded, warn_of_float32
 from jaxkin.solve.correctors.nearest_pose import NearestPoses
 from jaxkin.solve.execution.programs import project as nearest_poses
 from jaxkin.solve.options import SolverOptions

@@ -23,8 +23,9 @@ from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
 from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.sweep import nan_where_not_finite, sweep
+from jaxkin.mechanism.sweep import sweep
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status

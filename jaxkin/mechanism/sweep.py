@@ -4,33 +4,31 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import dtypes, lax
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Array, Float
 
 from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
+from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
+from jaxkin.mechanism.drive_plan import DrivenElement, DrivePlan, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
-from jaxkin.solve.execution.programs import Outcome, solve
+from jaxkin.solve.execution.programs import Outcome, by_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.solve.status import SEVERITY, ClosureTolerance, Status, default_tolerance, rounding_residual
-from jaxkin.solve.system.from_linkage import Columns
+from jaxkin.solve.status import ClosureTolerance, default_tolerance, rounding_residual
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-Solution = tuple[Float[Array, "_ _"], Outcome]
-"""Displacements of the columns of a structure element, and what became of the poses."""
 DEFAULT_ROUNDINGS = 16
 """Units of rounding in the residual of a pose that is improved no further if no tolerance is asked for: 3.6e-15
 in float64, where rounding alone leaves about 1e-15 for each elementary motion."""
@@ -73,10 +71,17 @@ def sweep(
     values = given_values(plan.driven, drive)
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
-    asked = closure_tolerance(tolerance if traced(tolerance) else options.tolerance)
+    known = tolerance is None or not traced(tolerance)
+    asked = closure_tolerance(options.tolerance if known else tolerance)
     warn_of_float32()
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
+    known = known and all(isinstance(each, np.ndarray) for each in followed)
+    if elements and plan.by_formula is not None and known and by_formulas(options, followed[0]):
+        found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
+        if found is not None:
+            found = found if finite is None else found._replace(inputs=values)
+            return _motion(mechanism, plan, found, options, throw)
     solutions = [
         solve(
             element.system,
@@ -85,19 +90,22 @@ def sweep(
             padded([followed[i] for i in element.inputs]),
             asked,
             element.axes,
+            element.line,
         )
         for element in elements
     ]
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
     layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
-    inputs, moved, resting, *found = _collect(layout, values, finite, solutions)
-    displacements = tuple(
-        moved[joint] if joint in moved else resting[freedoms] for joint, freedoms in enumerate(plan.freedoms)
-    )
+    return _motion(mechanism, plan, _collect(layout, values, finite, solutions), options, throw)
+
+
+def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions, throw: bool) -> Motion:
     # under `grad` JAX hands arrays of the host through as they are
-    inputs = dict(zip(plan.driven, map(jnp.asarray, inputs), strict=True))
-    motion = Motion(mechanism, inputs, displacements, *found, options=options)
+    arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
+    inputs = dict(zip(plan.driven, arrays, strict=True))
+    displacements = found.displacements(plan.freedoms)
+    motion = Motion(mechanism, inputs, displacements, found.status, found.residual, options=options)
     if throw:
         motion.check()
     return motion
@@ -124,74 +132,21 @@ def _of_least_residual(
 def closure_tolerance(asked: Any) -> ClosureTolerance:
     """Make the tolerance of a number, known or traced, or for None that of the floating-point precision."""
     dtype = dtypes.canonicalize_dtype(float)
-    if traced(asked):
-        return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)
-    # numbers of the host: to make arrays of the device takes longer
+    if asked is None or isinstance(asked, float):
+        return _known_tolerance(asked, dtype)
+    return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)
+
+
+@lru_cache(maxsize=64)
+def _known_tolerance(asked: float | None, dtype: np.dtype) -> ClosureTolerance:
+    """Make the tolerance of a known number: of numbers of the host, since to make arrays of the device takes longer."""
     if asked is None:
         residuals = default_tolerance(dtype), rounding_residual(dtype, DEFAULT_ROUNDINGS)
         return ClosureTolerance(*(np.asarray(residual, dtype) for residual in residuals))
     return ClosureTolerance(*[np.asarray(asked, dtype)] * 2)
 
 
-class DisplacementSources(NamedTuple):
-    """Where the displacements of the joints come from (static)."""
-
-    freedoms: tuple[int, ...]
-    """Of every joint."""
-    driven: tuple[tuple[int, int], ...]
-    """Joint and coordinate of every input."""
-    columns: tuple[Columns, ...]
-    """Of every structure element that was solved."""
-
-
-@partial(jax.jit, static_argnums=0)
-def _collect(
-    layout: DisplacementSources,
-    values: tuple[Given, ...],
-    finite: Bool[Array | np.ndarray, " poses"] | None,
-    solutions: list[Solution],
-) -> tuple[
-    tuple[Float[Array, " poses"], ...],
-    dict[int, Float[Array, "poses _"]],
-    dict[int, Float[Array, "poses _"]],
-    Int[Array, " poses"],
-    Float[Array, " poses"],
-]:
-    """Collect inputs, displacements, status (the worst of all structure elements) and closure residual of each pose.
-
-    Displacements come by number of the joint; joints that nothing moves share one array for each number of freedoms.
-    All are NaN where an input is not `finite`.
-    """
-    poses, dtype = values[0].shape[0], values[0].dtype
-    resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
-    moved: dict[int, Array] = {}
-    for (joint, coordinate), given in zip(layout.driven, values, strict=True):
-        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
-    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
-    worst = jnp.zeros(poses, jnp.int32)
-    if finite is not None:
-        worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
-    square = jnp.zeros(poses, dtype)
-    for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
-        for joint in dict.fromkeys(joint for joint, _ in columns):
-            own = [(joint, k) for k in range(layout.freedoms[joint])]
-            rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
-            moved[joint] = jnp.stack([jnp.broadcast_to(row, (poses,)) for row in rows], axis=1)
-        worst = jnp.maximum(worst, rank[found.status[:poses]])
-        square = square + found.residual_norm[:poses] ** 2
-    status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
-    resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
-    moved, resting, residual = nan_where_not_finite((moved, resting, jnp.sqrt(square)), finite)
-    return tuple(map(jnp.asarray, values)), moved, resting, status, residual
-
-
-def nan_where_not_finite(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
-    """Set the rows of arrays to NaN, one row a pose, where the pose is not `finite` (None: all are)."""
-    if finite is None:
-        return rows
-    return jax.tree.map(
-        lambda array: jnp.where(finite.reshape(len(finite), *[1] * (array.ndim - 1)), array, jnp.nan), rows
-    )
+_collect = jax.jit(collect, static_argnums=0)
 
 
 def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:

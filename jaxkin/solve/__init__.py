@@ -5,7 +5,8 @@ function is called by the nearest one above it that is indented less. What happe
 "Architecture", and what the words mean in the glossary (`docs/glossary.md`).
 
  1. `execution/programs.py` `solve`                         compile, or fetch, the program of the loop system
-        `closed_form/range_by_formula.py` `find_poses_by_formula`   the route ends here where formulas prove all poses
+        `closed_form/range_by_formula.py` `find_poses_by_formula`   the route ends here where formulas prove all poses;
+            if all loops have formulas, `jaxkin.mechanism.formula_sweep` calls it, in one program for all of them
  2.   `execution/cores.py` `run_on_cores`                   cut a long range into shards, one for each core
  3.     `range/solve_range.py` `find_poses`                 find all poses of a shard
  4.       `closure/closure.py` `scaled_geometry`            scale lengths, compute constants of the loops from frames

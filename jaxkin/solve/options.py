@@ -98,7 +98,8 @@ def options_with(options: SolverOptions | None, tolerance: Any = None, method: s
         raise ValueError(
             f"options must be a jk.SolverOptions, such as jk.SolverOptions(tolerance=1e-9), got {options!r}"
         )
-    options = options or _defaults()
+    if options is None:
+        options = _defaults()
     if tolerance is not None:
         _refuse_both("tolerance", tolerance, options.tolerance, None)
         if not traced(tolerance):

@@ -12,7 +12,6 @@ from functools import cached_property
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-import networkx as nx
 import numpy as np
 from jaxtyping import Int
 
@@ -186,6 +185,8 @@ def merged_by_couplings(groups: Sequence[LoopGroup], couplings: Sequence[tuple[i
 
     A merged group stands at the place of its first part; groups without loops come last.
     """
+    import networkx as nx  # here, as it takes as long to import as half of JAX
+
     if not couplings:
         return tuple(groups)
     members = [set(group.joints) for group in groups]

@@ -35,6 +35,14 @@ def run(*arguments, **environment):
     )
 
 
+@pytest.mark.parametrize("arguments", [["--help"], ["sweep", "--help"], ["sweep", "--bogus"], ["sweep"]])
+def test_help_and_errors_of_arguments_come_without_jax(arguments):
+    """JAX, and what else the computing needs, takes seconds to import."""
+    program = "import sys; from jaxkin.cli import main\ntry:\n main()\nfinally:\n sys.exit('jax' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and ("Usage" in done.stdout + done.stderr), done.stderr
+
+
 @pytest.mark.long
 def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
     done = run("demo", "--out", tmp_path / "out", XDG_CACHE_HOME=str(tmp_path / "cache"))

@@ -76,7 +76,12 @@ def systems(monkeypatch):
     def solve(system, *_):
         raise Solved(system)
 
+    def by_formulas(sweep, *_):
+        (system,) = sweep.systems
+        raise Solved(system)
+
     monkeypatch.setattr("jaxkin.mechanism.sweep.solve", solve)
+    monkeypatch.setattr("jaxkin.mechanism.formula_sweep.FormulaSweep.solve", by_formulas)
 
     def of(mechanism, drive):
         with pytest.raises(Solved) as stopped:

@@ -6,7 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-import networkx as nx
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
@@ -99,6 +98,8 @@ def stacks(
     order: Mapping[str, int],
 ) -> list[Stack]:
     """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
+    import networkx as nx
+
     found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]
     graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
     graph.add_nodes_from(part for pair in found for part in pair.parts if part in fastening)

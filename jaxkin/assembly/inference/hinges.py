@@ -7,7 +7,6 @@ from dataclasses import replace
 from enum import IntEnum
 from typing import NamedTuple
 
-import networkx as nx
 import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
@@ -85,6 +84,8 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
 
     Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
     """
+    import networkx as nx
+
     virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
     lines: list[tuple[Bore, nx.Graph]] = []
     kept = {id(pair) for pair in axes if not pair.virtual}

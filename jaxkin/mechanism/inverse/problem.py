@@ -10,7 +10,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
-from scipy.spatial.transform import Rotation
 
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.coupling import Coupling
@@ -137,6 +136,8 @@ class Problem:
 
         Targets are `share` of the way from the assembled pose to where they are asked for.
         """
+        from scipy.spatial.transform import Rotation
+
         closure, jacobian, transforms, rates = (
             np.asarray(each) for each in _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
         )

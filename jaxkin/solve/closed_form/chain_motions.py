@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.equations import cos_sin
 from jaxkin.solve.closed_form.planar_dyad import Complex, PlanarDisplacement, about, compose, scale
 from jaxkin.solve.closed_form.spherical_triangle import Vector, cross, dot
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
-Coordinates = Sequence[Float[Array, " #poses"] | None]
+Coordinates = Sequence[Float[Array | np.ndarray, " #poses"] | None]
 """For each column of the system its coordinate; None where it is not known yet."""
 
 
@@ -35,7 +35,7 @@ def planar_product(
 ) -> PlanarDisplacement:
     """Multiply the motions of some rows."""
     table = chain_tables(system)
-    zero, one = jnp.zeros(1, axes.centre.dtype), jnp.ones(1, axes.centre.dtype)
+    zero, one = np.zeros(1), np.ones(1)
     product = None
     for row in rows:
         place = planar_place(system, axes, row, chain)
@@ -82,7 +82,7 @@ def carried(
     return vector
 
 
-def _known(x: Coordinates, column: int) -> Float[Array, " #poses"]:
+def _known(x: Coordinates, column: int) -> Float[Array | np.ndarray, " #poses"]:
     found = x[column]
     if found is None:
         raise ValueError(f"column {column} is not known yet: the groups must be in the order of solution")

@@ -1,14 +1,19 @@
-"""The two equations that all formulas come down to: A cos x + B sin x = C, and the quadratic of a displacement."""
+"""The two equations that all formulas come down to: A cos x + B sin x = C, and the quadratic of a displacement.
+
+Formulas compute with NumPy where all their numbers are NumPy's, so that a few poses of a known mechanism, such as the
+nodes of its way (`way`), need no compiled program; and with `jax.numpy` where any number is an array of JAX.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.trig import angle
+from jaxkin.geometry import trig
 
 Number = Float[Array | np.ndarray, "*#poses"] | float
 """One number a pose, or one for all poses."""
@@ -23,16 +28,33 @@ class Root(NamedTuple):
     """Over its largest possible value: 1 where the two solutions are farthest apart."""
 
 
+def namespace(*numbers: object) -> Any:
+    """Return `jax.numpy` if any number is an array of JAX, else `numpy`."""
+    return jnp if any(isinstance(number, jax.Array) for number in numbers) else np
+
+
+def cos_sin(angles: Number) -> Float[Array | np.ndarray, "2 *#poses"]:
+    """Compute the cosines (first row) and sines (second row) of angles in radians."""
+    if namespace(angles) is np:
+        return np.stack([np.cos(angles), np.sin(angles)])
+    return trig.cos_sin(angles)
+
+
+def angle(sin: Number, cos: Number) -> Number:
+    """Compute the angles in [-pi, pi], radians, of vectors with these components; zero for vectors of length zero."""
+    return np.arctan2(sin, cos) if namespace(sin, cos) is np else trig.angle(sin, cos)
+
+
 def root(square: Number) -> Number:
     """Compute the square root of positive numbers, and zero with zero derivative of all others."""
-    positive = square > 0
-    return jnp.where(positive, jnp.sqrt(jnp.where(positive, square, 1.0)), 0.0)
+    xp, positive = namespace(square), square > 0
+    return xp.where(positive, xp.sqrt(xp.where(positive, square, 1.0)), 0.0)
 
 
 def ratio(part: Number, whole: Number) -> Number:
     """Divide by numbers that are not negative; zero with zero derivative where these are zero."""
-    positive = whole > 0
-    return jnp.where(positive, part / jnp.where(positive, whole, 1.0), 0.0)
+    xp, positive = namespace(part, whole), whole > 0
+    return xp.where(positive, part / xp.where(positive, whole, 1.0), 0.0)
 
 
 def solve_turn(a: Number, b: Number, c: Number, sign: Number) -> Root:

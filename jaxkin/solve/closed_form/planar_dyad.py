@@ -15,10 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-import jax.numpy as jnp
-
-from jaxkin.geometry.trig import angle
-from jaxkin.solve.closed_form.equations import Number, ratio, root, solve_slide
+from jaxkin.solve.closed_form.equations import Number, angle, namespace, ratio, root, solve_slide
 
 
 class Complex(NamedTuple):
@@ -122,7 +119,7 @@ def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarD
         return ratio(times(conj(one.shift), one.turn, two.shift).imag, lengths)
     if kinds == "RRP":
         return ratio(times(conj(three.along), _to_line(two, three)).real, root(_square(one.shift)))
-    return jnp.ones_like(one.shift.real)
+    return namespace(one.shift.real).ones_like(one.shift.real)
 
 
 def _first(kinds: str) -> int:
@@ -184,10 +181,10 @@ def _two_lines(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, 
     left = add(times(conj(one.turn), one.shift), two.shift, times(two.turn, three.shift))
     along_2, along_3 = two.along, times(two.turn, three.along)
     sine = _cross(along_2, along_3)
-    parallel = sine == 0
-    divisor = jnp.where(parallel, 1.0, sine)
+    parallel, xp = sine == 0, namespace(sine)
+    divisor = xp.where(parallel, 1.0, sine)
     e_1 = conj(times(one.turn, two.turn, three.turn))
-    slides = [jnp.where(parallel, 0.0, -part / divisor) for part in (_cross(left, along_3), _cross(along_2, left))]
+    slides = [xp.where(parallel, 0.0, -part / divisor) for part in (_cross(left, along_3), _cross(along_2, left))]
     return (_angle(e_1), slides[0], slides[1]), sine * sine
 
 

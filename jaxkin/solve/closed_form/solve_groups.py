@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
-import jax.numpy as jnp
+import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
@@ -17,7 +18,7 @@ from jaxkin.solve.closed_form.chain_motions import (
     planar_product,
     planar_rest,
 )
-from jaxkin.solve.closed_form.equations import Number
+from jaxkin.solve.closed_form.equations import Number, namespace
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -25,9 +26,9 @@ from jaxkin.solve.system.loop_system import LoopSystem
 class Solved(NamedTuple):
     """Poses by formulas."""
 
-    x: Float[Array, "columns poses"]
+    x: Float[Array | np.ndarray, "columns poses"]
     """Radians, those of unknowns in (-pi, pi], and characteristic lengths; zero for balls."""
-    discriminant: Float[Array, "groups poses"]
+    discriminant: Float[Array | np.ndarray, "groups poses"]
     """Of every group, over its largest possible value."""
 
 
@@ -36,23 +37,26 @@ def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
 
     All coordinates are taken as zero there.
     """
-    rest: Coordinates = [jnp.zeros(1, axes.centre.dtype)] * system.columns
+    rest: Coordinates = [np.zeros(1)] * system.columns
     return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
 
-def solve_groups(system: LoopSystem, axes: Axes, signs: list[Number], inputs: Float[Array, "driven poses"]) -> Solved:
+def solve_groups(
+    system: LoopSystem, axes: Axes, signs: Sequence[Number], inputs: Float[Array | np.ndarray, "driven poses"]
+) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
-    x: list[Array | None] = [None] * system.columns
+    xp = namespace(inputs, axes.centre)
+    x: list[Array | np.ndarray | None] = [None] * system.columns
     for column, row in zip(system.driven, inputs, strict=True):
         x[column] = row
     discriminants = []
     for formula, sign in zip(_formulas(system), signs, strict=True):
         coordinates, discriminant = _solve(system, axes, formula, x, sign)
         for column, found in zip(formula.columns, coordinates, strict=True):
-            x[column] = jnp.broadcast_to(found, inputs.shape[1:])
-        discriminants.append(jnp.broadcast_to(discriminant, inputs.shape[1:]))
-    zero = jnp.zeros_like(inputs[0])
-    return Solved(jnp.stack([zero if row is None else row for row in x]), jnp.stack(discriminants))
+            x[column] = xp.broadcast_to(found, inputs.shape[1:])
+        discriminants.append(xp.broadcast_to(discriminant, inputs.shape[1:]))
+    zero = xp.zeros_like(inputs[0])
+    return Solved(xp.stack([zero if row is None else row for row in x]), xp.stack(discriminants))
 
 
 def _formulas(system: LoopSystem) -> list[GroupFormula]:
@@ -108,19 +112,21 @@ def _spherical(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordin
     """Find the axes and known rotations of a spherical triangle: the arguments of `spherical_triangle`."""
     chain, (one, two, three) = formula.chain, formula.rows
     found = [axes.direction[row, chain, :, None] for row in formula.rows]
-    eye = jnp.eye(3, dtype=axes.centre.dtype)
+    eye = np.eye(3)
 
-    def rotated(begin: int, end: int | None, columns: Array):
+    def rotated(begin: int, end: int | None, columns: Array | np.ndarray):
         rows = moving_rows(system, chain, begin, end)
         turned = [carried(system, axes, chain, rows, x, column[:, None], free=True) for column in columns]
-        return jnp.stack(jnp.broadcast_arrays(*turned), axis=1)
+        xp = namespace(*turned)
+        return xp.stack(xp.broadcast_arrays(*turned), axis=1)
 
     behind = rotated(three + 1, None, axes.open_turn[chain].T)
     before = rotated(0, one, eye)
+    xp = namespace(behind, before)
     return found, [
         rotated(one + 1, two, eye),
         rotated(two + 1, three, eye),
-        jnp.einsum("ijp,jkp->ikp", *jnp.broadcast_arrays(behind, before)),
+        xp.einsum("ijp,jkp->ikp", *xp.broadcast_arrays(behind, before)),
     ]
 
 
@@ -131,7 +137,7 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
     chain, or whatever lies on the other side.
     """
     chain, (row,) = formula.chain, formula.rows
-    origin = jnp.zeros((3, 1), axes.centre.dtype)
+    origin = np.zeros((3, 1))
     near = carried(system, axes, chain, moving_rows(system, chain, 0, row), x, origin, inverse=True)
     behind = moving_rows(system, chain, row + 1)
     far = carried(system, axes, chain, behind, x, axes.open_shift[chain, :, None])
@@ -140,7 +146,7 @@ def _rod(system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates):
         raise ValueError(f"the loop of {formula} is not cut at a rod")
     rod_rows = moving_rows(system, other)
     end = carried(system, axes, other, rod_rows, x, axes.open_shift[other, :, None])
-    return near, far, jnp.sqrt(spherical_triangle.dot(end, end))
+    return near, far, namespace(end).sqrt(spherical_triangle.dot(end, end))
 
 
 def _axis(axes: Axes, formula: GroupFormula):
@@ -149,32 +155,34 @@ def _axis(axes: Axes, formula: GroupFormula):
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
 
-def residual_norm(system: LoopSystem, axes: Axes, x: Float[Array, "columns poses"]) -> Float[Array, " poses"]:
+def residual_norm(
+    system: LoopSystem, axes: Axes, x: Float[Array | np.ndarray, "columns poses"]
+) -> Float[Array | np.ndarray, " poses"]:
     """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas."""
-    rows = list(x)
+    xp, rows = namespace(x, axes.centre), list(x)
     if system.planar:
         square = axes.off_plane
         for chain in range(len(system.loops)):
             product = planar_product(system, axes, chain, moving_rows(system, chain), rows)
             turn, shift = planar_dyad.compose(product, planar_rest(axes, chain))
             # a turn changes four of the nine entries of a rotation matrix
-            square += 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
-        return jnp.sqrt(square)
-    square = jnp.zeros(())
+            square = square + 2 * ((turn.real - 1) ** 2 + turn.imag**2) + shift.real**2 + shift.imag**2
+        return xp.sqrt(square)
+    square = xp.zeros(())
     for formula in _formulas(system):
         if formula.other_chain is None:
             continue
         ends = (_end(system, axes, chain, rows) for chain in (formula.chain, formula.other_chain))
-        lengths = [jnp.sqrt(spherical_triangle.dot(end, end)) for end in ends]
-        square += (lengths[0] - lengths[1]) ** 2
+        lengths = [xp.sqrt(spherical_triangle.dot(end, end)) for end in ends]
+        square = square + (lengths[0] - lengths[1]) ** 2
     for chain in system.sections.spherical:
         moving = moving_rows(system, chain)
         end = _end(system, axes, chain, rows)
-        square += spherical_triangle.dot(end, end)
-        for column, unit in zip(axes.open_turn[chain].T, jnp.eye(3), strict=True):
+        square = square + spherical_triangle.dot(end, end)
+        for column, unit in zip(axes.open_turn[chain].T, np.eye(3), strict=True):
             left = carried(system, axes, chain, moving, rows, column[:, None], free=True) - unit[:, None]
-            square += spherical_triangle.dot(left, left)
-    return jnp.sqrt(square)
+            square = square + spherical_triangle.dot(left, left)
+    return xp.sqrt(square)
 
 
 def _end(system: LoopSystem, axes: Axes, chain: int, x: Coordinates):

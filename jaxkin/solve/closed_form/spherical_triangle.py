@@ -13,12 +13,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.trig import angle
-from jaxkin.solve.closed_form.equations import Number, ratio, root, solve_turn
+from jaxkin.solve.closed_form.equations import Number, angle, cos_sin, namespace, ratio, root, solve_turn
 
 Vector = Float[Array | np.ndarray, "3 *#poses"]
 Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
@@ -65,12 +63,12 @@ def signed_root(axes: Sequence[Vector], between: Sequence[Rotation]) -> Number:
 
 def dot(one: Vector, other: Vector) -> Number:
     """Compute the scalar product."""
-    return jnp.sum(one * other, axis=0)
+    return (one * other).sum(axis=0)
 
 
 def cross(one: Vector, other: Vector) -> Vector:
     """Compute the vector product."""
-    return jnp.stack(
+    return namespace(one, other).stack(
         [
             one[1] * other[2] - one[2] * other[1],
             one[2] * other[0] - one[0] * other[2],
@@ -81,18 +79,19 @@ def cross(one: Vector, other: Vector) -> Vector:
 
 def carry(rotation: Rotation, vector: Vector) -> Vector:
     """Rotate a vector by a matrix."""
-    return jnp.sum(rotation * vector[None], axis=1)
+    return (rotation * vector[None]).sum(axis=1)
 
 
 def back(rotation: Rotation, vector: Vector) -> Vector:
     """Rotate a vector by the inverse of a matrix."""
-    return jnp.sum(rotation * vector[:, None], axis=0)
+    return (rotation * vector[:, None]).sum(axis=0)
 
 
 def rotate(axis: Vector, angle: Number, vector: Vector) -> Vector:
     """Rotate a vector about a unit axis (Rodrigues)."""
     along = axis * dot(axis, vector)
-    return along + jnp.cos(angle) * (vector - along) + jnp.sin(angle) * cross(axis, vector)
+    cos, sin = cos_sin(angle)
+    return along + cos * (vector - along) + sin * cross(axis, vector)
 
 
 def angle_about(axis: Vector, begun: Vector, wanted: Vector) -> Number:

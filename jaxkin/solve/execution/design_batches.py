@@ -119,3 +119,39 @@ def _in_groups(batch: _Batch, leaves: tuple[Array, ...]):
     nothing = jax.tree.map(lambda part: jnp.zeros((batch.size, *part.shape[1:]), part.dtype), shapes)
     begin = jnp.asarray(0), padded(jnp.arange(batch.size)), nothing, jnp.asarray(0)
     return lax.while_loop(running, step, begin)[2]
+
+
+def by_formulas_in_groups(function: Callable[..., Result]) -> Callable[..., Result]:
+    """Turn a function of arrays into one that `vmap` runs in groups of designs, one after another.
+
+    Formulas take as long for every design. But all designs at once would write each of some hundred intermediate
+    results to memory and read it again; those of a group stay in the cache. Nothing may be differentiated.
+    """
+
+    @jax.custom_batching.custom_vmap
+    def alone(*args):
+        return function(*args)
+
+    @alone.def_vmap
+    def batch(size: int, batched, *args):
+        leaves, tree = jax.tree.flatten(args)
+        mapped = jax.tree.leaves(tuple(batched))
+        groups = -(-size // DESIGN_GROUP)
+        length = -(-size // groups)
+
+        def grouped(array: Array) -> Array:
+            padded = jnp.pad(array, [(0, groups * length - size), *[(0, 0)] * (array.ndim - 1)], mode="edge")
+            return padded.reshape(groups, length, *array.shape[1:])
+
+        every = [grouped(leaf) for leaf, each in zip(leaves, mapped, strict=True) if each]
+
+        def of_group(rows: list[Array]):
+            own = iter(rows)
+            group = tree.unflatten([next(own) if each else leaf for leaf, each in zip(leaves, mapped, strict=True)])
+            return jax.vmap(function, tree.unflatten([0 if each else None for each in mapped]))(*group)
+
+        found = lax.map(of_group, every)
+        found = jax.tree.map(lambda rows: rows.reshape(groups * length, *rows.shape[2:])[:size], found)
+        return found, jax.tree.map(lambda _: True, found)
+
+    return alone

@@ -19,19 +19,21 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin._traced import traced
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
+from jaxkin.solve.closed_form.line import Line
 from jaxkin.solve.closed_form.range_by_formula import (
     FormulaPoses,
     displacements_by_formula,
     find_poses_by_formula,
     joint_displacements,
+    line_of,
 )
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
-from jaxkin.solve.execution.design_batches import all_designs
+from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.poses import Poses
 from jaxkin.solve.range.solve_range import displacements, find_poses, shard
-from jaxkin.solve.status import ClosureTolerance, Status, default_tolerance
+from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -74,19 +76,21 @@ def solve(
     inputs: Float[Array | np.ndarray, "driven poses"],
     tolerance: ClosureTolerance,
     axes: Axes | None = None,
+    line: Line | None = None,
 ) -> tuple[Float[Array, "columns poses"], Outcome]:
     """Find the displacements of all joints (columns, poses) for given inputs, with status and residual of each pose.
 
     Inputs and displacements are in radians and in the unit of the mechanism. A program is compiled once for a system,
     the options that it depends on, and a number of poses. `tolerance`, which may be traced, takes the place of
-    `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas: the general
-    program is compiled only if the formulas do not prove that the motion leads to every pose.
+    `options.tolerance`. `axes` are those of the assembled pose, of systems whose groups all have formulas, and `line`
+    is that of a full turn: the general program is compiled only if the formulas do not prove that the motion leads to
+    every pose.
     """
-    # ranges that are interpolated cost less a pose than formulas
-    by_formula = axes is not None and _asks_for_formulas(options, inputs) and inputs.shape[1] < options.interpolate_from
+    by_formula = axes is not None and by_formulas(options, inputs)
     known = not traced((joints, inputs, tolerance))
-    if known and by_formula:
-        displaced, outcome, proven = _formula_program()(system, joints, axes, inputs, tolerance)
+    if known and axes is not None and by_formula:
+        line = line or line_of(system, axes, np.asarray(inputs))
+        displaced, outcome, proven = _formula_program()(system, joints, axes, line, inputs, tolerance)
         if not traced(proven) and proven:
             return displaced, outcome
     # inside a function that is being traced, what a program returns is traced, though it is given numbers
@@ -96,7 +100,7 @@ def solve(
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     inside = inside or traced(numbers)
     if inside:
-        by_formula = _formulas_suffice(system, options, inputs, axes)
+        by_formula = _formulas_suffice(system, options, inputs, axes, line)
     if by_formula:
         found = _formula_poses_program()(system, *numbers)
         if inside or found.proven:
@@ -124,26 +128,27 @@ def compilations() -> int:
     return _traces
 
 
-def _asks_for_formulas(options: SolverOptions, inputs: Given) -> bool:
+def by_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
+    """Tell whether a range is short enough for formulas, where there are some: longer ones are interpolated, which
+    costs less a pose."""
+    return _asks_for_formulas(options, inputs) and inputs.shape[-1] < options.interpolate_from
+
+
+def _asks_for_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
     """Tell whether poses may be computed by formulas, where there are some."""
     return options.formulas and options.method == CONTINUATION and inputs.dtype == np.float64
 
 
-def _formulas_suffice(system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None) -> bool:
+def _formulas_suffice(
+    system: LoopSystem, options: SolverOptions, inputs: Given, axes: Axes | None, line: Line | None
+) -> bool:
     """Tell whether a traced range is left to formulas alone: the geometry is traced, too, or has no limit in a turn.
 
     Where only the inputs are traced, a mechanism that has limits gets the general program, which follows them.
     """
     if not _asks_for_formulas(options, inputs) or why_not_all(system) is not None:
         return False
-    return axes is None or (system.periodic and _passes_a_turn(system, axes))
-
-
-def _passes_a_turn(system: LoopSystem, axes: Axes) -> bool:
-    """Tell whether the formulas prove that the input makes a full turn, for axes that are known."""
-    with jax.ensure_compile_time_eval():
-        tolerance = ClosureTolerance(*[np.asarray(default_tolerance(np.float64))] * 2)
-        return bool(_turn_program()(system, axes, np.zeros((1, 1)), tolerance).passes_a_turn)
+    return axes is None or (line is not None and bool(line.passes & line.begins))
 
 
 def _outcome(poses: Poses) -> Outcome:
@@ -151,10 +156,15 @@ def _outcome(poses: Poses) -> Outcome:
 
 
 def _by_formula(
-    system: LoopSystem, joints: Joints, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem,
+    joints: Joints,
+    axes: Axes,
+    line: Line,
+    inputs: Float[Array, "1 poses"],
+    tolerance: ClosureTolerance,
 ) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
-    _count_trace()
-    found = find_poses_by_formula(system, axes, inputs, tolerance)
+    count_trace()
+    found = find_poses_by_formula(system, axes, line, inputs, tolerance)
     displaced = joint_displacements(system, joints, axes, found.poses.state.x)
     return displaced, _outcome(found.poses), found.proven
 
@@ -162,8 +172,13 @@ def _by_formula(
 def _poses_by_formula(
     system: LoopSystem, joints: Joints, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
 ) -> FormulaPoses:
-    _count_trace()
-    return find_poses_by_formula(system, assembled_axes(system, joints), inputs, tolerance)
+    count_trace()
+
+    def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance) -> FormulaPoses:
+        axes = assembled_axes(system, joints)
+        return find_poses_by_formula(system, axes, line_of(system, axes, inputs), inputs, tolerance)
+
+    return by_formulas_in_groups(find)(joints, inputs, tolerance)
 
 
 def _solve_numbers(
@@ -200,7 +215,7 @@ def _solve_numbers(
 def _of_all_designs(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
 ) -> Poses:
-    _count_trace()
+    count_trace()
     return all_designs(partial(find_poses, system, options), _all_closed)(joints, inputs, tolerance)
 
 
@@ -218,13 +233,14 @@ def _solve(
     shard_count: int = 1,
     follow_limits: bool = True,
 ) -> tuple[Float[Array, "columns shard"], Outcome]:
-    _count_trace()
+    count_trace()
     poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start, follow_limits)
     own = shard(inputs, shard_count, shard_start)
     return displacements(system, joints, own, poses), Outcome(poses.status, poses.residual_norm)
 
 
-def _count_trace() -> None:
+def count_trace() -> None:
+    """Count a program that finds poses and is being traced: see `compilations`."""
     global _traces  # noqa: PLW0603
     _traces += 1
 
@@ -266,8 +282,6 @@ def _formula_poses_program():
 
 _formula_displacements_program = jax.jit(displacements_by_formula, static_argnames="system")
 """Displacements from poses that were found by formulas: the program that is differentiated."""
-_turn_program = cache(lambda: jax.jit(find_poses_by_formula, static_argnames="system"))
-"""The program that tells whether a full turn is passed."""
 
 
 @cache

@@ -1,0 +1,88 @@
+"""Collect what was found for each structure element into the displacements, statuses and residuals of a mechanism."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin.linkage.coordinates import Given
+from jaxkin.solve.execution.programs import Outcome
+from jaxkin.solve.status import SEVERITY, Status
+from jaxkin.solve.system.from_linkage import Columns
+
+Solution = tuple[Float[Array, "_ _"], Outcome]
+"""Displacements of the columns of a structure element, and what became of the poses."""
+
+
+class DisplacementSources(NamedTuple):
+    """Where the displacements of the joints come from (static)."""
+
+    freedoms: tuple[int, ...]
+    """Of every joint."""
+    driven: tuple[tuple[int, int], ...]
+    """Joint and coordinate of every input."""
+    columns: tuple[Columns, ...]
+    """Of every structure element that was solved."""
+
+
+class Collected(NamedTuple):
+    """The poses of a mechanism; displacements come by number of the joint."""
+
+    inputs: tuple[Float[Array, " poses"], ...]
+    moved: dict[int, Float[Array, "poses _"]]
+    resting: dict[int, Float[Array, "poses _"]]
+    """One array of zeros for each number of freedoms, which joints that nothing moves share."""
+    status: Int[Array, " poses"]
+    """The worst of all structure elements."""
+    residual: Float[Array, " poses"]
+
+    def displacements(self, freedoms: tuple[int, ...]) -> tuple[Float[Array, "poses _"], ...]:
+        """List the displacements of all joints, which have so many freedoms each."""
+        return tuple(
+            self.moved[joint] if joint in self.moved else self.resting[count] for joint, count in enumerate(freedoms)
+        )
+
+
+def collect(
+    layout: DisplacementSources,
+    values: tuple[Given, ...],
+    finite: Bool[Array | np.ndarray, " poses"] | None,
+    solutions: list[Solution],
+) -> Collected:
+    """Collect inputs, displacements, status and closure residual of each pose. All are NaN where an input is not
+    `finite`."""
+    poses, dtype = values[0].shape[0], values[0].dtype
+    resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
+    moved: dict[int, Array] = {}
+    for (joint, coordinate), given in zip(layout.driven, values, strict=True):
+        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
+    rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
+    worst = jnp.zeros(poses, jnp.int32)
+    if finite is not None:
+        worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
+    square = jnp.zeros(poses, dtype)
+    for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
+        for joint in dict.fromkeys(joint for joint, _ in columns):
+            own = [(joint, k) for k in range(layout.freedoms[joint])]
+            rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
+            rows = [jnp.broadcast_to(row, (poses,)) for row in rows]
+            moved[joint] = rows[0][:, None] if len(rows) == 1 else jnp.stack(rows, axis=1)
+        worst = jnp.maximum(worst, rank[found.status[:poses]])
+        square = square + found.residual_norm[:poses] ** 2
+    status = jnp.array([status.value for status in SEVERITY], jnp.int32)[worst]
+    resting = {freedoms: resting[freedoms] for joint, freedoms in enumerate(layout.freedoms) if joint not in moved}
+    moved, resting, residual = nan_where_not_finite((moved, resting, jnp.sqrt(square)), finite)
+    return Collected(tuple(map(jnp.asarray, values)), moved, resting, status, residual)
+
+
+def nan_where_not_finite(rows, finite: Bool[Array | np.ndarray, " poses"] | None):
+    """Set the rows of arrays to NaN, one row a pose, where the pose is not `finite` (None: all are)."""
+    if finite is None:
+        return rows
+    return jax.tree.map(
+        lambda array: jnp.where(finite.reshape(len(finite), *[1] * (array.ndim - 1)), array, jnp.nan), rows
+    )

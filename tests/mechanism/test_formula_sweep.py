@@ -1,0 +1,116 @@
+"""One program for ranges of any length, whose poses are those of the whole range; NumPy and JAX compute alike."""
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+import pytest
+
+from jaxkin.mechanism import formula_sweep
+from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.solve.closed_form.line import full_turn
+from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
+from jaxkin.solve.execution.design_batches import DESIGN_GROUP
+from jaxkin.solve.execution.programs import compilations
+from jaxkin.solve.status import Status
+from reference import catalogue
+from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
+
+TURN = 2 * np.pi
+COUNTS = (2, 3, 5, 11, 31, 61, 100, 101, 200, 255, 360, 361, 384, 385, 500, 767, 768, 769, 1000, 1153)
+"""Twenty numbers of poses, those beside whole chunks among them."""
+
+
+def test_two_programs_serve_any_number_of_poses():
+    """One for a single pose, and one for all other numbers; and every pose is the same in all of them."""
+    mechanism, inputs = planar_fourbar(1.3), np.linspace(0.0, 2 * TURN, max(COUNTS))
+    before = compilations()
+    whole = mechanism.sweep({"A": inputs})
+    assert compilations() - before <= 1
+    alone = mechanism.sweep({"A": inputs[-1:]})
+    for count in COUNTS:
+        motion = mechanism.sweep({"A": inputs[:count]})
+        assert len(motion) == count and motion.inputs["A.phi"].shape == (count,)
+        for found, expected in zip(motion.displacements, whole.displacements, strict=True):
+            np.testing.assert_array_equal(found, expected[:count])
+        np.testing.assert_array_equal(motion.residual, whole.residual[:count])
+        np.testing.assert_array_equal(motion.status, Status.CLOSED)
+    assert compilations() - before <= 2
+    for found, expected in zip(alone.displacements, whole.displacements, strict=True):
+        np.testing.assert_allclose(found, expected[-1:], atol=1e-13)  # another program: some roundings of two turns
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("often", [1, 10**9])
+def test_results_are_joined_alike_by_a_program_and_on_the_host(often, monkeypatch):
+    """Angles of balls, of which each chunk counts its own turns, go on from chunk to chunk."""
+    monkeypatch.setattr(formula_sweep, "OFTEN", often)
+    inputs = np.linspace(0.0, 1.5 * TURN, 500)
+    motion = rssr_linkage().sweep({"A": inputs})
+    assert np.all(motion.closed)
+    for rows in motion.displacements:
+        assert rows.shape[0] == 500 and isinstance(rows, jax.Array)
+        # neighbouring poses are 0.019 rad apart at the crank; no angle of this linkage runs fifty times as fast
+        assert np.max(np.abs(np.diff(rows, axis=0))) < 1.0
+    np.testing.assert_allclose(motion.coordinates["A"][:, 0], inputs, atol=1e-15)
+
+
+def test_nan_among_known_inputs_spoils_no_other_pose():
+    inputs = np.linspace(0.0, 1.0, 5)
+    expected = planar_fourbar().sweep({"A": inputs})
+    inputs[2] = np.nan
+    motion = planar_fourbar().sweep({"A": inputs})
+    assert list(motion.status) == [Status.CLOSED] * 2 + [Status.NONFINITE] + [Status.CLOSED] * 2
+    np.testing.assert_array_equal(motion.inputs["A.phi"], inputs)
+    keep = np.array([0, 1, 3, 4])
+    for found, wanted in zip(motion.displacements, expected.displacements, strict=True):
+        assert np.all(np.isnan(found[2]))
+        np.testing.assert_allclose(found[keep], wanted[keep], atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("make", "drive"),
+    [
+        (slider_crank, "A"),
+        (catalogue.scotch_yoke, "A"),
+        (spherical_linkage, "A"),
+        (rssr_linkage, "A"),
+    ],
+)
+def test_numpy_and_jax_compute_the_same_poses_and_the_same_line(make, drive):
+    """The line of a known mechanism comes from NumPy, that of traced geometry from the program: one formula, two
+    routes through other cosines and arc tangents."""
+    (element,) = plan_drive(make().linkage, (drive,)).elements
+    system, axes, line = element.system, element.axes, element.line
+    values = np.linspace(-1.0, 2.0, 9)[None]
+
+    def poses(axes, values):
+        solved = solve_groups(system, axes, list(line.signs), values)
+        return solved.x, solved.discriminant, residual_norm(system, axes, solved.x)
+
+    for found, expected in zip(jax.jit(poses)(axes, values), poses(axes, values), strict=True):
+        assert isinstance(expected, np.ndarray)
+        np.testing.assert_allclose(found, expected, atol=1e-13)  # some hundred roundings: angles of up to pi
+    by_jax = jax.jit(lambda axes: full_turn(system, axes))(jax.tree.map(jnp.asarray, axes))
+    for found, expected in zip(by_jax, line, strict=True):
+        np.testing.assert_allclose(np.asarray(found, float), np.asarray(expected, float), atol=1e-13)
+
+
+@pytest.mark.long
+def test_designs_in_groups_are_those_of_each_alone_with_their_gradients():
+    """Three groups, the last one padded; a tenth of these rockers is too short for a full turn of the crank."""
+    mechanism, inputs = planar_fourbar(), np.linspace(0.0, TURN, 6)
+    lengths = jnp.linspace(57.0, 110.0, 2 * DESIGN_GROUP + 7)
+
+    def swing(length):
+        motion = mechanism.with_lengths({("rocker", "C", "D"): length}).sweep({"A": inputs})
+        return jnp.sum(jnp.where(motion.closed, motion.coordinates["D"][:, 0], 0.0)), motion.status
+
+    (found, status), slopes = jax.jit(jax.vmap(jax.value_and_grad(swing, has_aux=True)))(lengths)
+    assert set(np.unique(status)) >= {Status.CLOSED, Status.UNREACHABLE}
+    for number in (0, DESIGN_GROUP, len(lengths) - 1):
+        expected, alone = swing(float(lengths[number]))
+        np.testing.assert_allclose(found[number], expected, atol=1e-12)
+        np.testing.assert_array_equal(status[number], alone)
+        one, other = (swing(float(lengths[number]) + step)[0] for step in (-1e-4, 1e-4))
+        # central differences: rounding of 1e-15 over the step, and the third derivative times its square
+        np.testing.assert_allclose(slopes[number], (other - one) / 2e-4, atol=1e-8)
