@@ -18,7 +18,11 @@ from reference.mechanisms import Z, cardan_shafts, planar_fourbar, rssr_linkage
 SIZE, MIDDLE = 40.0, np.array([3.0, -20.0, 11.0])
 
 
-@pytest.mark.parametrize("movements", [*((name,) for name in MOVEMENTS), ("T_z_phi", "T_theta_phi_psi")])
+STRAIGHT = [name for name, row in MOVEMENTS.items() if not any(each.law for each in row.elements)]
+"""Movements that need no curve."""
+
+
+@pytest.mark.parametrize("movements", [*((name,) for name in STRAIGHT), ("T_z_phi", "T_theta_phi_psi")])
 def test_unit_twists_are_those_of_the_chain(movements):
     numbers = np.random.default_rng(7)
     frames = [frame(30 * numbers.normal(size=3), numbers.normal(size=3)) for _ in movements]
@@ -35,13 +39,26 @@ def test_unit_twists_are_those_of_the_chain(movements):
     np.testing.assert_allclose(every, np.concatenate([expected[:3], velocity]) * units, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", ["four-bar", "RSSR", "Cardan", "nut"])
+def cams():
+    """A roller and a flat face on profiles, one after the other, on an open chain."""
+    angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+    profile = np.stack([(20 + 3 * np.sin(2 * angle)) * np.cos(angle), 18 * np.sin(angle)], axis=1)
+    roller = {"profile": profile, "follower": "roller", "radius": 2.0, "point2": (0.0, 20.0, 0.0)}
+    flat = {"profile": profile, "follower": "flat", "point2": (0.0, 18.0, 0.0), "direction2": (1.0, 0.0, 0.0)}
+    return jk.Mechanism.build(
+        fixed=["base"],
+        joints=[jk.cam("J", "base", "one", **roller), jk.cam("K", "one", "two", **flat)],
+    )
+
+
+@pytest.mark.parametrize("name", ["four-bar", "RSSR", "Cardan", "nut", "cams"])
 def test_twists_of_parts_are_derivatives_of_their_places(name):
     """[w] R = R', and v + w x r = r' for the velocity at the middle; the same once more for the derivative of both."""
     mechanism = {
         "four-bar": planar_fourbar,
         "RSSR": rssr_linkage,
         "Cardan": cardan_shafts,
+        "cams": cams,
         "nut": lambda: jk.Mechanism.build(
             fixed=["base"],
             joints=[
