@@ -18,7 +18,7 @@ from jax import lax
 
 from jaxkin.solve.continuation import branch
 from jaxkin.solve.correctors import levenberg_marquardt, newton
-from jaxkin.solve.execution import programs
+from jaxkin.solve.execution import compiler, programs
 from jaxkin.solve.range import polish
 
 FAST_COMPILATION = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
@@ -96,7 +96,7 @@ def counted() -> Iterator[Count]:
         (branch, "lax", _with(followed)),
         (polish, "levenberg_marquardt", told(polish.levenberg_marquardt)),
         (polish, "newton", told(polish.newton)),
-        (programs, "COMPILER_OPTIONS", programs.COMPILER_OPTIONS | FAST_COMPILATION),
+        (compiler, "COMPILER_OPTIONS", compiler.COMPILER_OPTIONS | FAST_COMPILATION),
     ]
     before = [(module, name, getattr(module, name)) for module, name, _ in patches]
     _forget()
@@ -114,7 +114,7 @@ def counted() -> Iterator[Count]:
 def _forget() -> None:
     """All that was compiled, and with which options."""
     jax.clear_caches()
-    programs.jit_options.cache_clear()
+    compiler.jit_options.cache_clear()
     programs._solve_program.cache_clear()
     programs._poses_program.cache_clear()
 

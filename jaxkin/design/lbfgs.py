@@ -13,7 +13,7 @@ import numpy as np
 
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
-from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
 
 MEMORY = 12

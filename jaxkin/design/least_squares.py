@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float
 
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
-from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.execution.compiler import jit_options
 
 DAMPING, LEAST_DAMPING = 1e-3, 1e-16
 """First and least damping, relative to the largest diagonal entry of J^T J."""

@@ -209,8 +209,8 @@ def _formula_poses(
     """Compute displacements and residual norms by formulas, for inputs in radians and lengths of the mechanism."""
     axes = assembled_axes(system, joints)
     lengths = jnp.where(jnp.array([system.is_length[column] for column in system.driven]), axes.length, 1.0)
-    x = solve_groups(system, axes, list(signs), inputs / lengths[:, None]).x
-    return joint_displacements(system, joints, axes, x), residual_norm(system, axes, x)
+    x = jnp.asarray(solve_groups(system, axes, list(signs), inputs / lengths[:, None]).x)
+    return joint_displacements(system, joints, axes, x), jnp.asarray(residual_norm(system, axes, x))
 
 
 def _from_starts(

@@ -23,7 +23,7 @@ from jaxkin.linkage.joint_motion import transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
-from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
 

@@ -1,18 +1,16 @@
-"""Points on curves and curves on curves, and what all joints along curves have: files, frames, derivatives, errors."""
+"""Points on curves and curves on curves, and what all joints along curves have: files, frames, derivatives."""
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 
 import jaxkin as jk
 from jaxkin.io.study_writer import write_study
-from jaxkin.joints.kinds import JointKind
 from jaxkin.view.sticks import stick_parts
 from reference import higher_pairs
+from reference.oval_cam import TURN, flat_on_oval, roller, swings
 
 Z = (0.0, 0.0, 1.0)
-TURN = np.linspace(0.0, 2 * np.pi, 13)
 LINE = np.stack([np.linspace(-60, 90, 7), np.zeros(7)], axis=1)
 
 
@@ -103,40 +101,6 @@ def test_curves_that_do_not_touch_are_open_and_closed_by_close():
     height = higher_pairs.cam_roller_follower(TURN)
     motion = mechanism.sweep({"shaft": TURN}, throw=True)
     np.testing.assert_allclose(motion.coordinates["guide"][:, 0], height - height[0] - 0.5, atol=3e-8)
-
-
-def roller(profile=None, unit=1.0, place=None, names=("ground", "cam", "arm"), backwards=False):
-    """An oval cam that swings an arm by a roller, at any place, in any unit."""
-    turn = 2 * np.pi * np.arange(60) / 60
-    oval = np.stack([28 * np.cos(turn), 20 * np.sin(turn) - 2 * np.sin(3 * turn)], axis=1)
-    profile = oval if profile is None else profile
-    place = np.eye(4) if place is None else place
-
-    def at(point):
-        return place[:3, :3] @ (unit * np.array(point, float)) + place[:3, 3]
-
-    ground, cam, arm = names
-    joints = [
-        jk.revolute("shaft", ground, cam, point=at((0, 0, 0)), axis=place[:3, 2]),
-        jk.cam(
-            "contact",
-            cam,
-            arm,
-            profile=unit * profile,
-            follower="roller",
-            radius=unit * 5.0,
-            point=at((0, 0, 0)),
-            axis=place[:3, 2],
-            direction=place[:3, 0],
-            point2=at((0, 27, 0)),
-        ),
-        jk.revolute("pivot", ground, arm, point=at((45, 20, 0)), axis=place[:3, 2]),
-    ]
-    return jk.Mechanism.build(fixed=[ground], joints=joints[::-1] if backwards else joints)
-
-
-def swings(mechanism):
-    return np.asarray(mechanism.sweep({"shaft": TURN}, throw=True).coordinates["pivot"])[:, 0]
 
 
 @pytest.fixture(scope="module")
@@ -232,77 +196,6 @@ def test_lengths_beside_a_curve(oval, swung):
     assert jk.curve_contacts(motion).holds
 
 
-def test_a_profile_is_changed_by_its_points(oval, swung):
-    points = np.asarray(oval.joints["contact"].curves[0].points)
-    same = oval.with_points({("contact", "profile"): points})
-    np.testing.assert_array_equal(swings(same), swung)
-    larger = oval.with_points({("contact", "profile"): 1.02 * points})
-    # what is swept from there is what is closed there, and what is built so
-    closed = larger.close()
-    assert closed.closed
-    made = roller(1.02 * points)
-    motion = larger.sweep({"shaft": TURN}, throw=True)
-    assert np.all(np.asarray(motion.coordinates["pivot"])[:, 0] < swung)
-    other = made.close().mechanism.sweep({"shaft": TURN}, throw=True)
-    moved = float(made.close().coordinates["shaft"][0])
-    again = larger.sweep({"shaft": TURN + moved}, throw=True)
-    lifted = np.asarray(again.coordinates["pivot"])[:, 0] - np.asarray(again.coordinates["pivot"])[0, 0]
-    np.testing.assert_allclose(other.coordinates["pivot"][:, 0], lifted, atol=1e-11)
-
-
-@pytest.mark.parametrize(
-    "points, message",
-    [
-        (np.zeros((59, 2)), r"as many as before, of shape \(60, 2\), got shape \(59, 2\)"),
-        (np.full((60, 2), np.nan), "point 0 of profile is not finite"),
-    ],
-)
-def test_points_that_make_no_profile_are_refused(oval, points, message):
-    with pytest.raises(ValueError, match=message):
-        oval.with_points({("contact", "profile"): points})
-    with pytest.raises(ValueError, match="there is no profile2 of joint 'contact' \\(cam\\), which has 1 of them"):
-        oval.with_points({("contact", "profile2"): points})
-
-
-def test_derivatives_with_respect_to_the_profile_are_differences(oval):
-    points = np.asarray(oval.joints["contact"].curves[0].points)
-    direction = np.random.default_rng(2).normal(size=points.shape)
-    angles = jnp.asarray(TURN[:5])
-
-    def swing(points):
-        motion = oval.with_points({("contact", "profile"): points}).sweep({"shaft": angles})
-        return jnp.sum(motion.coordinates["pivot"][:, 0] ** 2)
-
-    step = 1e-4  # of 28: the step squared over the radius of curvature squared
-    found = float(jnp.sum(jax.grad(swing)(jnp.asarray(points)) * direction))
-    difference = float(swing(points + step * direction) - swing(points - step * direction)) / (2 * step)
-    assert found == pytest.approx(difference, rel=1e-6)
-
-
-@pytest.mark.long
-def test_a_profile_is_designed():
-    """The points of a profile are variables of an optimiser: the law of another cam is found again."""
-    wanted = roller()
-    target = swings(wanted)
-    points = np.asarray(wanted.joints["contact"].curves[0].points)
-    start = wanted.with_points({("contact", "profile"): 0.97 * points})
-
-    def loss(motion):
-        return motion.coordinates["pivot"][:, 0] - jnp.asarray(target)
-
-    profile = jk.design.Free(0.97 * points, points - 3, points + 3)
-    best = jk.optimize(
-        loss,
-        start,
-        drive={"shaft": TURN},
-        points={("contact", "profile"): profile},
-        solver=jk.design.LevenbergMarquardt(),
-        progress=False,
-    )
-    # from 0.02 rad: a fit of 13 poses by 120 numbers is exact
-    np.testing.assert_allclose(swings(best.mechanism), target, atol=1e-6)
-
-
 def test_a_curve_is_drawn_on_its_part(oval):
     found = {part.name: part.triangles.reshape(-1, 3) for part in stick_parts(oval)}
     turn = np.linspace(0, 2 * np.pi, 9)
@@ -338,76 +231,6 @@ def test_what_has_no_curve_has_no_curve_in_its_program():
         text = str(jax.make_jaxpr(lambda u, m=mechanism: m.sweep({"A": u}).displacements)(TURN))
         assert "tridiagonal" not in text
     assert "tridiagonal" in str(jax.make_jaxpr(lambda u: roller().sweep({"shaft": u}).displacements)(TURN))
-
-
-def flat_on_oval(**more):
-    turn = 2 * np.pi * np.arange(60) / 60
-    oval = np.stack([28 * np.cos(turn), 20 * np.sin(turn) - 2 * np.sin(3 * turn)], axis=1)
-    given = {"profile": oval, "follower": "flat", "point2": (0, 22, 0), "direction2": (1, 0, 0)} | more
-    return jk.Mechanism.build(
-        fixed=["ground"],
-        joints=[
-            jk.revolute("shaft", "ground", "cam", point=(0, 0, 0), axis=Z),
-            jk.cam("contact", "cam", "follower", **given),
-            jk.prismatic("guide", "ground", "follower", axis=(0, 1, 0)),
-        ],
-    )
-
-
-CIRCLE = higher_pairs.disc_profile(24, eccentricity=0.0)
-EIGHT = np.stack([np.sin(2 * np.pi * np.arange(24) / 24), np.sin(4 * np.pi * np.arange(24) / 24)], axis=1)
-
-
-@pytest.mark.parametrize(
-    "changes, message",
-    [
-        ({"follower": "rollr"}, "follower must be one of 'knife', 'roller', 'flat', got 'rollr'.*'roller'"),
-        ({"follower": "roller", "direction2": None}, "a follower 'roller' needs radius"),
-        ({"radius": 3.0}, "a follower 'flat' has no radius, got 3.0"),
-        ({"direction2": None}, "a follower 'flat' needs direction2"),
-        ({"direction2": (0, 0, 1)}, "direction2 must be perpendicular to the axis of the profile"),
-        ({"follower": "roller", "direction2": None, "radius": -2.0}, "radius of a roller must be a positive number"),
-        ({"follower": "roller", "direction2": None, "radius": np.nan}, "radius of a roller must be a positive number"),
-        ({"profile": CIRCLE[:3]}, "needs 4 points at least, got 3"),
-        ({"profile": CIRCLE[:, :1]}, r"an array of shape \(n, 2\), got shape \(24, 1\)"),
-        ({"profile": "round"}, "must be points .* got 'round'"),
-        ({"profile": np.where(np.arange(24)[:, None] == 7, np.nan, CIRCLE)}, "point 7 of profile is not finite"),
-        ({"profile": np.vstack([CIRCLE, CIRCLE[:1]])}, "the last point repeats the first one.*leave it out"),
-        ({"profile": np.insert(CIRCLE, 5, CIRCLE[5], axis=0)}, "points 5 and 6 are the same"),
-        ({"profile": EIGHT}, "crosses itself near"),
-        ({"point2": (0, np.inf, 0)}, "point2 must be three finite numbers"),
-        ({"axis": (0, 0, 0)}, "axis must be a direction, got the zero vector"),
-        ({"limits": {"t": (0, 1)}}, "there is no coordinate 't'"),
-    ],
-)
-def test_bad_input(changes, message):
-    with pytest.raises(ValueError, match=message):
-        flat_on_oval(**changes)
-
-
-def test_curves_without_a_common_normal_are_refused():
-    line = np.stack([np.linspace(0, 1, 5), np.zeros(5)], axis=1)
-    with pytest.raises(ValueError, match="no common normal"):
-        jk.curve_on_curve(
-            "c", "a", "b", profile=line, profile2=line, closed=False, closed2=False, direction2=(1, 1, 0),
-            point2=(3, 0, 0),
-        )  # fmt: skip
-    with pytest.raises(ValueError, match="no tangent of the profile is parallel to the face"):
-        jk.cam(
-            "c", "a", "b", profile=line, closed=False, follower="flat", point2=(0, 0, 0), direction2=(0, 1, 0)
-        )  # fmt: skip
-
-
-def test_traced_profiles_are_given_another_way():
-    with pytest.raises(ValueError, match=r"outside of jit and grad"):
-        jax.grad(lambda scale: flat_on_oval(profile=scale * CIRCLE).joints["contact"].pitch)(1.0)
-
-
-def test_a_point_that_is_moved_onto_its_curve_is_told():
-    mechanism = flat_on_oval(point2=(0, 22 + 1e-5, 0))
-    assert "moved by 1e-05 to touch the profile" in str(mechanism)
-    assert mechanism.joints["contact"].kind is JointKind.CAM
-    assert "Not closed" in str(flat_on_oval(point2=(0, 22.1, 0)))
 
 
 def test_mujoco_has_no_curves(oval, tmp_path):

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from jaxkin.geometry.pose import frame
-from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, default_tolerance
 from reference.hard_case import TURN, off_turns

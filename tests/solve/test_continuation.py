@@ -13,7 +13,7 @@ from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.predictor import hermite, predict_state
 from jaxkin.solve.continuation.step import NEAR_LIMIT
-from jaxkin.solve.execution.programs import jit_options
+from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State

@@ -28,12 +28,12 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.effects.forces.changes import Rows
-from jaxkin.effects.forces.screws import Places, Scale, Twist, cross, velocity_at
+from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
+from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
-from jaxkin.solve.linear.ldl import factor_ldl
 from jaxkin.solve.linear.least_norm import factor_positive_definite
 from jaxkin.solve.range.poses import in_groups
 
@@ -43,15 +43,8 @@ fewer digits to what is free, less would need more steps."""
 STEPS = 3
 """Steps of the multipliers: each leaves of the error its ratio to the smallest eigenvalue of the balance times the
 penalty, which is 1e-4 or less away from singular poses."""
-DEPENDENT = 1e4
-"""What is added to S^T S, in units of rounding times its mean square, where coordinates of a joint may depend on each
-other."""
-
 GROUP = 512
 """Poses that are solved at once: the matrices of so many stay in the cache."""
-
-Wrenches = Float[Array, "6 poses"]
-"""Torque over the size of the mechanism, then force: newtons. In this module about the middle of the mechanism."""
 
 
 class Tree(NamedTuple):
@@ -181,15 +174,14 @@ def _solve(
     free = [
         [k for k in range(each.freedoms) if (number, k) not in driven] for number, each in enumerate(linkage.joints)
     ]
-    joints = [_Joint.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
+    joints = [JointBalance.of(arm, every, own) for arm, every, own in zip(found.arms, found.screws, free, strict=True)]
     none = jnp.zeros(poses)
     loads = [[loaded.get((number, k), none) for k in own] for number, own in enumerate(free)]
     ties = [[[each.get((number, k), none) for k in own] for number, own in enumerate(free)] for each in found.gradients]
     carried_by = carried(linkage, acting, poses)
-    count = 6 * len(tree.chords)
-    kappa = PENALTY / float(jnp.finfo(found.arms[0].dtype).eps) ** 0.5
-
     chords = len(tree.chords)
+    count = 6 * chords
+    kappa = PENALTY / float(jnp.finfo(found.arms[0].dtype).eps) ** 0.5
 
     def wrenches(z: Float[Array, "n poses"]) -> list[Wrenches]:
         of_chords = z[:count].reshape(chords, 6, poses)
@@ -262,68 +254,8 @@ def carried(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, W
     return found
 
 
-class _Joint(NamedTuple):
-    """A joint in each pose: the norm of its wrenches, and what it lets through, about the middle of the mechanism."""
-
-    arm: Float[Array, "3 poses"]
-    screws: list[Twist]
-    """Unit twists of its free coordinates."""
-    inverse: Float[Array, "free free poses"]
-    """(S^T S)^-1."""
-
-    @staticmethod
-    def of(arm: Float[Array, "3 poses"], every: Sequence[Twist], free: Sequence[int]) -> _Joint:
-        own, poses = [every[k] for k in free], arm.shape[1]
-        if not own:
-            return _Joint(arm, [], jnp.zeros((0, 0, poses)))
-        # the norm is taken at the point of the joint
-        rows = jnp.stack([jnp.concatenate([s[:3], velocity_at(s, arm)]) for s in own])
-        unit = jnp.broadcast_to(jnp.eye(len(own))[..., None], (len(own), len(own), poses))
-        return _Joint(arm, own, factor_ldl(rows, DEPENDENT * float(jnp.finfo(arm.dtype).eps))(unit))
-
-    def along(self, wrench: Wrenches) -> list[Float[Array, " poses"]]:
-        """S^T w."""
-        return [jnp.sum(s * wrench, axis=0) for s in self.screws]
-
-    def metric(self, rows: Float[Array, "free *sides poses"]) -> Float[Array, "free *sides poses"]:
-        """(S^T S)^-1 times rows."""
-        if not self.screws:
-            return rows
-        inverse = self.inverse if rows.ndim == 2 else self.inverse[:, :, None]
-        return jnp.sum(inverse * rows[None], axis=1)
-
-    def at_point(self, wrench: Wrenches) -> Wrenches:
-        """The wrench about the point of the joint."""
-        return jnp.concatenate([wrench[:3] - cross(self.arm, wrench[3:]), wrench[3:]])
-
-    def slope(self, wrench: Wrenches, pull: Float[Array, "_ poses"]) -> Wrenches:
-        """Derivative of |P w|^2 / 2 by the wrench, and of the multipliers of S^T w."""
-        own = self.at_point(wrench)
-        found = jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
-        if not self.screws:
-            return found
-        weights = pull - self.metric(jnp.stack(self.along(wrench)))
-        return found + sum((weight * s for weight, s in zip(weights, self.screws, strict=True)), jnp.zeros_like(found))
-
-    def stiffness(self, kappa: float) -> Float[Array, "6 6 poses"]:
-        """Second derivative of |P w|^2 / 2, and of the penalty of S^T w."""
-        x, y, z = self.arm
-        none = jnp.zeros_like(x)
-        lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, -1)
-        eye = jnp.broadcast_to(jnp.eye(3)[..., None], lever.shape)
-        outer = (1 + jnp.sum(self.arm**2, axis=0)) * eye - self.arm[:, None] * self.arm[None]
-        norm = jnp.concatenate(
-            [jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)], axis=0
-        )
-        if not self.screws:
-            return norm
-        rows = jnp.stack(self.screws)
-        weighted = (kappa - 1) * self.metric(rows)
-        return norm + sum(s[:, None] * w[None] for s, w in zip(rows, weighted, strict=True))
-
-
 def _matrix(
-    tree: Tree, joints: Sequence[_Joint], ties: Sequence[Sequence[Sequence[Array]]], kappa: float, poses: int
+    tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Sequence[Array]]], kappa: float, poses: int
 ) -> Float[Array, "n n poses"]:
     """The second derivative by all unknowns: wrenches of the chords, then forces of the couplings."""
     stiff = [joint.stiffness(kappa) if any(own) else None for joint, own in zip(joints, tree.shares, strict=True)]

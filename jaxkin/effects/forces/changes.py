@@ -10,7 +10,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Float
 
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow
-from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.execution.compiler import whole_program
 
 Rows = tuple[Float[Array, "poses _"], ...]
 """Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""

@@ -36,7 +36,7 @@ from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
-from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import Status
 
 

@@ -129,7 +129,8 @@ def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale
         if number:
             found = product(found, inverse(as_rigid(jnp.asarray(joint.frames_2[number - 1], float))))
         found = product(found, as_rigid(jnp.asarray(frame, float)))
-        spline = joint.curves[number].spline(jnp) if joint.curves and joint.curves[number] is not None else None
+        curve = joint.curves[number] if joint.curves else None
+        spline = None if curve is None else curve.spline(jnp)
         for element in MOVEMENTS[movement].elements:
             value = q[:, first + element.coordinate]
             unit, point = units[first + element.coordinate], None if spline is None else spline.at(value, jnp)

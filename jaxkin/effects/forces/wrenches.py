@@ -27,7 +27,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs
 from jaxkin.mechanism.motion import Motion
-from jaxkin.solve.execution.programs import whole_program
+from jaxkin.solve.execution.compiler import whole_program
 
 Wrench = Float[Array, "6 _"]
 """Torque over the size of the mechanism, then force: newtons. The last axis is the poses, or one for all poses."""

@@ -27,6 +27,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.trig import cos_sin
+from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
 from jaxkin.solve.system.chain_tables import AXES, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -182,7 +183,7 @@ def _travel(
     (cos, sin), travel = cos_sin(turn * q), advance * q
     rates: Array | None = None
     if geometry.curves:
-        cos, sin, travel, rates = _along_curves(system, geometry, state, (cos, sin, travel))
+        cos, sin, travel, rates = along_curves(system, geometry.curves, state, (cos, sin, travel))
     balls = _ball_turns(state, table) if system.turned_balls else None
 
     def step(carry: tuple[Rotation, Vector], given):
@@ -215,33 +216,6 @@ def _travel(
         first, again, chain = table.repeats
         twists = twists.at[first, :, chain].add(twists[again, :, chain])
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
-
-
-def _along_curves(
-    system: LoopSystem, geometry: Spatial, state: State, amounts: tuple[Array, Array, Array]
-) -> tuple[Array, Array, Array, Float[Array, "steps chains poses"]]:
-    """Replace cosine, sine and travel of the steps that follow a curve by those at its parameter.
-
-    Also computes the derivative of the angle or length of every step with respect to its coordinate: 1 where no curve
-    is followed.
-    """
-    table = chain_tables(system)
-    cos, sin, travel = amounts
-    rates = jnp.ones_like(travel)
-    for number, curve in enumerate(geometry.curves):
-        follows = (table.law > 0) & (table.curve == number)
-        if not follows.any():
-            continue
-        at = curve.at(state.x[table.column[follows][0]], jnp)
-        for law, value, rate in ((1, at.x, at.dx), (2, at.y, at.dy), (3, None, at.turning)):
-            where = np.nonzero(follows & (table.law == law))
-            sign = jnp.asarray(table.sign[where], cos.dtype)[:, None]
-            rates = rates.at[where].set(rate)
-            if value is None:
-                cos, sin = cos.at[where].set(at.cos), sin.at[where].set(sign * at.sin)
-            else:
-                travel = travel.at[where].set(sign * value)
-    return cos, sin, travel, rates
 
 
 def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:

@@ -6,8 +6,7 @@ Only the program of the displacements is differentiated. Where the numbers are k
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache, partial, wraps
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import jax
@@ -28,6 +27,7 @@ from jaxkin.solve.closed_form.range_by_formula import (
     line_of,
 )
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
+from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.execution.cores import run_on_cores, shard_count
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -36,21 +36,6 @@ from jaxkin.solve.range.solve_range import displacements, find_poses, shard
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
-
-COMPILER_OPTIONS = {
-    "xla_cpu_use_fusion_emitters": False,
-    "xla_cpu_experimental_ynn_fusion_type": "",
-    "xla_cpu_multi_thread_eigen": False,
-    "xla_llvm_disable_expensive_passes": True,
-    "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
-}
-"""Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
-costlier passes of LLVM 1.4 times, for a program that is no faster.
-
-The operations of the program take a few microseconds each. To call a library for reductions, to rewrite sums of about
-forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
-for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
-"""
 
 Given = Float[Array | np.ndarray, "driven poses"]
 """Inputs, radians or lengths of the mechanism."""
@@ -290,33 +275,7 @@ def _poses_program(whole: bool):
     return jax.jit(_of_all_designs, static_argnames=("system", "options"), **(jit_options() if whole else {}))
 
 
-def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
-    """Compile a function of arrays with the options of the solver, which are those of whole programs.
-
-    `static` are the places of its arguments that are hashed, and not arrays. Where numbers are traced, the function is
-    part of another program, and compiled as that is.
-    """
-    part = jax.jit(function, static_argnums=static)
-    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options()))
-
-    @wraps(function)
-    def call(*given):
-        return (part if traced(given) or traced(jax.device_put(np.zeros(0))) else whole())(*given)
-
-    return call
-
-
 @cache
 def _projection_program(whole: bool):
     """Make the program of the nearest closed poses: one of its own, or part of a traced one."""
     return jax.jit(nearest_poses, static_argnames=("system", "options"), **(jit_options() if whole else {}))
-
-
-@cache
-def jit_options() -> dict[str, Any]:
-    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX does not know them."""
-    try:
-        jax.jit(lambda x: x, compiler_options=COMPILER_OPTIONS)(0.0)
-    except (TypeError, jax.errors.JaxRuntimeError):
-        return {}
-    return {"compiler_options": COMPILER_OPTIONS}

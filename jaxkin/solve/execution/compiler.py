@@ -1,0 +1,53 @@
+"""The options of the compiler that whole programs of the solver and of effects are compiled with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, wraps
+from typing import Any
+
+import jax
+import numpy as np
+
+from jaxkin._traced import traced
+
+COMPILER_OPTIONS = {
+    "xla_cpu_use_fusion_emitters": False,
+    "xla_cpu_experimental_ynn_fusion_type": "",
+    "xla_cpu_multi_thread_eigen": False,
+    "xla_llvm_disable_expensive_passes": True,
+    "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
+}
+"""Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
+costlier passes of LLVM 1.4 times, for a program that is no faster.
+
+The operations of the program take a few microseconds each. To call a library for reductions, to rewrite sums of about
+forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
+for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
+"""
+
+
+def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
+    """Compile a function of arrays with the options of the solver, which are those of whole programs.
+
+    `static` are the places of its arguments that are hashed, and not arrays. Where numbers are traced, the function is
+    part of another program, and compiled as that is.
+    """
+    part = jax.jit(function, static_argnums=static)
+    whole = cache(lambda: jax.jit(function, static_argnums=static, **jit_options()))
+
+    @wraps(function)
+    def call(*given):
+        return (part if traced(given) or traced(jax.device_put(np.zeros(0))) else whole())(*given)
+
+    return call
+
+
+@cache
+def jit_options() -> dict[str, Any]:
+    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX does not know them."""
+    try:
+        jax.jit(lambda x: x, compiler_options=COMPILER_OPTIONS)(0.0)
+    except (TypeError, jax.errors.JaxRuntimeError):
+        return {}
+    return {"compiler_options": COMPILER_OPTIONS}
