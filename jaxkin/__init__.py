@@ -6,15 +6,15 @@ motion = mechanism.sweep({"ground-crank": jnp.linspace(0, 2 * jnp.pi, 361)})
 motion.save("out/")
 """
 
-from typing import TYPE_CHECKING, Any
+import typing
 
-if TYPE_CHECKING:
+if typing.TYPE_CHECKING:
     from jaxkin._api import *  # noqa: F403
 
 __version__ = "0.1.0"
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> typing.Any:
     """Import what users import, and JAX, when the first name is asked for: the help of the command line needs none."""
     if name.startswith("__"):
         raise AttributeError(name)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.geometry.pose import Pose
+from jaxkin.joints import pairs
 from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
 _PAIRS = {"weld": (JointKind.FIXED, LOWER_PAIRS[0, 0][1])} | {str(pair[0]): pair for pair in LOWER_PAIRS.values()}
@@ -29,16 +31,15 @@ def joint_of_kind(kind: str, base: Pose, follower: Pose) -> tuple[JointKind, Cha
         found, movement = _PAIRS[name]
         return found, Chain((movement,), base[None])
     if name == "universal":
-        x, y = follower[:3, 1], base[:3, 0]
-        if abs(float(x @ y)) > PERPENDICULAR:
+        axis1, axis2 = base[:3, 0], follower[:3, 1]
+        if abs(float(axis1 @ axis2)) > PERPENDICULAR:
             return None
-        cross = base.copy()
-        cross[:3, :3] = np.column_stack([x, y, np.cross(x, y)])
-        return JointKind.UNIVERSAL, Chain(("T_theta_phi",), cross[None])
+        return _as(pairs.universal(kind, "base", "follower", point=base[:3, 3], axis1=axis1, axis2=axis2))
     if name in ("pinslot", "pininslot"):
-        slot = base.copy()
-        slot[:3, :3] = base[:3, [1, 2, 0]]
-        pin = base.copy()
-        pin[:3, 3] = follower[:3, 3]
-        return JointKind.PIN_IN_SLOT, Chain(("T_z", "T_phi"), np.stack([slot, pin]))
+        direction, axis = base[:3, 0], base[:3, 2]
+        return _as(pairs.pin_in_slot(kind, "base", "follower", point=follower[:3, 3], axis=axis, direction=direction))
     return None
+
+
+def _as(made: Joint) -> tuple[JointKind, Chain]:
+    return made.kind, Chain(made.movements, np.asarray(made.frames_1))

@@ -94,12 +94,12 @@ def test_what_can_be_driven_as_well_can(name):
     assert refusal(mechanism, [drivable[0], *free]) is None
 
 
-def test_a_ball_is_said_to_be_driven_whole():
+def test_a_ball_is_said_to_be_driven_by_its_angles():
     mechanism = catalogue.hexapod()
     ball = next(joint for joint in mechanism.all_joints if joint.kind == "spherical")
     with pytest.raises(ValueError) as error:
         coordinate(mechanism.linkage, ball.name)
-    written = str(error.value).partition("write ")[2].split(" with ")
+    written = str(error.value).partition("write ")[2].split(" or ")
     assert len(coordinates(mechanism.linkage, [literal_eval(name) for name in written])) == 3
 
 

@@ -139,6 +139,7 @@ def test_bevel_wheels_turn_about_axes_that_meet():
     assert np.cross([0, 0, 1], touching) == pytest.approx(turn * np.cross([1, 0, 0], touching), abs=1e-12)
 
 
+@pytest.mark.long
 def test_a_planetary_set_obeys_willis():
     """With the ring held the carrier turns by s / (s + r) of the sun's angle."""
     sun, planet, ring = 20, 15, 50

@@ -148,6 +148,7 @@ def test_what_is_left_at_rest_frees_nothing(flanges, bolted):
     assert every.mobility().freedoms == bolted.mobility().freedoms
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_which_parts_are_left_at_rest_depends_on_neither_order_nor_names(flanges, bolted, seed):
     assembly, contacts = flanges

@@ -35,6 +35,7 @@ def run(*arguments, **environment):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("arguments", [["--help"], ["sweep", "--help"], ["sweep", "--bogus"], ["sweep"]])
 def test_help_and_errors_of_arguments_come_without_jax(arguments):
     """JAX, and what else the computing needs, takes seconds to import."""

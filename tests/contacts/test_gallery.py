@@ -35,6 +35,7 @@ def test_every_state_is_found_between_solids(parts):
     assert max(contact.misfit for contact in contacts) < 1e-7 * size(parts)  # single precision of the placements
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_in_other_placements_and_units(parts, solids, scale):
     """Each pair placed anew, the parts of a pair apart by the noise of single precision."""

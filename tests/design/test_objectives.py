@@ -58,6 +58,7 @@ def test_guidance(motion):
     assert design.guidance("coupler", POINT, off, size=50.0)(motion) == pytest.approx(30 * (50 * 1e-3) ** 2, rel=1e-6)
 
 
+@pytest.mark.long
 def test_transmission_angle_by_the_law_of_cosines(motion):
     diagonal = 100.0**2 + 40.0**2 - 2 * 100.0 * 40.0 * np.cos(START + TURN)
     expected = np.arccos((120.0**2 + 80.0**2 - diagonal) / (2 * 120.0 * 80.0))

@@ -100,6 +100,7 @@ def test_the_table_and_the_advice(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG") and [file.name for file in tmp_path.iterdir()] == ["work.png"]
 
 
+@pytest.mark.long
 def test_bad_input():
     mechanism = planar_fourbar()
     with pytest.raises(ValueError, match=r"no method 'dpf'.*'dfp'"):

@@ -88,6 +88,7 @@ def test_a_triad_has_six_modes(tmp_path):
     assert again.found == modes.found
 
 
+@pytest.mark.long
 def test_what_has_no_modes_is_refused():
     mechanism = planar_fourbar(1.0, crank=90.0, coupler=60.0, rocker=60.0)
     nowhere = jk.assembly_modes(mechanism, {"A": 2.0})

@@ -34,6 +34,7 @@ def pair_of(found, *names):
     return pair
 
 
+@pytest.mark.long
 def test_a_slider_runs_into_a_wall(tmp_path):
     """The wall begins 10 ahead of the slider: free before, and as deep in it as it has gone on from there."""
     parts = {"wall": box([30, -20, -20], [60, 20, 20]), "slider": box([0, -5, -4], [20, 5, 4])}

@@ -28,6 +28,7 @@ def motion():
     return planar_fourbar(START).sweep({"A": TURN})
 
 
+@pytest.mark.long
 def test_a_point_at_the_pole_of_the_coupler_has_a_cusp(motion):
     """Crank and rocker, prolonged, meet in the pole: the point of the coupler there stands still."""
     theta = START + 1.2345
@@ -46,6 +47,7 @@ def test_a_point_at_the_pole_of_the_coupler_has_a_cusp(motion):
     assert near.cusps == ()
 
 
+@pytest.mark.long
 def test_crossings_are_those_of_the_closed_form(motion):
     found = jk.coupler_curve(motion, "coupler", (*coupler_point(START, 50.0, -60.0)[0], 0.0))
     dense = np.linspace(0.0, 2 * np.pi, 2001)
@@ -71,6 +73,7 @@ def test_crossings_are_those_of_the_closed_form(motion):
         np.testing.assert_allclose(each.point[:2], both[0], atol=1e-9)
 
 
+@pytest.mark.long
 def test_a_circle_has_neither(motion):
     """The pin of the crank, once around: that the ends meet is no crossing."""
     found = jk.coupler_curve(motion, "crank", (40 * np.cos(START), 40 * np.sin(START), 0.0))

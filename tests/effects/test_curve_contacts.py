@@ -44,6 +44,7 @@ HOLLOW = -1.0 / curvature(np.pi / 3)
 """Radius of curvature in a hollow of the clover: 19 mm."""
 
 
+@pytest.mark.long
 def test_a_roller_that_fits_into_the_hollows():
     motion = on_cam("roller", radius=10.0).sweep({"shaft": TURN}, throw=True)
     found = jk.curve_contacts(motion)
@@ -62,6 +63,7 @@ def length():
     return np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1).sum()
 
 
+@pytest.mark.long
 def test_a_roller_larger_than_a_hollow():
     """It rests on both flanks of a hollow where that faces it, and would have to pass through one from there on."""
     radius = 2.5 * HOLLOW
@@ -85,6 +87,7 @@ def test_a_roller_larger_than_a_hollow():
     assert undercut.any() or not closed.all()
 
 
+@pytest.mark.long
 def test_a_flat_face_across_a_hollow():
     """It rests on two crests where a hollow faces it, and would have to pass through the next crest from there on."""
     assert jk.curve_contacts(on_cam("flat", waves=1.5).sweep({"shaft": TURN}, throw=True)).holds
@@ -101,6 +104,7 @@ def test_a_flat_face_across_a_hollow():
         assert contact.depth[pose] == pytest.approx(over, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
     radius = 2.5 * HOLLOW
     round_one = radius * np.stack([np.cos(ANGLE), np.sin(ANGLE)], axis=1)

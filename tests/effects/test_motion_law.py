@@ -22,6 +22,7 @@ PEAKS = {
 Handbook, Table 3-1, four decimals); of the s-curve, whose ramps are eighths, from its areas."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in LAWS if name != "dwell"])
 def test_a_law_rises_from_rest_to_rest_evenly(name):
     """Half the way is half the time, and the rates are symmetric."""
@@ -65,6 +66,7 @@ def test_a_law_is_drawn(tmp_path):
     assert path.stat().st_size > 10_000
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("segments", "said"),
     [

@@ -72,6 +72,7 @@ def test_sensitivities_of_a_fourbar_are_those_of_freudenstein(found):
     assert found.contributions.sum() == pytest.approx(100.0)
 
 
+@pytest.mark.long
 def test_the_extremes_are_full_designs(found):
     """The corners, computed by the closed form; the pin in its hole, on the line of the coupler, is part of that."""
     _, slopes = rocker_by_freudenstein(INPUT)

@@ -34,6 +34,7 @@ def test_an_unknown_name_is_answered_with_the_known_ones():
         path("five-bar")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_nothing_is_parallel_to_a_world_axis(name):
     turn = EXAMPLES[name].placement[:3, :3]

@@ -57,6 +57,7 @@ def test_contacts_are_those_of_the_tables(name, expected):
     assert not contacts.near_misses and not contacts.notes
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("fixed", "loops", "freedoms"),
     [

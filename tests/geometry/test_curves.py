@@ -62,6 +62,7 @@ def test_counted_from_another_contact_it_is_the_same_curve_in_a_frame_there(clos
     assert there.begins_at_contact and not here.begins_at_contact
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("closed", [True, False])
 def test_derivatives_with_respect_to_points_are_differences(closed):
     given = curve(closed)
@@ -79,6 +80,7 @@ def test_derivatives_with_respect_to_points_are_differences(closed):
     assert float(found) == pytest.approx(float(differences), rel=1e-7)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("closed", [True, False])
 def test_a_frame_travels_along_the_curve_with_x_along_the_tangent(closed):
     """T_s is a translation by the point of the spline and a turn to its tangent; T_s_back is the inverse of T_s."""

@@ -76,6 +76,7 @@ def test_angles_of_vectors_down_to_rounding():
     assert max(small) < 2 * EPS  # relative
 
 
+@pytest.mark.long
 def test_derivatives_of_angles():
     x = jnp.asarray([0.6, -0.8])
     once = jax.jit(jax.grad(lambda v: angle(v[0], v[1])))(x)

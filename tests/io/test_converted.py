@@ -19,6 +19,7 @@ from jaxkin.geometry.surfaces import Cone
 CONVERTED = Path(__file__).parent / "data" / "converted"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "written"), [("cam", "B_SPLINE_SURFACE"), ("fourbar", "B_SPLINE_SURFACE"), ("slider_crank", "REVOLUTION")]
 )

@@ -53,6 +53,7 @@ def damaged(folder, source, old, new):
     return file
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ENDLESS)
 def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
     source, old, new = ENDLESS[name]
@@ -67,6 +68,7 @@ def test_a_reader_that_does_not_return_is_ended(tmp_path, capfd, name):
     assert list(tmp_path.iterdir()) == [file]
 
 
+@pytest.mark.long
 def test_the_time_of_a_study_is_that_of_its_files(tmp_path):
     damaged(tmp_path, DATA / "fillet.step", *ENDLESS["a line without length"][1:])
     study = tmp_path / "study.toml"

@@ -37,6 +37,7 @@ def test_an_assembly_reads_well(fourbar):
     assert "face 4: torus, not one of the four surfaces" in str(load(DATA / "fillet.step"))
 
 
+@pytest.mark.long
 def test_a_path_with_blanks_and_accents(tmp_path, fourbar):
     file = tmp_path / "Bögen und Räder" / "four bar ü.step"
     file.parent.mkdir()

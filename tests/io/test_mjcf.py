@@ -153,6 +153,7 @@ def cassie(tmp_path_factory):
     return folder / "menagerie__agility_cassie_cassie.xml"
 
 
+@pytest.mark.long
 def test_cassie_has_ten_motors_four_springs_and_two_rods_that_spin(cassie):
     mechanism = jk.load(cassie).mechanism()
     mobility = mechanism.mobility()

@@ -69,6 +69,7 @@ def test_a_part_with_several_colours_is_converted_once_and_has_all_its_faces(mon
     assert painted.color is not None
 
 
+@pytest.mark.long
 def test_faces_without_a_colour_are_not_lost(monkeypatch, tmp_path):
     """Of a part some faces are painted, and neither the others nor the solid are: it is read again without colours."""
     text = (DATA / "painted.step").read_text()

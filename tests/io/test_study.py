@@ -184,6 +184,7 @@ def test_all_mistakes_are_told_at_once(tmp_path):
     assert len(str(error.value).splitlines()) == 3
 
 
+@pytest.mark.long
 def test_what_can_only_be_checked_with_the_mechanism(tmp_path):
     study = load_study(written(tmp_path, HEAD + "[drive]\ncrank = [0]"))
     with pytest.raises(ValueError, match="there is no joint 'crank' to drive"):

@@ -132,6 +132,7 @@ def test_a_serial_arm_keeps_its_limits_its_motors_and_its_solids(tmp_path):
     assert mechanism.with_points({"slide": (0, 0, 2)}).joints["shoulder"].limits == ((-1.0, 2.0),)
 
 
+@pytest.mark.long
 def test_a_joint_that_mimics_with_an_offset_stands_where_the_offset_says(tmp_path):
     """The zero of the file does not obey it: the robot is assembled where it does, and the motor stays if it can."""
     assembly = write(tmp_path, text=ARM.replace('multiplier="2"', 'multiplier="2" offset="0.25"'))

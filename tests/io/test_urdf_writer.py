@@ -46,6 +46,7 @@ def test_the_tree_is_shallow_and_cut_at_balls(tmp_path):
     assert len(loops["joint_name"]) == 7 and {*loops["joint_type"]} == {"SPHERICAL"}
 
 
+@pytest.mark.long
 def test_solids_limits_and_motors_come_back(tmp_path):
     mechanism = replace(jk.load(path("fourbar")).mechanism(fixed=["ground"]), motors=("ground-crank",))
     back = written(mechanism, tmp_path)[1]

@@ -73,6 +73,7 @@ def swing_law(follower):
 CASES = [(sliding, slide_law), (swinging, swing_law)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make, law_of", CASES, ids=["sliding", "swinging"])
 @pytest.mark.parametrize("follower", ["knife", "roller", "flat"])
 def test_eccentric_discs(make, law_of, follower):
@@ -108,6 +109,7 @@ def test_velocities_and_accelerations(make, law_of, follower):
     np.testing.assert_allclose(found, speed**2 * second(theta), atol=2.5e-5 * 9 * 31)
 
 
+@pytest.mark.long
 def test_many_turns_are_one_turn_again():
     mechanism, law = sliding("roller"), slide_law("roller")
     far = np.linspace(0.0, 80 * np.pi, 500)
@@ -117,6 +119,7 @@ def test_many_turns_are_one_turn_again():
     assert float(motion.coordinates["contact"][-1, 0]) == pytest.approx(-40 * length_of(mechanism), rel=1e-12)
 
 
+@pytest.mark.long
 def test_a_roller_that_is_a_part_spins_by_itself():
     height = float(higher_pairs.cam_roller_follower(np.zeros(())))
     mechanism = jk.Mechanism.build(

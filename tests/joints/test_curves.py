@@ -30,6 +30,7 @@ def on_line(**more):
     return jk.point_on_curve("pin", "arm", "wheel", profile=LINE, point=(150, 0, 0), point2=(170, 0, 0), axis=Z, **more)
 
 
+@pytest.mark.long
 def test_a_pin_on_a_straight_curve_is_a_pin_in_a_slot():
     slot = jk.pin_in_slot("pin", "arm", "wheel", point=(170, 0, 0), axis=Z, direction=(1, 0, 0))
     one, other = (quick_return(pin).sweep({"crank": TURN}, throw=True) for pin in (on_line(), slot))
@@ -37,6 +38,7 @@ def test_a_pin_on_a_straight_curve_is_a_pin_in_a_slot():
         np.testing.assert_allclose(one.coordinates[name], other.coordinates[name], atol=1e-11)
 
 
+@pytest.mark.long
 def test_a_pin_on_a_circle_is_a_pin_in_a_circular_slot():
     arc = np.linspace(-1.2, 0.7, 200)
     profile = 60 * np.stack([np.cos(arc), np.sin(arc)], axis=1)
@@ -84,6 +86,7 @@ def discs(gap=0.0):
     )
 
 
+@pytest.mark.long
 def test_a_round_curve_on_a_disc_is_a_roller():
     motion = discs().sweep({"shaft": TURN}, throw=True)
     height = higher_pairs.cam_roller_follower(TURN)
@@ -113,6 +116,7 @@ def swung(oval):
     return swings(oval)
 
 
+@pytest.mark.long
 def test_neither_unit_nor_place_nor_names_nor_order_matter(swung):
     turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
     place = np.eye(4)
@@ -185,6 +189,7 @@ def test_the_ends_of_an_open_curve_are_limits():
     assert "leaves the end of its curve" in str(motion) and "20 mm" in str(motion)
 
 
+@pytest.mark.long
 def test_lengths_beside_a_curve(oval, swung):
     """The arm is as long from its pivot to the middle of the roller, and may be made longer."""
     assert oval.lengths["arm", "contact", "pivot"] == pytest.approx(np.hypot(45, 7), rel=1e-12)
@@ -206,6 +211,7 @@ def test_a_curve_is_drawn_on_its_part(oval):
     assert np.any(np.abs(beside - 5.0) < 1e-6)  # the roller's rim
 
 
+@pytest.mark.long
 def test_what_has_no_curve_has_no_curve_in_its_program():
     """Joints without curves have the leaves that they had, and their sweeps compute no spline."""
     pins = [

@@ -37,6 +37,7 @@ def on_frames(seed):
     return whole, jk.Mechanism.build(fixed=["ground"], joints=joints), places
 
 
+@pytest.mark.long
 def test_axes_of_parts_do_not_matter():
     whole, mechanism, places = on_frames(3)
     angles = np.linspace(0, 2 * np.pi, 13)

@@ -29,6 +29,7 @@ def test_the_assembled_pose_is_closed_and_the_jacobian_is_the_derivative(make):
     assert np.allclose(mechanism.closure(q).jacobian @ along, (there - back) / (2 * step), atol=1e-8)
 
 
+@pytest.mark.long
 def test_a_four_bars_loop_is_open_by_the_chord_of_its_crank():
     """The crank alone is turned by t: all behind it turns with it about the first hinge."""
     mechanism, t = planar_fourbar(), 0.2

@@ -54,6 +54,7 @@ def test_coordinates_that_a_chain_holds_twice_are_numbered():
     assert driven["touch.phi2"].coordinate == 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("where", [[0], [6], [12], [0, 1, 11, 12], list(range(13))])
 def test_nan_and_infinity_are_the_status_of_their_poses(where):
     """NaN in numbers of the host as in traced ones; the other poses are what they are without."""

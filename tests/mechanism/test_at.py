@@ -49,6 +49,7 @@ def test_all_lengths_stay_and_a_single_pose_will_do():
         np.testing.assert_allclose(one.frames_1[:, :3, 3], other.frames_1[:, :3, 3], atol=1e-12)
 
 
+@pytest.mark.long
 def test_what_is_no_closed_pose_of_this_mechanism_is_refused():
     mechanism = geared()
     motion = mechanism.sweep({"A": np.array([0.0, 3.0, np.nan])})

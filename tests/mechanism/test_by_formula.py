@@ -26,7 +26,7 @@ def general(monkeypatch):
     """Counts the calls of the general program."""
     calls = []
     solve = programs._solve_numbers
-    monkeypatch.setattr(programs, "_solve_numbers", lambda *args: calls.append(args) or solve(*args))
+    monkeypatch.setattr(programs, "_solve_numbers", lambda *args, **more: calls.append(args) or solve(*args, **more))
     return calls
 
 

@@ -171,6 +171,7 @@ def test_neither_order_nor_unit_nor_names_matter():
     np.testing.assert_allclose(1000 * one, thousand, rtol=1e-13)
 
 
+@pytest.mark.long
 def test_changed_lengths_keep_couplings():
     mechanism = build(FIVE_BAR, [jk.gear("A", "E", -1.0)])
     name = next(iter(mechanism.lengths))

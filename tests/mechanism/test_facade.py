@@ -26,6 +26,7 @@ def test_a_mechanism_that_was_taken_apart_is_the_same():
     assert again.mobility() == mechanism.mobility() and str(again.plan(["A"])) == str(mechanism.plan(["A"]))
 
 
+@pytest.mark.long
 def test_notes_of_an_alignment_go_with_what_they_told_of():
     """A hinge that disagrees is told of until its frame is put right."""
     wrong = tilted_fourbar(1e-4)

@@ -20,6 +20,7 @@ COUNTS = (2, 3, 5, 11, 31, 61, 100, 101, 200, 255, 360, 361, 384, 385, 500, 767,
 """Twenty numbers of poses, those beside whole chunks among them."""
 
 
+@pytest.mark.long
 def test_two_programs_serve_any_number_of_poses():
     """One for a single pose, and one for all other numbers; and every pose is the same in all of them."""
     mechanism, inputs = planar_fourbar(1.3), np.linspace(0.0, 2 * TURN, max(COUNTS))
@@ -67,6 +68,7 @@ def test_nan_among_known_inputs_spoils_no_other_pose():
         np.testing.assert_allclose(found[keep], wanted[keep], atol=1e-14)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("make", "drive"),
     [

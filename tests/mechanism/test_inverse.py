@@ -154,6 +154,7 @@ def test_a_delta_with_a_path_that_leaves_its_reach():
     assert np.all(np.diff(found.errors[~closed]) > 0)
 
 
+@pytest.mark.long
 def test_couplings_hold():
     geared = arm().with_couplings([jk.gear("B", "C", -0.5)])
     found = jk.inverse(geared, {jk.point("c", TIP): flat([[1.5, 1.5], [2.0, -1.0]])})

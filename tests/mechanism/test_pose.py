@@ -11,6 +11,7 @@ from reference.mechanisms import planar_fourbar
 FOURBAR = planar_fourbar()
 
 
+@pytest.mark.long
 def test_a_pose_is_that_of_a_sweep():
     angles = np.array([0.0, 0.4])
     pose, motion = FOURBAR.solve({"A": 0.4}), FOURBAR.sweep({"A": angles})
@@ -34,6 +35,7 @@ def test_a_pose_differentiates():
     assert np.isclose(slope, (rocker(0.4 + step) - rocker(0.4 - step)) / (2 * step), rtol=1e-8)
 
 
+@pytest.mark.long
 def test_a_pose_that_is_not_there_is_said():
     stuck = planar_fourbar(crank=95.0, coupler=60.0)
     with pytest.raises(jk.PoseError, match="UNREACHABLE"):

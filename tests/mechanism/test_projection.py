@@ -26,6 +26,7 @@ def apart(one, other):
     return np.sqrt(sum(np.sum((np.asarray(one[name]) - np.asarray(other[name])) ** 2, axis=-1) for name in one))
 
 
+@pytest.mark.long
 def test_no_pose_of_the_whole_motion_is_nearer():
     given = random_rows(FOURBAR, 40)
     found = jk.project(FOURBAR, given)
@@ -39,6 +40,7 @@ def test_no_pose_of_the_whole_motion_is_nearer():
     np.testing.assert_allclose(found.distance, least, rtol=1e-4)
 
 
+@pytest.mark.long
 def test_closed_poses_stay_and_held_coordinates_too():
     motion = FOURBAR.sweep({"A": np.linspace(0, 1, 7)})
     found = jk.project(FOURBAR, motion.coordinates)
@@ -78,6 +80,7 @@ def test_what_moves_is_at_right_angles_to_the_closed_poses(make):
         assert np.abs(tangent @ off).max() < 1e-8  # steps end at 1e-9
 
 
+@pytest.mark.long
 def test_derivatives_are_those_of_the_nearest_pose():
     names = [joint.name for joint in FOURBAR.all_joints]
     start = RNG.uniform(-0.2, 0.2, (1, 4))  # far: the curvature of the closed poses counts

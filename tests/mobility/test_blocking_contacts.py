@@ -56,6 +56,7 @@ def test_each_way_out_is_one(blocked):
         assert without.mobility().useful == promised.get(contact, 0)
 
 
+@pytest.mark.long
 def test_a_report_of_what_moves_says_nothing_of_it(blocked):
     assembly, _ = blocked
     assert "cannot move" not in str(assembly.mechanism(fixed=["ground", "stop"], ignore=[["slider", "stop"]]))

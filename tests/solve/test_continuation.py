@@ -109,6 +109,7 @@ def test_a_branch_is_followed_to_its_limits(traced_rocker):
     assert not traced_rocker.complete and not traced_rocker.repeats
 
 
+@pytest.mark.long
 def test_samples_are_in_order_and_begin_at_the_assembled_pose(traced_rocker):
     first, last = int(traced_rocker.first), int(traced_rocker.last)
     at = np.asarray(traced_rocker.at)

@@ -99,6 +99,7 @@ def test_the_jacobian_of_a_cut_loop_is_the_derivative_of_its_residual(make, driv
     np.testing.assert_allclose(found, jax.jit(jax.jacfwd(residual))(0.0), atol=1e-14)
 
 
+@pytest.mark.long
 def test_of_two_directions_one_is_turned_into_the_other():
     """Right angles, opposites and all between; the turn and its derivative are finite."""
     rng = np.random.default_rng(7)

@@ -69,6 +69,7 @@ def test_with_respect_to_the_input(closed):
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("length", ["crank", "coupler", "rocker"])
 def test_with_respect_to_a_length(closed, length):
     """The far end of each link moves along the link as it is in the assembled pose, on the link's own side only."""

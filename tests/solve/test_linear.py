@@ -46,6 +46,7 @@ def test_every_size_class_finds_the_solution_of_the_pseudoinverse(rows, poses, l
     np.testing.assert_allclose(found.T, expected[which], atol=1e-11 if not lacking else 1e-6)
 
 
+@pytest.mark.long
 def test_an_idle_coordinate_stays_exactly_at_rest():
     """The part of x in the null space of J is rounding of x itself, not rounding over damping."""
     rng = np.random.default_rng(0)

@@ -75,6 +75,7 @@ def test_the_page_holds_the_paths(four_bar, tmp_path):
     assert np.allclose(data["scale"] * floats(path["points"], 3) + data["centre"], expected, atol=2e-5)
 
 
+@pytest.mark.long
 def test_failed_poses_are_told(partly, tmp_path):
     _, data = write(partly, tmp_path)
     closed = np.asarray(partly.closed)

@@ -82,6 +82,7 @@ def _near(point, start, end) -> bool:
     return abs(offset[0] * along[1] - offset[1] * along[0]) < 0.06 and 0 < offset @ along < np.linalg.norm(end - start)
 
 
+@pytest.mark.long
 def test_a_planar_graph_is_drawn_without_crossings() -> None:
     """The parallel linkage of Fig. 7, five ways between two parts, which a layout by distances alone lets cross."""
     places = layout(range(1, 11), FIG_7)
@@ -120,6 +121,7 @@ def test_large_structures_are_drawn_or_refused() -> None:
         chain(601).plot()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("found", [chain(1), chain(2), MIXED], ids=["one part", "two parts", "mixed"])
 def test_the_file_appears_whole_or_not_at_all(found: Structure, tmp_path) -> None:
     draw_structure(found, tmp_path / "loops.png")

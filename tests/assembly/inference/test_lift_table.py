@@ -51,6 +51,7 @@ def test_without_inference_it_is_refused(assembly):
         assembly.mechanism(fixed=FIXED, infer=False)
 
 
+@pytest.mark.long
 def test_it_has_one_freedom_beside_idle_ones(mechanism, exported):
     assert mechanism.mobility().useful == exported.mobility().useful == 1
     owners = {part: body for body, parts in mechanism.bodies.items() for part in parts}

@@ -24,6 +24,7 @@ def test_each_proposal_holds_what_it_says(fourbar):
     assert [bool(each.problem) for each in found] == sorted(bool(each.problem) for each in found)
 
 
+@pytest.mark.long
 def test_the_part_and_the_drive_may_be_given(fourbar):
     (proposal,) = fourbar.proposals(fixed=["gr*"], drive=["ground-crank.phi"])
     assert proposal.fixed == ("ground",)

@@ -77,6 +77,7 @@ def test_every_part_is_in_balance(motion, found):
         np.testing.assert_allclose(torques, 0.0, atol=1e-8 * largest)
 
 
+@pytest.mark.long
 def test_hinges_transmit_no_torque_but_that_of_drive_and_spring(motion, masses, found):
     drive = jk.drive_forces(motion, masses, gravity=GRAVITY, applied=APPLIED, rates={"A": RATE}).forces["A.phi"]
     rocker, speed = motion.coordinates["D"][:, 0], by_time(np.asarray(motion.coordinates["D"][:, 0]), RATE)

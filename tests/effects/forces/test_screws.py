@@ -51,6 +51,7 @@ def cams():
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["four-bar", "RSSR", "Cardan", "nut", "cams"])
 def test_twists_of_parts_are_derivatives_of_their_places(name):
     """[w] R = R', and v + w x r = r' for the velocity at the middle; the same once more for the derivative of both."""
