@@ -8,7 +8,7 @@ import jaxkin as jk
 Z = (0.0, 0.0, 1.0)
 ORIGIN = (0.0, 0.0, 0.0)
 STEPS = np.linspace(0.0, 1.0, 9)
-SWINGS = {"psi": 0.35 * np.sin(3 * STEPS), "phi": 0.25 * STEPS, "theta": -0.2 * STEPS}
+SWINGS = {"psi": -0.35 * np.sin(3 * STEPS), "phi": 0.1 * STEPS, "theta": -0.2 * STEPS}
 """Away from the limits of the rods: the other way one of them is stretched after 0.01 rad."""
 
 
