@@ -52,9 +52,10 @@ def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple
             continue
         # a wheel without a bore has one outline, with the material inside; in bins on steep flanks its ends differ
         single = np.median(outer - inner) < 0.1 * np.ptp(outer)
-        sides: list[tuple[Side, np.ndarray]] = [("outer", outer)]
-        sides += [] if single else [("inner", inner)]
-        found += [teeth for side, radii in sides if (teeth := _counted(radii, side, height))]
+        outlines: dict[Side, np.ndarray] = {"outer": outer}
+        if not single:
+            outlines["inner"] = inner
+        found += [teeth for side, radii in outlines.items() if (teeth := _counted(radii, side, height))]
     return found
 
 
