@@ -52,7 +52,8 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     """Join each sleeve with the part that it is in, or with the pin that it is on.
 
     It sits where it fits more tightly. Where it fits both alike, it is set into its hole, but for a ring in a groove of
-    the pin: that is held between faces of the pin, and not where its hole ends.
+    the pin: that is held between faces of the pin, and not where its hole ends. Where the pin fills the same hole, as a
+    piston beside its gland, the hole is one to slide in, and nothing is set into it.
     """
     result = []
     for each in found:
@@ -63,6 +64,8 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
                 seat, why = each.pin, "tighter on the pin of"
             elif abs(looser) <= SAME_FIT * each.housing.one.radius and _in_groove(known, each.housing, each.pin):
                 seat, why = each.pin, "held in a groove of"
+        if seat is each.housing and _is_shared(known, each):
+            continue
         host = seat.other.part if seat is each.housing else seat.one.part
         evidence = Evidence(
             EvidenceKind.FASTENER,
@@ -71,6 +74,15 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
         )
         result.append(Inference(tuple(sorted((each.part, host), key=known.order.__getitem__)), evidence))
     return result
+
+
+def _is_shared(known: Known, sleeve: Sleeve) -> bool:
+    """Tell whether the part in a sleeve is also in the hole that the sleeve is in."""
+    if sleeve.pin is None:
+        return False
+    hole, inner = sleeve.housing.other, sleeve.pin.one.part
+    pairs = (pair for pair in known.axes if not pair.virtual and pair.one.part == inner)
+    return any(pair.other.part == hole.part and pair.other.faces == hole.faces for pair in pairs)
 
 
 def _is_round(known: Known, name: str, own: list[Bore]) -> bool:

@@ -9,7 +9,6 @@ from jaxkin.examples import EXAMPLES, path
 OTHERS = [pytest.param(name, marks=pytest.mark.long) for name in EXAMPLES if name != "fourbar"]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("name", ["fourbar", *OTHERS])
 def test_inference_leaves_the_joints_of_examples(name):
     assembly = jk.load(path(name))
