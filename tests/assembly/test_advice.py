@@ -111,6 +111,7 @@ def bars(*extra):
     return Mechanism.build(fixed=["ground"], joints=[*joints, *rod, *extra])
 
 
+@pytest.mark.long
 def test_what_cannot_move_is_told_from_what_moves_about_itself():
     spinning = bars()
     assert (spinning.mobility().freedoms, spinning.mobility().useful) == (1, 0)
@@ -168,6 +169,7 @@ def test_parts_that_hang_on_nothing_are_connected_as_advised(fourbar):
         assert found.mobility().useful == 1
 
 
+@pytest.mark.long
 def test_near_misses_that_are_told_are_those_of_the_tolerances_given(fourbar):
     """Not those of the default: the advice would be to give what is given."""
     rocker = next(part for part in fourbar.parts if part.name == "rocker")

@@ -78,6 +78,7 @@ def test_the_solids_of_the_export_stand_where_its_step_file_has_them(lift_table_
         np.testing.assert_allclose(part.box, metres * other[part.name].box, atol=2e-8)  # nine digits, twice
 
 
+@pytest.mark.long
 def test_groups_of_nested_assemblies_are_bodies(aileron):
     mechanism = aileron.mechanism()
     assert len(mechanism.bodies) == 8 and mechanism.mobility().freedoms == 1

@@ -65,6 +65,7 @@ def test_several_fixed_parts_are_one(fourbar, motion):
     same(motion, pieces.sweep(DRIVE))
 
 
+@pytest.mark.long
 def test_what_is_rigid_with_a_fixed_part_is_fixed(fourbar):
     mechanism = fourbar.mechanism(fixed=["ground"], rigid=[["crank", "ground"]])
     assert mechanism.fixed == ("ground", "crank")

@@ -30,6 +30,7 @@ def mechanism(assembly):
     return assembly.mechanism(fixed=["base"], infer=False)
 
 
+@pytest.mark.long
 def test_fasteners_are_named_and_the_arm_is_not(mechanism):
     """One turn each of the washer and the screws; the loose washer slides on its face as well."""
     mobility = mechanism.mobility()
@@ -70,6 +71,7 @@ def test_one_joint_a_contact_keeps_every_contact(assembly):
     assert (mobility.spinning, mobility.useful) == (FASTENERS, 1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name, fixed", [("fourbar", "ground"), ("slider_crank", "ground"), ("cam", "frame")])
 def test_parts_with_work_to_do_are_not_taken_for_fasteners(name, fixed):
     """The disc of the cam is round, but not about its shaft; cranks and rods hold each other."""

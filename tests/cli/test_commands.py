@@ -84,6 +84,7 @@ def test_a_long_range_is_written_as_arrays(tmp_path, monkeypatch):
     assert [file.name for file in (tmp_path / "out").iterdir()] == ["motion.npz"]
 
 
+@pytest.mark.long
 def test_inspect_says_what_was_found():
     done = invoke("inspect", FOURBAR, "--fixed", "ground")
     assert done.exit_code == 0, done.output
@@ -96,6 +97,7 @@ def test_inspect_says_what_was_found():
     assert "Mobility: 1 freedom" in done.output
 
 
+@pytest.mark.long
 def test_several_files_are_one_part_each(tmp_path):
     files = []
     for part in tessellated(path("cam"), 0.35):
@@ -185,6 +187,7 @@ def test_inspect_writes_a_page_and_a_study_that_sweeps(tmp_path):
     assert done.exit_code == 0 and "21  CLOSED" in done.output, done.output
 
 
+@pytest.mark.long
 def test_inspect_writes_the_page_of_what_is_refused_too(tmp_path):
     """The four-bar with its rocker placed a metre away, where nothing may be inferred."""
     text = Path(FOURBAR).read_text().replace("(106.25950699647,", "(1106.25950699647,")
@@ -282,6 +285,7 @@ def test_accuracy_prints_and_draws_what_it_costs(tmp_path):
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.long
 def test_accuracy_needs_a_drive():
     done = invoke("accuracy", FOURBAR, "--fixed", "ground")
     assert done.exit_code == 2 and "nothing is driven" in done.stderr

@@ -39,6 +39,7 @@ def test_nothing_is_written_where_there_is_no_terminal(capsys):
     assert told.out == told.err == ""
 
 
+@pytest.mark.long
 def test_a_large_assembly_is_told_before_the_search(monkeypatch):
     monkeypatch.setattr(run, "MANY_PARTS", 3)
     done = CliRunner().invoke(app, ["inspect", str(path("fourbar")), "--fixed", "ground"])

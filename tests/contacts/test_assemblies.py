@@ -47,6 +47,7 @@ def between_parts(contacts):
     return {parts: sorted(states) for parts, states in found.items()}
 
 
+@pytest.mark.long
 def test_the_contacts_are_those_of_the_drawing(assembly):
     name, parts, contacts = assembly
     assert between_parts(contacts) == EXPECTED[name]

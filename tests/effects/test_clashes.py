@@ -116,6 +116,7 @@ def test_the_depth_is_that_of_sampled_points(tmp_path):
         assert deepest - 0.5 <= max(-clearance, 0.0) <= deepest + 0.1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("one_part", [False, True])
 def test_a_pin_in_its_hole_is_no_clash_but_through_a_wall_it_is(tmp_path, one_part):
     """The pin, from 0 to 60, turns and slides in its bush and meets a wall at 75, of the same part or of another one.

@@ -43,6 +43,7 @@ def test_the_spline_is_that_of_scipy_over_the_chords(closed):
     np.testing.assert_allclose(np.arctan2(at.sin, at.cos), np.arctan2(first[:, 1], first[:, 0]), **close)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("closed", [True, False])
 def test_in_jax_it_is_the_same(closed):
     given = curve(closed)

@@ -31,11 +31,13 @@ def test_of_any_angles_down_to_rounding(farthest):
     assert off(angles, compiled(jnp.asarray(angles))) < EPS
 
 
+@pytest.mark.long
 def test_at_whole_eighths_of_a_turn():
     angles = np.arange(-40, 41) * (math.pi / 4)
     assert off(angles, compiled(jnp.asarray(angles))) < EPS
 
 
+@pytest.mark.long
 def test_far_away_within_what_the_angle_is_known_to():
     angles = np.random.default_rng(0).uniform(1e7, 1e9, 100)
     assert off(angles, compiled(jnp.asarray(angles))) < np.max(np.spacing(angles))

@@ -71,6 +71,7 @@ def test_every_format_gives_the_same_parts(files, cam, file, unit, names):
         np.testing.assert_allclose(*radii, rtol=1e-5)
 
 
+@pytest.mark.long
 def test_one_file_a_part(files):
     assembly = load({name: files / f"{name}.stl" for name in NAMES}, unit="mm")
     assert (assembly.names, assembly.unit, assembly.source) == (NAMES, "mm", "cam.stl, follower.stl, frame.stl")

@@ -120,6 +120,7 @@ def test_bends_far_larger_than_those_of_round_faces_are_edges(tmp_path):
     assert Counter(face.surface.kind for face in part.faces) == {"plane": 18, "cylinder": 1} and not part.notes
 
 
+@pytest.mark.long
 def test_a_free_form_wall_is_no_row_of_flat_faces(tmp_path):
     """An elliptic wall of 60 chords beside a bore of 60: bends are alike, so it stays one face on no surface."""
     angle = 2 * np.pi * np.arange(60) / 60

@@ -187,6 +187,7 @@ def test_a_solid_several_times_in_one_place_is_one_part(tmp_path, levels):
     assert sum("is the same solid in the same place: left out" in note for note in part.notes) == 2**levels
 
 
+@pytest.mark.long
 def test_a_subassembly_without_a_name_is_called_as_its_product(tmp_path):
     """Nested four deep; readers call an occurrence without a name by its number in the file, which tells nothing."""
     file = tmp_path / "deep.step"

@@ -56,6 +56,7 @@ def unpainted(text):
     return text.replace("STYLED_ITEM", "UNSTYLED_ITEM")
 
 
+@pytest.mark.long
 def test_a_part_with_several_colours_is_converted_once_and_has_all_its_faces(monkeypatch, tmp_path):
     text = (DATA / "painted.step").read_text()
     (tmp_path / "plain.step").write_text(unpainted(text))

@@ -38,6 +38,7 @@ def test_a_study_is_the_same_as_the_calls_it_stands_for(tmp_path):
     np.testing.assert_array_equal(motion.coordinates["coupler-rocker"], other.coordinates["coupler-rocker"])
 
 
+@pytest.mark.long
 def test_everything_that_a_study_may_say(tmp_path):
     file = path("fourbar")
     (tmp_path / "parts").mkdir()

@@ -71,6 +71,7 @@ def variants(path):
             yield line, jk.load_study(other)
 
 
+@pytest.mark.long
 def test_the_study_is_the_mechanism_and_drives_it(study):
     read, given = jk.load_study(study), bars()
     assert set(map(frozenset, read.mechanism.bodies.values())) == set(map(frozenset, given.bodies.values()))

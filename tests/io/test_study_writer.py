@@ -35,6 +35,7 @@ def assert_same(found: jk.Mechanism, given: jk.Mechanism) -> None:
     assert (one.freedoms, one.idle_freedoms, one.drivable) == (other.freedoms, other.idle_freedoms, other.drivable)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BY_HAND)
 def test_joints_by_hand(name, tmp_path):
     given = BY_HAND[name]()

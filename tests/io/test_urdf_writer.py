@@ -83,6 +83,7 @@ def test_what_cannot_be_written_is_refused(tmp_path):
 PINOCCHIO = (planar_fourbar, slider_crank, cardan_shafts, delta, cassie_leg)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", PINOCCHIO)
 def test_pinocchio_closes_the_loops_where_we_do(make, tmp_path):
     """From our drive alone, by Newton's method on its own kinematics of the written files."""

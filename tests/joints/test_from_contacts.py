@@ -167,6 +167,7 @@ KINDS = {
 }
 
 
+@pytest.mark.long
 def test_shipped_assemblies(shipped):
     name, parts, contacts = shipped
     found = joints_from_contacts(contacts, parts)

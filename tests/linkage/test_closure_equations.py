@@ -43,6 +43,7 @@ def test_a_four_bars_loop_is_open_by_the_chord_of_its_crank():
     assert found.coordinates == ("A.phi", "B.phi", "C.phi", "D.phi")
 
 
+@pytest.mark.long
 def test_newton_steps_of_ones_own_lead_to_the_pose_of_the_sweep():
     """Gauss-Newton steps with `closure`, the crank held, inside `jit`."""
     mechanism = planar_fourbar()

@@ -39,6 +39,7 @@ def test_the_motion_from_there_is_the_rest_of_the_motion():
     np.testing.assert_allclose(after.coordinates["S"] + before.coordinates["S"][2], before.coordinates["S"], atol=1e-13)
 
 
+@pytest.mark.long
 def test_all_lengths_stay_and_a_single_pose_will_do():
     mechanism = planar_fourbar()
     drive = mechanism.mobility().drivable[0]

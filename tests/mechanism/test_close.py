@@ -85,6 +85,7 @@ def angle_between(frame: Array, now, then) -> float:
     return float(np.remainder(turned + np.pi, 2 * np.pi) - np.pi)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scale", [1e-3, 1e3])
 def test_what_is_found_depends_on_neither_place_nor_unit(scale):
     mechanism = OPEN["RSSR, a gap of 20 mm"]()

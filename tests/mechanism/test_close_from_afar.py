@@ -81,6 +81,7 @@ def test_loops_open_by_half_a_turn_close(angle):
         assert_same_lengths(found.mechanism, mechanism)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("digits", [6, 9])
 def test_numbers_that_were_rounded_close_to_their_rounding(digits):
     """A planar four-bar in space, by numbers of some digits: its loop never closes to rounding of the arithmetic."""

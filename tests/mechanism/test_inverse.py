@@ -51,6 +51,7 @@ def test_with_fewer_targets_the_inputs_move_as_little_as_they_can():
         np.testing.assert_allclose(left, 0, atol=1e-9)  # steps become small linearly, and stop at 1e-13 of a turn
 
 
+@pytest.mark.long
 def test_rest_is_where_movement_counts_from():
     start = np.array([0.5, 0.9, -0.7])
     goal = tips(start[None])[0]
@@ -70,6 +71,7 @@ def test_out_of_reach_the_arm_points_at_the_target():
     np.testing.assert_allclose(found.motion.points("c", TIP)[:, :2], 3 * goals / away[:, None], atol=1e-6)
 
 
+@pytest.mark.long
 def test_with_more_targets_than_freedoms_weighted_errors_are_least():
     """As scipy finds them from the closed form."""
     goals, turns = np.array([[1.2, 0.9], [0.8, 1.1]]), np.array([0.4, 1.0])

@@ -159,6 +159,7 @@ def test_an_assembly_that_stays_on_its_faces_says_nothing(name):
     assert np.all(motion.closed) and motion.lost_contacts == ()
 
 
+@pytest.mark.long
 def test_the_slider_of_the_slider_crank_leaves_its_rails():
     """Without its rod. Drawn: rails from 54 to 182, plate from -34 to 190; flanks of the slider 15 long to either
     side of its pin, its sole 18."""
@@ -178,6 +179,7 @@ def test_the_slider_of_the_slider_crank_leaves_its_rails():
         assert np.all(gaps <= expected + 1e-3) and np.all(gaps >= expected - 0.1)
 
 
+@pytest.mark.long
 def test_the_piston_of_the_air_cylinder_leaves_its_bore():
     """Drawn: the piston is 68 to 72 behind the eye, which is `stretch` from the trunnion; the bore is from 13 to 60."""
     size = EXAMPLES["air_cylinder"].dimensions
@@ -201,6 +203,7 @@ def test_a_joint_by_hand_and_sticks_have_no_faces_to_leave(tmp_path):
     assert bare.sweep({"guide-slider": RANGE}).lost_contacts == ()
 
 
+@pytest.mark.long
 def test_a_long_range_says_what_a_short_one_does(tmp_path):
     """Chunk by chunk as all at once, in the report of a file that is written piece by piece too."""
     mechanism = slide(tmp_path, {"guide": GUIDE, "slider": SLIDER})

@@ -18,6 +18,7 @@ def test_zero_at_change_points_only():
     assert np.all(found[[0, 3]] < 1e-7) and np.all(found[[1, 2, 4]] > 0.05)
 
 
+@pytest.mark.long
 def test_it_falls_with_the_root_of_the_distance_to_a_limit():
     """At a limit of the input two branches meet: the pose moves with the root of the distance, so the slope is its
     inverse."""

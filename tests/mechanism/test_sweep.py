@@ -156,6 +156,7 @@ def test_an_open_chain_moves_without_being_solved():
     assert np.all(motion.residual == 0)
 
 
+@pytest.mark.long
 def test_only_loops_that_are_driven_are_solved():
     """A second loop on its own, not driven, stays at rest exactly."""
     driven, other = planar_fourbar(1.0), planar_fourbar(2.0)

@@ -125,6 +125,7 @@ def test_no_motor_of_a_leg_of_cassie_is_idle():
     assert not left_free(mechanism, [*motors, *springs])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("names", [("B",), ("B", "C")])
 @pytest.mark.parametrize("axes", BALLS, ids=["along the axes", "skew"])
 def test_a_rod_spins_where_its_balls_are_hinges(names, axes):

@@ -201,6 +201,7 @@ def test_a_ball_turns_half_a_turn_about_any_axis():
     np.testing.assert_allclose(identity[0], -1.0, atol=1e-14)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [1, 2])
 def test_the_geometry_of_a_batch_is_that_of_each_design(loop, size):
     """Of one design too, which a compiler got wrong while blocks were written into products of matrices."""

@@ -43,6 +43,7 @@ def assert_order(errors, order):
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), order, atol=0.15)
 
 
+@pytest.mark.long
 def test_the_cubic_predictor_is_of_fourth_order():
     here = jnp.full(len(STEPS), 1.3)
     state, tangent = pose(here)

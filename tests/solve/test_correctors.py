@@ -84,6 +84,7 @@ def test_newton_closes_near_poses_and_extrapolates_no_more_than_it_finds():
     np.testing.assert_allclose(ahead.x, closed.x, atol=1e-10)
 
 
+@pytest.mark.long
 def test_newton_takes_as_many_iterations_as_the_options_say():
     """A second one begins where the first has ended: one after another reaches what two at once reach."""
     system, geometry = problem(planar_fourbar(1.0))

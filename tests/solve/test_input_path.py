@@ -85,6 +85,7 @@ def test_its_direction_is_its_derivative_and_has_no_leaps():
     np.testing.assert_allclose(behind, before, atol=1e-6)  # 2e-9 times second derivatives of some tens
 
 
+@pytest.mark.long
 def test_poses_that_repeat_are_passed_without_a_stop():
     once = jnp.array([[0.2, 0.4, 0.6], [0.1, 0.3, 0.2]])
     twice = jnp.repeat(once, 2, axis=1)

@@ -70,6 +70,7 @@ def test_only_used_columns_are_solved_for():
     np.testing.assert_allclose(one, other, rtol=1e-12, atol=1e-15)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("regular", [False, True])
 @pytest.mark.parametrize("poses", [5, 1024])
 def test_blocks_one_after_another_solve_the_whole(regular, poses):
@@ -85,6 +86,7 @@ def test_blocks_one_after_another_solve_the_whole(regular, poses):
     np.testing.assert_array_equal(np.asarray(x)[idle], 0.0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("poses", [5, 1024])
 def test_the_inverse_does_what_solutions_are(poses):
     rng = np.random.default_rng(poses)

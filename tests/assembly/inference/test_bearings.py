@@ -36,6 +36,7 @@ def bearing(name, height, balls=0, rollers=0, cage=False, bore=BORE, outside=OUT
     return parts
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("what", [{"balls": 8}, {"balls": 8, "cage": True}, {"rollers": 6}, {}])
 def test_a_shaft_in_two_bearings_has_one_hinge(what):
     drawn = assembly(HOUSING, SHAFT, *bearing("A", -10, **what), *bearing("B", 10, **what))

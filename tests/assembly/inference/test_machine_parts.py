@@ -97,6 +97,7 @@ def test_bolts_with_nuts_and_washers_are_pivots(seed):
     assert owners(mechanism)["lever"] != owners(mechanism)["base"] and mechanism.mobility().useful == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("play", [0.0, 0.1])
 def test_a_carriage_on_two_rods_slides(seed, play):

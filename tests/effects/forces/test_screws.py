@@ -22,6 +22,7 @@ STRAIGHT = [name for name, row in MOVEMENTS.items() if not any(each.law for each
 """Movements that need no curve."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("movements", [*((name,) for name in STRAIGHT), ("T_z_phi", "T_theta_phi_psi")])
 def test_unit_twists_are_those_of_the_chain(movements):
     numbers = np.random.default_rng(7)

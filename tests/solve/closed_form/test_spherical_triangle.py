@@ -27,6 +27,7 @@ def misfit(axes, between, q):
     return np.abs(product - np.eye(3)).max()
 
 
+@pytest.mark.long
 def test_the_loop_closes_on_both_branches_and_is_at_rest_in_the_assembled_pose():
     reached = 0
     for seed in range(20):
