@@ -8,6 +8,7 @@ tangent, and all that is computed here is in that frame.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -15,6 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax.lax import linalg
+from jax.tree_util import GetAttrKey
 from jaxtyping import Array, Float
 
 Given = Array | np.ndarray
@@ -26,13 +28,14 @@ of a curve may lie far from the origin of their axes."""
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """A curve of a joint, in the unit of the mechanism. A pytree: all but `closed` are leaves."""
+    """A curve of a joint, in the unit of the mechanism. A pytree: all but `closed` are leaves, each of which may have
+    the axis of a batch of designs."""
 
-    points: Float[Given, "*batch points 2"]
+    points: Float[Given, "... points 2"]
     """The points that the curve passes, in the axes in which they were given."""
-    start: Float[Given, "*batch"]
+    start: Float[Given, "..."]
     """Where the contact of the assembled pose is: number of the point before it, and the fraction of the chord."""
-    place: Float[Given, "*batch 3"]
+    place: Float[Given, "... 3"]
     """Pose (x, y, angle) of the axes of the points in the frame of the joint: at the contact, x along the tangent."""
     closed: bool
     """Whether the last point is joined to the first one."""
@@ -85,7 +88,23 @@ class Curve:
         return replace(self, start=np.asarray(start), place=place)
 
 
-jax.tree_util.register_dataclass(Curve, data_fields=["points", "start", "place"], meta_fields=["closed"])
+_LEAVES = ("points", "start", "place")
+
+
+def _rebuilt(closed: bool, leaves: Iterable[Any]) -> Curve:
+    """Rebuild a curve of leaves that may be no arrays, such as the answers of JAX to which of them are batched."""
+    curve = object.__new__(Curve)
+    for name, value in (("closed", closed), *zip(_LEAVES, leaves, strict=True)):
+        object.__setattr__(curve, name, value)
+    return curve
+
+
+jax.tree_util.register_pytree_with_keys(
+    Curve,
+    lambda curve: ([(GetAttrKey(name), getattr(curve, name)) for name in _LEAVES], curve.closed),
+    _rebuilt,
+    lambda curve: ([getattr(curve, name) for name in _LEAVES], curve.closed),
+)
 
 
 class CurvePoint(NamedTuple):
