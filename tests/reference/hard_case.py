@@ -15,7 +15,6 @@ import numpy as np
 
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS
 from jaxkin.solve.status import Status
 
 Array = np.ndarray
@@ -35,9 +34,8 @@ class HardCase(NamedTuple):
     expected: Callable[[Mapping[str, Array]], Array] | Status = Status.CLOSED
     """The status of each pose for the drive, or of all."""
     bits: int = 64
-    roundings: float = 2 * CLOSED_ROUNDINGS
-    """So many of them over the smallest singular value are allowed as an error. At a change point, where the error is
-    of second order, the residual of a pose is half of its error times `sigma_min`."""
+    roundings: float = 100
+    """So many of them over the smallest singular value are allowed as an error."""
     long: bool = False
     noise: float = 0.0
     """How far the numbers of the mechanism are off, in radians and sizes: a pose may be wrong by that much more, over
