@@ -1,8 +1,9 @@
 """Tests run in float64, as the command line and the examples do; tests of float32 switch it off for themselves.
 
 Most of their time goes into compiling. Programs once compiled are kept beside pytest's own cache: all processes of a
-run share them, and the next run has them (`pytest --cache-clear` begins anew). The default run compiles with few
-optimisations; those marked `long`, and a run of all (`pytest -m ""`), test the programs that users get.
+run share them, and the next run has them (`pytest --cache-clear` begins anew). The default run, and that of CI
+(`pytest -m "long and not study"`), compile with few optimisations, in a third of the time; `pytest -m long`, and a run
+of all (`pytest -m ""`), test the programs that users get.
 """
 
 import os
@@ -13,10 +14,15 @@ import jax
 jax.config.update("jax_enable_x64", True)
 
 
+FEW_OPTIMISATIONS = (
+    "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
+    " --xla_cpu_use_fusion_emitters=false --xla_cpu_parallel_codegen_split_count=1"
+)
+
+
 def pytest_configure(config):
-    if config.option.markexpr == "not long":
-        few = "--xla_backend_optimization_level=0 --xla_llvm_disable_expensive_passes=true"
-        os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} {few}"
+    if config.option.markexpr in ("not long", "long and not study"):
+        os.environ["XLA_FLAGS"] = f"{os.environ.get('XLA_FLAGS', '')} {FEW_OPTIMISATIONS}"
     folder = config.cache.mkdir("compiled") if hasattr(config, "cache") else None
     if folder is not None:
         jax.config.update("jax_compilation_cache_dir", str(folder))

@@ -113,9 +113,9 @@ def test_ranges_of_similar_length_share_a_program(arm):
     """And give what the same poses give in one range: rounding apart, since XLA may fuse products otherwise."""
     angles = np.random.default_rng(1).uniform(-3, 3, (3, 100))
     whole = transforms(arm, angles)
-    before = joint_motion._transforms._cache_size()
+    before = joint_motion.transforms._cache_size()
     for count in (65, 80, 99):
         for part, found in transforms(arm, angles[:, :count]).items():
             assert found.shape == (count, 4, 4)
             np.testing.assert_allclose(found, whole[part][:count], rtol=0, atol=ROUNDING)
-    assert joint_motion._transforms._cache_size() == before
+    assert joint_motion.transforms._cache_size() == before

@@ -20,7 +20,7 @@ from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
-from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves
+from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import loose_slides
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
@@ -50,9 +50,10 @@ def infer(
     known.add(bearing_bodies(known, rolling))
     set_in = sleeves(known)
     known.add(seated_sleeves(known, set_in))
-    known.sleeves = {each.part for each in set_in}
+    known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
-    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | {each.part for each in set_in}
+    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
+    fastening -= sliding_rods(known, set_in)
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
     known.add(screwed_in(known, fastening))

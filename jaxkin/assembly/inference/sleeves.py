@@ -37,7 +37,7 @@ def sleeves(known: Known) -> list[Sleeve]:
     result = []
     for name in known.names:
         outside = [pair for pair in pins if pair.one.part == name]
-        if not outside or name in known.fixed:
+        if not outside:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
@@ -57,6 +57,8 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     """
     result = []
     for each in found:
+        if each.part in known.fixed:
+            continue
         seat, why = each.housing, "set into the hole of"
         if each.pin is not None:
             looser = max(each.housing.clearance, 0.0) - max(each.pin.clearance, 0.0)
@@ -74,6 +76,11 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
         )
         result.append(Inference(tuple(sorted((each.part, host), key=known.order.__getitem__)), evidence))
     return result
+
+
+def sliding_rods(known: Known, found: list[Sleeve]) -> set[str]:
+    """Find the rods that slide in the hole that a sleeve on them is in, too: the hole does not hold them."""
+    return {each.pin.one.part for each in found if each.pin and _is_shared(known, each)}
 
 
 def _is_shared(known: Known, sleeve: Sleeve) -> bool:

@@ -6,13 +6,15 @@ import pytest
 import jaxkin as jk
 from jaxkin.examples import EXAMPLES, path
 
-OTHERS = [pytest.param(name, marks=pytest.mark.long) for name in EXAMPLES if name != "fourbar"]
+PLACES = [(name, EXAMPLES[name].fixed) for name in EXAMPLES]
+PLACES += [("air_cylinder", (part,)) for part in ("p3", "p5", "p8")]  # what is fixed is no fastener
 
 
-@pytest.mark.parametrize("name", ["fourbar", *OTHERS])
-def test_inference_leaves_the_joints_of_examples(name):
+@pytest.mark.parametrize(
+    ("name", "fixed"), [pytest.param(*each, marks=[pytest.mark.long] * (each[0] != "fourbar")) for each in PLACES]
+)
+def test_inference_leaves_the_joints_of_examples(name, fixed):
     assembly = jk.load(path(name))
-    fixed = EXAMPLES[name].fixed
     found, exact = (assembly.mechanism(fixed=fixed, infer=infer).all_joints for infer in (True, False))
     assert [(each.name, each.parts, each.kind) for each in found] == [(e.name, e.parts, e.kind) for e in exact]
     for one, other in zip(found, exact, strict=True):
