@@ -16,7 +16,9 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.pose import Pose
-from jaxkin.io.asmt import COORDINATES, FIRST_LINES, KINDS, LIMITS, MOTIONS, SCREW
+from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS
+from jaxkin.io.marker_joints import COORDINATES, KINDS
+from jaxkin.io.marker_ties import SCREW
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import WORLD, along, placed
 from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
