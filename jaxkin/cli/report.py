@@ -69,9 +69,8 @@ def print_gears(mechanism: Mechanism, verbose: bool) -> None:
     found = gear_proposals(mechanism)
     if not found:
         return
-    say(
-        f"\n{len(found)} {'gears' if len(found) > 1 else 'gear'} may mesh, of which nothing is coupled yet; {_TAKE_GEARS}"
-    )
+    gears = "1 gear" if len(found) == 1 else f"{len(found)} gears"
+    say(f"\n{gears} may mesh, of which nothing is coupled yet; {_TAKE_GEARS}")
     shown = found if verbose else found[:_GEARS]
     for each in shown:
         one, other = each.teeth
