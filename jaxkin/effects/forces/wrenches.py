@@ -137,19 +137,13 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
     return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
 
 
-def applied_of(acting: Acting) -> tuple[Applied, ...]:
-    """What is applied, one alone as well as several; ValueError for other things."""
+def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
+    """What is applied but for friction, and the friction of joints, which depends on the rest; else ValueError."""
     given = acting.applied
     applied = (given,) if isinstance(given, Applied) else tuple(given)
     for each in applied:
         if not isinstance(each, Applied):
             raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
-    return applied
-
-
-def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
-    """What is applied, but for friction, and the friction of joints, which depends on all of it."""
-    applied = applied_of(acting)
     loads = tuple(each for each in applied if not isinstance(each, JointFriction))
     return loads, tuple(each for each in applied if isinstance(each, JointFriction))
 
