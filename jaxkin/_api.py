@@ -32,11 +32,14 @@ from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
 from jaxkin.effects.forces.equilibrium import equilibrium as equilibrium
+from jaxkin.effects.forces.friction_result import Friction as Friction
 from jaxkin.effects.forces.given import Force as Force
+from jaxkin.effects.forces.given import JointFriction as JointFriction
 from jaxkin.effects.forces.given import JointLoad as JointLoad
 from jaxkin.effects.forces.given import Spring as Spring
 from jaxkin.effects.forces.given import Torque as Torque
 from jaxkin.effects.forces.given import force as force
+from jaxkin.effects.forces.given import joint_friction as joint_friction
 from jaxkin.effects.forces.given import joint_load as joint_load
 from jaxkin.effects.forces.given import joint_spring as joint_spring
 from jaxkin.effects.forces.given import spring as spring
