@@ -8,8 +8,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
+from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
@@ -150,7 +152,8 @@ class _Reader:
         for each in model.iterfind("link"):
             name = each.get("name", "")
             shapes = tuple(self._shapes(each))
-            self.links[prefix + name] = RobotLink(prefix + name, pose @ frames.in_model(name), shapes)
+            place = pose @ frames.in_model(name)
+            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, self._inertial(each))
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")
@@ -197,7 +200,7 @@ class _Reader:
         parts = (ends[0], ends[1])
         if said == "revolute2":
             between = f"{name}/1"
-            self.links[between] = RobotLink(between, frame)
+            self.links[between] = RobotLink(between, frame, inertial=NONE)
             self.joints.append(RobotJoint(f"{name} 1", (ends[0], between), kind, frame, frame, text, limits))
             frame = pose @ placed(along(other), own[:3, 3])
             name, parts, limits = f"{name} 2", (between, ends[1]), self._limits(second, where)
@@ -261,6 +264,16 @@ class _Reader:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
         return -2 * np.pi / turns if turns else 0.0
+
+    def _inertial(self, link: Element) -> Inertial | None:
+        """Read the mass of a link, with the defaults of the format inside of <inertial>: 1 kg, 1 kg m^2."""
+        found, where = link.find("inertial"), f"{self.file}: {tag(link)}: inertial"
+        if found is None or found.get("auto") == "true":
+            return None
+        mass, matrix = float(numbers(found.findtext("mass"), 1, where, (1,))[0]), found.find("inertia")
+        given = {} if matrix is None else {each.tag: each.text for each in matrix}
+        six = [float(numbers(given.get(name), 1, f"{where}: {name}", (name[1] == name[2],))[0]) for name in SIX]
+        return inertial(mass, read_pose(found, where), six, where)
 
     def _shapes(self, link: Element) -> list[Shape]:
         """Read what is seen of a link; where that is nothing, what it collides with."""
