@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Pose, inverse, unit
 from jaxkin.io.robot_model import RobotJoint, RobotLink, along, placed
 from jaxkin.joints.coupling import Coupling
@@ -102,7 +103,7 @@ class MarkerJoints:
             steps = _chain(kind, first, second, sizes)
         between = [f"{name}/{number}" for number in range(1, len(steps))]
         for link, step in zip(between, steps, strict=False):
-            self.links[link] = RobotLink(link, step.behind)
+            self.links[link] = RobotLink(link, step.behind, inertial=NONE)
         ends = (one.link, *between, other.link)
         for own, parts, step in zip((*between, name), pairwise(ends), steps, strict=True):
             try:

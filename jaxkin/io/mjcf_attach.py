@@ -22,6 +22,9 @@ from jaxkin.io.xml_tree import MOST_DEEP, read_xml
 MAX_DEEP = 20
 """Models attached to each other, one in the other."""
 
+TURNED = ("body", "frame", "geom", "site", "inertial")
+"""Elements inside of bodies that are turned."""
+
 TURNS = ("euler", "axisangle", "xyaxes", "zaxis", "quat")
 """Attributes that turn an element."""
 
@@ -126,6 +129,9 @@ class _Model:
 
     def _written_out(self, element: Element, child_class: str | None) -> None:
         """Give the elements inside a body what their classes say, without a class, angles in the outer unit."""
+        if self.compiler.said.get("inertiafromgeom") == "true":
+            for each in element.findall("inertial"):
+                element.remove(each)
         for each in element:
             where = f"{self.compiler.file}: {tag(each)}"
             inner = each.get("childclass", child_class)
@@ -134,7 +140,7 @@ class _Model:
                 each.attrib.pop("childclass", None)
             else:
                 self._said(each, child_class)
-            if each.tag in ("body", "frame", "geom", "site") and any(key in each.attrib for key in TURNS):
+            if each.tag in TURNED and any(key in each.attrib for key in TURNS):
                 turn = self.compiler.turn(each.attrib, where)
                 for key in TURNS:
                     each.attrib.pop(key, None)

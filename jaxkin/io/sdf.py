@@ -17,7 +17,6 @@ from jaxkin.io.robot_model import (
     RobotJoint,
     RobotLink,
     RobotModel,
-    Shape,
     along,
     direction,
     limit,
@@ -29,6 +28,7 @@ from jaxkin.io.robot_model import (
 )
 from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
+from jaxkin.io.sdf_shapes import shapes_of
 from jaxkin.io.xml_tree import read_xml
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
@@ -151,7 +151,7 @@ class _Reader:
         static = static or (model.findtext("static") or "").strip() in ("true", "1")
         for each in model.iterfind("link"):
             name = each.get("name", "")
-            shapes = tuple(self._shapes(each))
+            shapes = shapes_of(each, self.file, self.notes)
             place = pose @ frames.in_model(name)
             self.links[prefix + name] = RobotLink(prefix + name, place, shapes, self._inertial(each))
             self.fixed += [prefix + name] if static else []
@@ -274,27 +274,6 @@ class _Reader:
         given = {} if matrix is None else {each.tag: each.text for each in matrix}
         six = [float(numbers(given.get(name), 1, f"{where}: {name}", (name[1] == name[2],))[0]) for name in SIX]
         return inertial(mass, read_pose(found, where), six, where)
-
-    def _shapes(self, link: Element) -> list[Shape]:
-        """Read what is seen of a link; where that is nothing, what it collides with."""
-        found = []
-        for each in link.findall("visual") or link.findall("collision"):
-            pose = read_pose(each, f"{self.file}: {tag(link)}")
-            where = f"{self.file}: {tag(link)}: {tag(each)}"
-            for solid in each.iterfind("geometry/*"):
-                sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),
-                         "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
-                if solid.tag == "mesh":
-                    scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
-                    found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
-                elif solid.tag in sizes:
-                    size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
-                            for key in sizes[solid.tag]]  # fmt: skip
-                    kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
-                    found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
-                elif solid.tag not in ("plane", "empty"):
-                    self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
-        return found
 
 
 def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:

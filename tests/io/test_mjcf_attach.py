@@ -13,7 +13,8 @@ ARM = """<mujoco model="arm"><compiler angle="radian" eulerseq="zyx" autolimits=
 <body name="base" pos="0 0 1" euler="0.3 0.1 -0.2"><joint name="j"/><geom size="0.1"/>
 <frame euler="0.1 0.2 0.3"><body name="tip" pos="1 0 0" axisangle="0 1 1 0.4" childclass="big"><joint name="k"/>
 <geom type="mesh" mesh="m"/><site name="s" pos="0 0.1 0"/><body name="hand" pos="0 0 0.5"><joint name="h" class="main"/>
-<geom size="0.1"/></body></body></frame></body>
+<inertial pos="0.1 0 0.2" euler="0.3 0.2 0.1" mass="2" diaginertia="0.3 0.2 0.15"/><geom size="0.1"/></body></body>
+</frame></body>
 <body name="second" pos="3 0 0"><joint name="q" pos="0.1 0 0"/><geom size="0.1"/></body></worldbody>
 <equality><joint joint1="j" joint2="q" polycoef="0.2 0.5 0 0 0"/><connect name="pin" body1="hand" body2="world"
 anchor="0 0 0"/></equality>
@@ -71,6 +72,13 @@ def test_an_attached_model_is_what_mujoco_makes_of_it(tmp_path, attach):
     for name, own in poses.items():
         np.testing.assert_allclose(links[name][:3, 3], own.xpos, atol=1e-12)
         np.testing.assert_allclose(links[name][:3, :3], own.xmat.reshape(3, 3), atol=1e-12)
+    weighed = [each for each in found.links if each.inertial is not None and each.inertial.mass]
+    assert all(each.name.endswith("hand") for each in weighed) and (weighed or "second" in attach)
+    for each in weighed:
+        there, own = each.inertial.moved(each.pose), poses[each.name]
+        turn = own.ximat.reshape(3, 3)
+        np.testing.assert_allclose(there.centre, own.xipos, atol=1e-12)
+        np.testing.assert_allclose(there.inertia, turn @ np.diag([0.3, 0.2, 0.15]) @ turn.T, atol=1e-12)
     read = {each.name: each for each in found.joints}
     assert joints.keys() == {name for name in read if str(read[name].kind) in ("revolute", "prismatic")}
     for name, (said, own) in joints.items():

@@ -117,10 +117,6 @@ def test_every_body_of_cassie_is_where_mujoco_has_it(folder, tmp_path):
                 rod, body = (one, other) if one in rods else (other, one)
                 own, at = (near, far) if rod == one else (far, near)
                 reach = np.linalg.norm(end(body, at, points, turns) - points[rod])
-                np.testing.assert_allclose(reach, np.linalg.norm(own), atol=LOOSE)
+                np.testing.assert_allclose(reach, np.linalg.norm(own), atol=SAME)
             else:
-                np.testing.assert_allclose(end(one, near, points, turns), end(other, far, points, turns), atol=LOOSE)
-
-
-LOOSE = 1e-5
-"""Metres: the far anchor is not in the file; MuJoCo computes it from the pose that is written."""
+                np.testing.assert_allclose(end(one, near, points, turns), end(other, far, points, turns), atol=SAME)
