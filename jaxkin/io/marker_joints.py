@@ -150,14 +150,15 @@ def _chain(kind: str, first: Pose, second: Pose, sizes: Mapping[str, float]) -> 
     point = second[:3, 3]
     there = placed(first[:3, :3], point)
     z = first[:3, 2]
-    level = first @ placed(np.eye(3), (0.0, 0.0, (point - first[:3, 3]) @ z))
+    level = first @ placed(np.eye(3), (0.0, 0.0, float((point - first[:3, 3]) @ z)))
     distance = sizes.get("distance", 0.0)
     last = _Step(JointKind.SPHERICAL, second, second)
     match kind:
         case "PointInLineJoint":
             return _Step(JointKind.PRISMATIC, first, there), last
         case "PointInPlaneJoint":
-            level = first @ placed(np.eye(3), (*(inverse(first) @ second)[:2, 3], 0.0))
+            x, y, *_ = (inverse(first) @ second)[:3, 3].tolist()
+            level = first @ placed(np.eye(3), (x, y, 0.0))
             return *_slides(level, there, np.eye(3)[:2]), last
         case "LineInPlaneJoint":
             flat = _tilted(second, z, np.pi / 2)

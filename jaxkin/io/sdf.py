@@ -217,8 +217,8 @@ class _Reader:
         own = frames.in_model(each.get("name", ""))
         first, second = (pose[:3, :3] @ self._axis(each.find(key), own, frames, where) for key in ("axis", "axis2"))
         ratio = float(numbers(each.findtext("gearbox_ratio"), 1, f"{where}: gearbox_ratio", (1.0,))[0])
-        names = prefix + each.get("name", ""), *ends, link if link == WORLD else prefix + link
-        return Gearbox(*names, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
+        name, reference = prefix + each.get("name", ""), link if link == WORLD else prefix + link
+        return Gearbox(name, ends[0], ends[1], reference, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
 
     def _mimic(
         self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
