@@ -98,21 +98,7 @@ from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.on_frames import joint_on_frames as joint_on_frames
-from jaxkin.joints.pairs import cam as cam
-from jaxkin.joints.pairs import constant_velocity as constant_velocity
-from jaxkin.joints.pairs import contact_joint as contact_joint
-from jaxkin.joints.pairs import curve_on_curve as curve_on_curve
-from jaxkin.joints.pairs import cylindrical as cylindrical
-from jaxkin.joints.pairs import fixed as fixed
-from jaxkin.joints.pairs import free as free
-from jaxkin.joints.pairs import pin_in_slot as pin_in_slot
-from jaxkin.joints.pairs import planar as planar
-from jaxkin.joints.pairs import point_on_curve as point_on_curve
-from jaxkin.joints.pairs import prismatic as prismatic
-from jaxkin.joints.pairs import revolute as revolute
-from jaxkin.joints.pairs import screw as screw
-from jaxkin.joints.pairs import spherical as spherical
-from jaxkin.joints.pairs import universal as universal
+from jaxkin.joints.pairs import *  # noqa: F403
 from jaxkin.linkage.closure_equations import ClosureEquations as ClosureEquations
 from jaxkin.linkage.linkage import Linkage as Linkage
 from jaxkin.mechanism.inverse.inverse import Inverse as Inverse
