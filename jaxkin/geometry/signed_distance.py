@@ -41,10 +41,8 @@ def signed_distance(
     shape = tuple(np.ceil((high - first) / step + BAND + 2.0).astype(int).tolist())
     corners = (triangles - first) / step
     found = np.full(shape, BAND)
-    vertices, faces = subdivide_to_size(
-        corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3), LARGEST_EDGE
-    )
-    small = vertices[faces]
+    cut = subdivide_to_size(corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3), LARGEST_EDGE)
+    small = np.asarray(cut[0])[np.asarray(cut[1])]
     lows = np.maximum(np.floor(small.min(axis=1) - BAND).astype(int), 0)
     counts = np.minimum(np.ceil(small.max(axis=1) + BAND).astype(int) + 1, shape) - lows
     sizes = counts.prod(axis=1)
@@ -110,7 +108,7 @@ def _inside(corners: Float[np.ndarray, "triangles 3 3"], shape: tuple[int, ...])
             one, other = triangle[:, (k + 1) % 3, :2] - column, triangle[:, (k + 2) % 3, :2] - column
             weights.append(_cross(one, other) / area)
         hit = np.all(np.stack(weights) > 0, axis=0)
-        height = sum(weight * triangle[:, k, 2] for k, weight in enumerate(weights))[hit]
+        height = np.sum(np.stack(weights, axis=1) * triangle[:, :, 2], axis=1)[hit]
         # the points above a triangle that faces up are outside of it
         above = np.clip(np.ceil(height).astype(int), 0, shape[2] - 1)
         np.add.at(winding, (*column[hit].T, above), np.where(area[hit] > 0, -1, 1))
