@@ -66,6 +66,8 @@ from jaxkin.effects.screw_axes import ScrewAxes as ScrewAxes
 from jaxkin.effects.screw_axes import screw_axes as screw_axes
 from jaxkin.effects.singularities import Singularities as Singularities
 from jaxkin.effects.singularities import singularities as singularities
+from jaxkin.effects.swept_volume import SweptVolume as SweptVolume
+from jaxkin.effects.swept_volume import swept_volume as swept_volume
 from jaxkin.effects.tolerance import Tolerance as Tolerance
 from jaxkin.effects.tolerance import sigma as sigma
 from jaxkin.effects.tolerance_result import AllowedTolerances as AllowedTolerances

@@ -8,10 +8,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
-from jaxkin.geometry.inertial import NONE, Inertial
+from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
-from jaxkin.io.robot_inertials import SIX, inertial
+from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
@@ -136,9 +136,8 @@ class _Reader:
         joints = {each.name: each for each in self.joints}
         couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None]
         couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
-        return RobotModel(
-            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=tuple(couplings)
-        )
+        notes, joints = tuple(self.notes), tuple(self.joints)
+        return RobotModel(tuple(links), joints, tuple(fixed), motors, notes, couplings=tuple(couplings))
 
     def _frames(self, model: Element) -> Frames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
@@ -152,8 +151,8 @@ class _Reader:
         for each in model.iterfind("link"):
             name = each.get("name", "")
             shapes = shapes_of(each, self.file, self.notes)
-            place = pose @ frames.in_model(name)
-            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, self._inertial(each))
+            place, weighs = pose @ frames.in_model(name), sdf_inertial(each, f"{self.file}: {tag(each)}: inertial")
+            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, weighs)
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")
@@ -264,16 +263,6 @@ class _Reader:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
         return -2 * np.pi / turns if turns else 0.0
-
-    def _inertial(self, link: Element) -> Inertial | None:
-        """Read the mass of a link, with the defaults of the format inside of <inertial>: 1 kg, 1 kg m^2."""
-        found, where = link.find("inertial"), f"{self.file}: {tag(link)}: inertial"
-        if found is None or found.get("auto") == "true":
-            return None
-        mass, matrix = float(numbers(found.findtext("mass"), 1, where, (1,))[0]), found.find("inertia")
-        given = {} if matrix is None else {each.tag: each.text for each in matrix}
-        six = [float(numbers(given.get(name), 1, f"{where}: {name}", (name[1] == name[2],))[0]) for name in SIX]
-        return inertial(mass, read_pose(found, where), six, where)
 
 
 def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:

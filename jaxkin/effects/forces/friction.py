@@ -76,8 +76,10 @@ def friction(
     normal, limit, losses, rests = (
         Named("joint with friction", zip((each.joint for each in given), rows, strict=True)) for rows in found
     )
-    unknown = (jax.tree.map(lambda rows: jnp.where(known, rows, jnp.nan), each) for each in (normal, limit, losses))
-    return wrenches, Friction(motion, *unknown, rests, locked)
+    normal, limit, losses = (
+        jax.tree.map(lambda rows: jnp.where(known, rows, jnp.nan), each) for each in (normal, limit, losses)
+    )
+    return wrenches, Friction(motion, normal, limit, losses, rests, locked)
 
 
 @partial(whole_program, static=(0, 1))
