@@ -35,6 +35,8 @@ MODULE = 0.12
 axes: profiles are shifted by up to half a module, which is 6 % of a wheel of 17 teeth."""
 MIN_TRIANGLES = 60
 """Triangles of a part with teeth, at least: two flanks and a tip on each of six teeth."""
+MIN_FACES = 12
+"""The same of faces, two flanks on each of six teeth, where no face is a free form, which may go round all teeth."""
 
 Meshing = Literal["external", "internal", "bevel"]
 
@@ -92,9 +94,7 @@ def gear_proposals(mechanism: Mechanism) -> tuple[GearProposal, ...]:
     body = {part: first for first, parts in mechanism.bodies.items() for part in parts}
     turns = _turns(mechanism, body)
     largest = size(mechanism.solids) if mechanism.solids else 0.0
-    toothed = [
-        part for part in mechanism.solids if turns.get(body.get(part.name, "")) and len(part.triangles) >= MIN_TRIANGLES
-    ]
+    toothed = [part for part in mechanism.solids if turns.get(body.get(part.name, "")) and _has_flanks(part)]
     found = []
     for one, other in combinations(toothed, 2):
         if body[one.name] == body[other.name] or not _boxes_meet(one, other):
@@ -102,6 +102,12 @@ def gear_proposals(mechanism: Mechanism) -> tuple[GearProposal, ...]:
         if proposal := _proposed(one, other, turns[body[one.name]], turns[body[other.name]], turns, largest):
             found.append(proposal)
     return tuple(found)
+
+
+def _has_flanks(part: Part) -> bool:
+    """Tell whether a part has as many triangles, and as many faces where all are analytic, as the fewest teeth need."""
+    exact = sum(len(face.triangles) for face in part.faces) == len(part.triangles)
+    return len(part.triangles) >= MIN_TRIANGLES and not (exact and len(part.faces) < MIN_FACES)
 
 
 def _turns(mechanism: Mechanism, body: Mapping[str, str]) -> dict[str, list[_Turn]]:
@@ -190,12 +196,17 @@ def _pair(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> 
     apex = None if parallel else _meeting(turn_1, turn_2, near)
     if not parallel and apex is None:
         return None
+    if parallel and not _can_touch(one, other, turn_1, turn_2, near):
+        return None
+    wheels = ((one, turn_1), (other, turn_2))
+    if not all(_is_around(part, turn) for part, turn in wheels):
+        return None
     outlines = []
-    for part, turn in ((one, turn_1), (other, turn_2)):
-        if not _is_around(part, turn):
-            return None
+    for part, turn in wheels:
         heights = corners @ turn.axis
         outlines.append(find_teeth(part.triangles, turn.point, turn.axis, (float(heights.min()), float(heights.max()))))
+        if not outlines[-1]:
+            return None
     for teeth_1, teeth_2 in product(*outlines):
         found = (
             _on_parallel_axes(teeth_1, teeth_2, turn_1, turn_2)
@@ -205,6 +216,19 @@ def _pair(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> 
         if found:
             return found
     return None
+
+
+def _can_touch(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> bool:
+    """Tell whether two wheels on parallel axes reach each other: before teeth are counted, which takes longer.
+
+    Wheels on one axis do not mesh, and of two others at least one reaches half the way to the other axis.
+    """
+    apart = np.linalg.norm(np.cross(turn_2.point - turn_1.point, turn_1.axis))
+    reach = sum(
+        np.linalg.norm(np.cross(part.outermost - turn.point, turn.axis), axis=1).max()
+        for part, turn in ((one, turn_1), (other, turn_2))
+    )
+    return bool(near < apart <= reach)
 
 
 def _is_around(part: Part, turn: _Turn) -> bool:

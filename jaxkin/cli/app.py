@@ -98,6 +98,7 @@ def inspect(
             if study.assembly and not study.held:
                 study, tried = run.proposed(study, study.assembly)
             report.print_mechanism(study.mechanism, contacts, verbose)
+            report.print_gears(study.mechanism, verbose)
         except ValueError as refusal:
             if page and study.assembly:
                 written.write_refusal(study.assembly, contacts, page, refusal)

@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from jaxkin._grouped import first_of_each
+from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.geometry.movements import is_length
 
@@ -22,6 +23,11 @@ if TYPE_CHECKING:
     from jaxkin.contacts.contact import Contacts
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
+
+_GEARS = 5
+"""Gears that are printed at most, unless all are asked for: planets and gear boxes of assemblies have many alike."""
+_TAKE_GEARS = "take them by mechanism.with_couplings([each.coupling for each in jk.gear_proposals(mechanism)]):"
+"""How gears are coupled: from Python, or by [couplings] of a study, which are the equations printed."""
 
 
 def say(text: str = "") -> None:
@@ -55,6 +61,22 @@ def print_inferences(mechanism: Mechanism) -> None:
         say(f"{len(found)} inferred beside exact contacts (all: jaxkin inspect --verbose):")
         for line in first_of_each((note.split(": ")[1], note) for note in found):
             say(f"  {line}")
+
+
+def print_gears(mechanism: Mechanism, verbose: bool) -> None:
+    """Print the gears that solids of a mechanism may be, with their teeth and ratios, which nothing couples yet: five
+    at most, all with `verbose`."""
+    found = gear_proposals(mechanism)
+    if not found:
+        return
+    gears = "1 gear" if len(found) == 1 else f"{len(found)} gears"
+    say(f"\n{gears} may mesh, of which nothing is coupled yet; {_TAKE_GEARS}")
+    shown = found if verbose else found[:_GEARS]
+    for each in shown:
+        one, other = each.teeth
+        say(f"  {each}; ratio {other / one:.4g}")
+    if len(shown) < len(found):
+        say(f"  and {len(found) - len(shown)} more (all: jaxkin inspect --verbose)")
 
 
 def print_structure(mechanism: Mechanism) -> None:

@@ -45,8 +45,11 @@ def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple
     Several sections of one rim give one outline each.
     """
     found = []
-    for height in _heights(triangles @ axis, between):
-        x, y = _section(triangles, point, axis, height)
+    levels = triangles @ axis
+    lowest, highest = levels.min(axis=1), levels.max(axis=1)
+    for height in _heights(levels, between):
+        cut = (lowest < height) & (height < highest)
+        x, y = _section(triangles[cut], point, axis, levels[cut] - height)
         outer, inner = _outline(x, y, "outer"), _outline(x, y, "inner")
         if outer is None or inner is None:
             continue
@@ -76,12 +79,12 @@ def _heights(levels: Float[np.ndarray, "triangles 3"], between: tuple[float, flo
 
 
 def _section(
-    triangles: Triangles, point: Points, axis: Points, height: float
+    corners: Triangles, point: Points, axis: Points, above: Float[np.ndarray, "triangles 3"]
 ) -> tuple[Float[np.ndarray, "segments 2"], Float[np.ndarray, "segments 2"]]:
-    """Cut the triangles by a plane across the axis: coordinates x, y of both ends of each segment, from the axis."""
-    above = triangles @ axis - height
-    cut = (above.max(axis=1) > 0) & (above.min(axis=1) < 0)
-    corners, above = triangles[cut], above[cut]
+    """Cut triangles by a plane across the axis: coordinates x, y of both ends of each segment, from the axis.
+
+    `above` are heights of corners over the plane, which goes through all the triangles.
+    """
     # the corner that is alone on its side of the plane comes first
     positive = above > 0
     alone = np.argmax(positive == (positive.sum(axis=1) == 1)[:, None], axis=1)

@@ -8,8 +8,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
+from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
@@ -26,6 +28,7 @@ from jaxkin.io.robot_model import (
     unknown_parts,
 )
 from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
+from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
 from jaxkin.io.xml_tree import read_xml
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
@@ -107,6 +110,7 @@ class _Reader:
         self.joints: list[RobotJoint] = []
         self.fixed: list[str] = []
         self.motors: list[str] = []
+        self.gearboxes: list[Gearbox] = []
         self.mimics: list[tuple[str, str, Element, str]] = []
         """Of each joint that follows another: its name, the prefix of its model, the element, and its place."""
 
@@ -130,9 +134,10 @@ class _Reader:
                 self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
         motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
         joints = {each.name: each for each in self.joints}
-        couplings = tuple(made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None)
+        couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None]
+        couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
         return RobotModel(
-            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=couplings
+            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=tuple(couplings)
         )
 
     def _frames(self, model: Element) -> Frames:
@@ -147,7 +152,8 @@ class _Reader:
         for each in model.iterfind("link"):
             name = each.get("name", "")
             shapes = tuple(self._shapes(each))
-            self.links[prefix + name] = RobotLink(prefix + name, pose @ frames.in_model(name), shapes)
+            place = pose @ frames.in_model(name)
+            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, self._inertial(each))
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")
@@ -162,10 +168,7 @@ class _Reader:
         """Read a joint: of "revolute2" two, with a part without a solid between them."""
         name, said = prefix + each.get("name", ""), each.get("type", "")
         where = f"{self.file}: {tag(each)}"
-        if said in RELATIONS:
-            self.notes.append(f"{where} of type {said!r} is not kept: the two joints move on their own")
-            return
-        if said not in KINDS:
+        if said not in KINDS and said not in RELATIONS:
             raise ValueError(f"{where}: expected one of the types {', '.join((*KINDS, *RELATIONS))}, got {said!r}")
         ends = []
         for side in ("parent", "child"):
@@ -173,6 +176,9 @@ class _Reader:
             ends.append(link if link == WORLD else prefix + link)
         if static:
             return  # all of its links are at rest
+        if said in RELATIONS:
+            self.gearboxes.append(self._gearbox(each, frames, prefix, pose, ends))
+            return
         if ends[0] == ends[1]:
             raise ValueError(f"{where}: its parent and its child are the same link, {ends[0]!r}")
         own = frames.in_model(each.get("name", ""))
@@ -194,18 +200,30 @@ class _Reader:
         parts = (ends[0], ends[1])
         if said == "revolute2":
             between = f"{name}/1"
-            self.links[between] = RobotLink(between, frame)
+            self.links[between] = RobotLink(between, frame, inertial=NONE)
             self.joints.append(RobotJoint(f"{name} 1", (ends[0], between), kind, frame, frame, text, limits))
             frame = pose @ placed(along(other), own[:3, 3])
             name, parts, limits = f"{name} 2", (between, ends[1]), self._limits(second, where)
         pitch = self._pitch(each, where) if kind is JointKind.SCREW else 0.0
         self.joints.append(RobotJoint(name, parts, kind, frame, frame, text, limits, pitch=pitch))
 
+    def _gearbox(self, each: Element, frames: Frames, prefix: str, pose: Pose, ends: list[str]) -> Gearbox:
+        """Read a gearbox; ValueError where it does not say the link that its angles count from."""
+        where = f"{self.file}: {tag(each)}"
+        said = (each.findtext("gearbox_reference_body") or "").strip()
+        if not said:
+            raise ValueError(f"{where}: expected the link that its angles count from in <gearbox_reference_body>")
+        link = frames.link_of(said)
+        own = frames.in_model(each.get("name", ""))
+        first, second = (pose[:3, :3] @ self._axis(each.find(key), own, frames, where) for key in ("axis", "axis2"))
+        ratio = float(numbers(each.findtext("gearbox_ratio"), 1, f"{where}: gearbox_ratio", (1.0,))[0])
+        names = prefix + each.get("name", ""), *ends, link if link == WORLD else prefix + link
+        return Gearbox(*names, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
+
     def _mimic(
         self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
     ) -> Coupling | None:
-        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for a leader that is not
-        there."""
+        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for an unknown leader."""
         leader = prefix + mimic.get("joint", "")
         if leader not in joints:
             raise ValueError(f"{where}: mimic names the unknown joint {leader!r}{nearest(leader, joints)}")
@@ -246,6 +264,16 @@ class _Reader:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
         return -2 * np.pi / turns if turns else 0.0
+
+    def _inertial(self, link: Element) -> Inertial | None:
+        """Read the mass of a link, with the defaults of the format inside of <inertial>: 1 kg, 1 kg m^2."""
+        found, where = link.find("inertial"), f"{self.file}: {tag(link)}: inertial"
+        if found is None or found.get("auto") == "true":
+            return None
+        mass, matrix = float(numbers(found.findtext("mass"), 1, where, (1,))[0]), found.find("inertia")
+        given = {} if matrix is None else {each.tag: each.text for each in matrix}
+        six = [float(numbers(given.get(name), 1, f"{where}: {name}", (name[1] == name[2],))[0]) for name in SIX]
+        return inertial(mass, read_pose(found, where), six, where)
 
     def _shapes(self, link: Element) -> list[Shape]:
         """Read what is seen of a link; where that is nothing, what it collides with."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.cli.report import print_gears
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.teeth import find_teeth
 
@@ -197,3 +198,19 @@ def test_a_wheel_beside_its_axis_is_no_gear():
     for moved in (15.0, 90.0):
         aside = wheel("wheel", 40, 2.0, at=(60, moved, 0))
         assert jk.gear_proposals(with_solids(joints, wheel("pinion", 20, 2.0), aside)) == ()
+
+
+@pytest.mark.parametrize(("count", "verbose", "listed"), [(0, False, 0), (1, False, 1), (7, False, 5), (7, True, 7)])
+def test_inspect_lists_gears_with_teeth_and_ratio_and_few_of_many(capsys, count, verbose, listed):
+    joints, solids = [jk.revolute("shaft", "ground", "crank", point=(-500, 0, 0), axis=(0, 0, 1))], []
+    for k in range(count):
+        joints += [
+            jk.revolute(f"A{k}", "ground", f"pinion {k}", point=(0, 200 * k, 0), axis=(0, 0, 1)),
+            jk.revolute(f"B{k}", "ground", f"wheel {k}", point=(60, 200 * k, 0), axis=(0, 0, 1)),
+        ]
+        solids += [wheel(f"pinion {k}", 20, 2.0, at=(0, 200 * k, 0)), wheel(f"wheel {k}", 40, 2.0, at=(60, 200 * k, 0))]
+    print_gears(with_solids(joints, *solids), verbose)
+    said = capsys.readouterr().out
+    assert said.count("(20 teeth)") == said.count("(40 teeth)") == said.count("ratio 2") == listed
+    assert ("2 more" in said) == (count > listed)
+    assert bool(said) == bool(count)

@@ -22,6 +22,9 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CENTRED = 0.02
 """Distance between the middles of a pin and of its holes, over the radius, that counts as none."""
+MIN_GUIDED = 2.0
+"""Length of a hole that slides along a pin, over the radius, at least: one that is shorter than its diameter jams, as a
+drawer does, so that a plate on a rod between two lugs turns on it."""
 
 
 class Hinge(NamedTuple):
@@ -43,6 +46,8 @@ class Stop(IntEnum):
     """A face on one side, and on the other one the thread or the retaining ring of a fastener."""
     CENTRED = 3
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
+    SHORT = 4
+    """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
 
 
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
@@ -75,7 +80,10 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
             if guided:
                 result.append(_guided(known, pair))
             else:
-                result += _hinge(known, pair, owners, any(pins), any(across), pair.one.part in fastening)
+                ends = [end for each in found for end in each.other.reach(pair.one.axis)]
+                short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * pair.other.radius
+                fastened = pair.one.part in fastening
+                result += _hinge(known, pair, owners, any(pins), any(across), fastened, short)
     return result
 
 
@@ -103,7 +111,9 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
     return [pair for pair in axes if id(pair) in kept]
 
 
-def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool, fastened: bool) -> list[Hinge]:
+def _hinge(
+    known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool, fastened: bool, short: bool
+) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
@@ -113,15 +123,16 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         [stop for part in known.parts if body[part.name] == owner for stop in known.measured.stops(part, hole)]
         for owner in owners
     )
-    free, stop = play(one, other, hole.radius), Stop.FACES
-    if free is not None and free > MAX_PLAY * hole.radius:
-        free = None
+    room, stop = play(one, other, hole.radius), Stop.FACES
+    free = None if room is None or room > MAX_PLAY * hole.radius else room
     free = 0.0 if touching else free
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
         elif abs(float((pair.one.point - hole.point) @ hole.axis)) <= CENTRED * hole.radius:
             free, stop = 0.0, Stop.CENTRED
+        elif short and room is not None:
+            free, stop = 0.0, Stop.SHORT
         else:
             return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
@@ -135,6 +146,8 @@ def _hinge(known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: 
         ends = f"a face {free:.2g} away and the fastener stop its slide"
     elif exact and stop is Stop.CENTRED:
         ends = "the pin and its holes have one middle, where it is taken to stay"
+    elif exact and stop is Stop.SHORT:
+        ends = f"its hole is shorter than wide and would jam on a slide of {room:.2g} between faces: taken to turn"
     sizes += [] if free is None else [("play", free)]
     if pair.virtual:
         kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"

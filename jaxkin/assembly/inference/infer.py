@@ -17,11 +17,13 @@ from jaxkin.assembly.inference.held import (
 from jaxkin.assembly.inference.hinges import Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
+from jaxkin.assembly.inference.keyed import keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import loose_slides
+from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -48,6 +50,7 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
+    known.add(keyed_hubs(known))
     set_in = sleeves(known)
     known.add(seated_sleeves(known, set_in))
     known.sleeves = {each.part for each in set_in} - {*fixed}
@@ -64,6 +67,7 @@ def infer(
         known.add(added)
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
+    known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     joined = hinges(known, fastening)
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]

@@ -19,6 +19,9 @@ MAX_PLAY = 0.06
 """Play of a part between two faces, over its width there, in all: drawers that people drew have half a
 millimetre on each side of 20."""
 
+TOUCHING = 1e-3
+"""Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
+
 
 def loose_slides(known: Known) -> list[Inference]:
     """Infer prismatic joints of parts that are between faces of another one, with play, and have no contact with it."""
@@ -44,6 +47,20 @@ def loose_slides(known: Known) -> list[Inference]:
 
 def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
     """Find the direction in which one of two parts slides between faces of the other, and its largest play."""
+    held = between_faces(one, other)
+    for normal, play in held:
+        for across, other_play in held:
+            axis = np.cross(normal, across)
+            if np.linalg.norm(axis) > 0.5:
+                axis /= np.linalg.norm(axis)
+                stopped = any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, _ in held)
+                return None if stopped else (axis, max(play, other_play))
+    return None
+
+
+def between_faces(one: Part, other: Part) -> list[tuple[Vector, float]]:
+    """Find the directions in which a part is between two faces of another one: unit normals, and the play along
+    them."""
     facing = [
         (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
         for a in one.faces
@@ -57,14 +74,7 @@ def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
             width = abs(place + other_place)
             if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
                 held.append((normal, gap + other_gap))
-    for normal, play in held:
-        for across, other_play in held:
-            axis = np.cross(normal, across)
-            if np.linalg.norm(axis) > 0.5:
-                axis /= np.linalg.norm(axis)
-                stopped = any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, _ in held)
-                return None if stopped else (axis, max(play, other_play))
-    return None
+    return held
 
 
 def _gap(a: Face, b: Face) -> float | None:
@@ -73,10 +83,9 @@ def _gap(a: Face, b: Face) -> float | None:
     if not isinstance(one, Plane) or not isinstance(other, Plane) or np.linalg.norm(one.normal + other.normal) > ACROSS:
         return None
     gap = float((other.point - one.point) @ one.normal)
-    if gap < 0:
-        return None
     x = np.cross(one.normal, np.eye(3)[np.argmin(np.abs(one.normal))])
     across = np.column_stack([x, np.cross(one.normal, x)])
     first, second = (face.triangles.reshape(-1, 3) @ across for face in (a, b))
     low, high = np.maximum(first.min(axis=0), second.min(axis=0)), np.minimum(first.max(axis=0), second.max(axis=0))
-    return gap if np.all(high > low) else None
+    touching = TOUCHING * float(np.max(high - low))
+    return max(gap, 0.0) if np.all(high > low) and gap >= -touching else None

@@ -163,3 +163,52 @@ def test_subassemblies_hold_what_only_lies_on_others():
     body = owners(mechanism)
     assert body["label"] == body["arm"] != body["frame"]
     assert any("in its sub-assembly" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("length", "kind"), [(6.0, "revolute"), (30.0, "cylindrical")])
+def test_a_plate_that_is_shorter_than_its_hole_is_wide_turns_on_a_rod(seed, length, kind):
+    """Nothing stops either of them on the rod between two lugs; a hub of three diameters slides as well."""
+    lugs = [ring(5.0, 12.0, -90, -80), ring(5.0, 12.0, 80, 90)]
+    base, rod = part("base", block((-60, -60, -90), (60, -50, 90)), *lugs), part("rod", pin(5.0, -92, 92))
+    lever = part("lever", ring(5.0, 12.0, 20, 20 + length), block((11, -3, 20), (40, 3, 20 + length)))
+    mechanism = anywhere(assembly(base, rod, lever), seed).mechanism(fixed=["base"])
+    (joint,) = moving(mechanism)
+    assert joint.kind == kind
+    assert any("would jam" in note for note in mechanism.notes) == (kind == "revolute")
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("play", [0.0, 0.05])
+@pytest.mark.parametrize("keyed", [True, False])
+def test_a_key_holds_a_hub_on_its_shaft(seed, play, keyed):
+    base = part("base", block((-60, -60, -30), (60, -50, 30)), ring(5.5, 12.0, -60, -20))
+    slot = [block((3.5, low, 0), (5.5, low + 0.2, 30)) for low in (-2.2, 2.0)]
+    shaft = part("shaft", pin(5.5, -60, -20), pin(6.0, -20, 40), pin(9.0, -62, -60), *slot)
+    walls = [block((6.5, low, 5), (8.0, low + 1.0, 25)) for low in (-3.0, 2.0)]
+    hub = part("hub", ring(6.0, 30.0, 5, 25), *walls)
+    key = part("key", block((4.0, -2.0 + play, 5), (8.0, 2.0 - play, 25)))
+    drawn = assembly(base, shaft, hub, key) if keyed else assembly(base, shaft, hub)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert body["shaft"] != body["base"]
+    assert (body["hub"] == body["shaft"]) == keyed
+    assert any("the key 'key'" in note for note in mechanism.notes) == keyed
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("half", "floor", "held"), [(3.0, True, True), (2.5, True, False), (3.0, False, False)])
+def test_a_screw_in_the_slot_of_a_profile_holds_what_lies_on_it(seed, half, floor, held):
+    """With 2.5 mm the slot is that of a pin that slides in it; a slot without a floor is one to slide in, too.
+
+    The plate lies on a side of the profile as well, as an angle does.
+    """
+    walls = [block((-60, half, -7), (60, 10, 0)), block((-60, -10, -7), (60, -half, 0))]
+    walls += [block((-60, -10, -20), (60, 10, -7))] if floor else []
+    rail = part("rail", *walls, pin(5.0, -7, 30, (50, 0)))
+    plate = part("plate", ring(2.6, 6.0, 0, 4), block((-20, -9, 0), (-5, 9, 4)), block((-20, 10, -9), (-5, 12, 4)))
+    screw = part("screw", pin(2.5, -6, 4), pin(4.0, 4, 7))
+    lever = part("lever", ring(5.1, 12.0, 10, 18, (50, 0)), block((61, -3, 10), (90, 3, 18)))
+    mechanism = anywhere(assembly(rail, plate, screw, lever), seed).mechanism(fixed=["rail"])
+    assert owners(mechanism)["lever"] != owners(mechanism)["rail"]
+    assert any("ends in a slot" in note for note in mechanism.notes) == held

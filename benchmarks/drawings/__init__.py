@@ -1,0 +1,4 @@
+"""Kinds of assemblies that designers draw, each with the joints that it is meant to have: those imported here."""
+
+from drawings import devices as devices
+from drawings import workshop as workshop

@@ -1,0 +1,50 @@
+"""Keys: a small part in a slot of a shaft and in one of the hub on it, which hold each other."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.slides import between_faces
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.part import Part
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_WIDTH = 1.0
+"""Width of a key between the walls of its slots, over the radius of the shaft, at most: keys of tables have 0.4 to
+0.7."""
+
+
+def keyed_hubs(known: Known) -> list[Inference]:
+    """Join hubs with their shafts and the keys between them.
+
+    A key keeps a hub from turning on its shaft; that nothing drawn keeps it from sliding is the set screw or the press
+    fit that people do not draw.
+    """
+    result = []
+    for pair in known.axes:
+        if pair.virtual or pair.threaded:
+            continue
+        shaft, hub = (known.solids[part] for part in pair.parts)
+        for key in known.measured.beside(shaft):
+            if key is not hub and key.name not in known.fixed and _is_key(key, shaft, hub, pair):
+                text = f"the key {key.name!r} is in a slot of {shaft.name!r} and in one of {hub.name!r}"
+                parts = tuple(sorted((*pair.parts, key.name), key=known.order.__getitem__))
+                sizes = (("radius", pair.one.radius),)
+                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _is_key(part: Part, shaft: Part, hub: Part, pair: CommonAxis) -> bool:
+    """Tell whether a part is between two walls along the axis of a shaft, in the same direction, in both others."""
+    corners = part.outermost - pair.one.point
+    away = corners - np.outer(corners @ pair.one.axis, pair.one.axis)
+    if np.linalg.norm(away, axis=1).max() > 2 * pair.one.radius:
+        return False
+    walls = []
+    for other in (shaft, hub):
+        held = [normal for normal, _ in between_faces(part, other) if abs(normal @ pair.one.axis) < ACROSS]
+        walls.append([normal for normal in held if np.ptp(away @ normal) <= MAX_WIDTH * pair.one.radius])
+    return any(np.linalg.norm(np.cross(one, other)) < ACROSS for one in walls[0] for other in walls[1])

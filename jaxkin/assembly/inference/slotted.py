@@ -1,0 +1,77 @@
+"""Screws that end in the slot of a profile, with or without the slot nut that is drawn: they clamp what lies on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.fasteners import Stack
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.screwed import crossings
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+SLOT = (1.05, 4.0)
+"""Distance of the walls of a slot from the axis of a screw in it, over its radius: profiles of 20 to 45 mm have 1.2 to
+2 with the screws they are made for. A pin that the slot guides fills it."""
+
+
+def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
+    """Find bodies that lie on a profile with a screw that ends in a slot of it, across its edges.
+
+    The slot has a floor below the screw, as profiles have; a slot that a pin slides in is cut through, or filled by the
+    pin.
+    """
+    body = known.body
+    flat: dict[frozenset[str], list[Vector]] = {}
+    elsewhere = set()
+    for contact in known.contacts:
+        owners, surface = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
+        if contact.contact_state.is_flat and isinstance(surface, Plane):
+            flat.setdefault(owners, []).append(surface.normal)
+        else:
+            elsewhere.add(owners)
+    result = []
+    for stack in every:
+        owner = body[stack.fasteners[0]]
+        axis = max((bore for name in stack.fasteners for bore in known.bores[name]), key=lambda bore: bore.half)
+        if axis.hole:
+            continue
+        for part in known.parts:
+            pair = frozenset((owner, body[part.name]))
+            normals = [] if len(pair) < 2 or pair in elsewhere else flat.get(pair, [])
+            if any(np.linalg.norm(np.cross(normal, axis.axis)) < ACROSS for normal in normals) and _in_slot(axis, part):
+                screw = stack.fasteners[0]
+                text = f"the screw {screw!r} ends in a slot of {part.name!r}, on the edges of which {owner!r} lies"
+                evidence = Evidence(EvidenceKind.FASTENER, (("radius", axis.radius),), text)
+                parts = tuple(sorted((owner, part.name), key=known.order.__getitem__))
+                result.append(Inference(parts, evidence))
+    return result
+
+
+def _in_slot(screw: Bore, part: Part) -> bool:
+    """Tell whether a screw ends between two walls of a part, with a floor of it ahead."""
+    if not len(crossings(screw.point, screw.axis, part.triangles)):
+        return False
+    walls = [wall for face in part.faces if (wall := _wall(screw, face)) is not None]
+    return any(np.linalg.norm(one + other) < ACROSS for k, one in enumerate(walls) for other in walls[:k])
+
+
+def _wall(screw: Bore, face: Face) -> Vector | None:
+    """Find the normal of a plane face that stands beside a screw, along it, and looks at it; None where it does not."""
+    if not isinstance(face.surface, Plane) or abs(face.surface.normal @ screw.axis) > ACROSS:
+        return None
+    normal = face.surface.normal
+    apart = float((screw.point - face.surface.point) @ normal)
+    along, aside = screw.axis, np.cross(normal, screw.axis)
+    corners = face.triangles.reshape(-1, 3) - screw.point
+    heights, sides = corners @ along, corners @ aside
+    beside = heights.min() < screw.half and heights.max() > -screw.half and sides.min() < 0 < sides.max()
+    near = SLOT[0] * screw.radius <= apart <= SLOT[1] * screw.radius
+    return normal if beside and near else None
