@@ -50,9 +50,9 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     for (pin, other), ways in directions.items():
         # where there is a hole on the axis, the pin or what it is on goes through
         sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
-        coaxial = sides == {False}
-        if len(ways) == 2 or coaxial:
-            where = "between two faces" if len(ways) == 2 else "on the coaxial end"
+        coaxial, between = sides == {False}, len(ways) == 2 and True not in sides
+        if between or coaxial:
+            where = "between two faces" if between else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
             result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
     return result

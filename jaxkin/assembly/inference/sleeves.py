@@ -102,7 +102,7 @@ def hollow_axles(known: Known) -> set[str]:
             continue
         low, high = pair.other.reach(along)
         others = [each.other for each in known.axes if each.one.part == name and each.other.part != pair.other.part]
-        ends = [hole.reach(along) for hole in others if hole.on_axis_of(pair.one)]
+        ends = [span for hole in others if hole.on_axis_of(pair.one) for span in hole.spans_along(along)]
         if any(last <= low for _, last in ends) and any(first >= high for first, _ in ends):
             result.add(name)
     return result
