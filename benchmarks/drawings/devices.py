@@ -33,7 +33,8 @@ def pantograph(random):
         holes = [point for point, on in rivets.values() if name in on]
         drawing.add(name, bar(one, other, 5, levels[name], levels[name] + 4, holes, 2 + play))
     for name, (point, on) in rivets.items():
-        drawing.joint("Revolute", *on, point, Z)
+        for one, other in ((each, "board") for each in on) if name == "A" else (on,):
+            drawing.joint("Revolute", one, other, point, Z)
         if name != "A":
             drawing.add(f"rivet {name}", rivet(point + 5 * Z, Z, 2, 8))
     board = union(box((-60, -60, -6), (180, 180, 0)), cyl((0, 0, 0), Z, 6, 5), cyl((0, 0, 0), Z, 2, 14))
@@ -42,7 +43,6 @@ def pantograph(random):
     tip = b * u + 2 * a * v
     drawing.parts["tracer"] = cut(drawing.parts["tracer"], bore(tip, Z, 2.5))
     drawing.add("pencil", cyl(tip + 1 * Z, Z, 2.5, 40))
-    drawing.joint("Revolute", "long", "board", pivot, Z)
     drawing.joint("Weld", "pencil", "tracer")
     return drawing
 
@@ -159,8 +159,7 @@ def gimbal(random):
     )
     drawing.parts["motor"] = cut(motor, *(cyl((outer + 13, y, z), X, 1.25, 7) for y in (-9, 9) for z in (-9, 9)))
     drawing.parts["yoke"] = cut(drawing.parts["yoke"], bore((outer + 7, 7, 7), X, 1.0, 0.1))
-    drawing.joint("Weld", "pan", "yoke")
-    drawing.joint("Revolute", "pan", "stand", (0, 0, 0), Z)
+    drawing.joint("Revolute", "yoke", "stand", (0, 0, 0), Z)
     drawing.joint("Revolute", "ring", "yoke", (0, 0, 0), X)
     drawing.joint("Revolute", "camera", "ring", (0, 0, 0), Y)
     drawing.joint("Weld", "motor", "bracket")
@@ -176,10 +175,11 @@ def rack_steering(random):
     frame = union(
         tube((-90, 0, 0), X, 12, 18, 180),
         box((-track - 15, 40, -25), (track + 15, 60, -15)),
-        box((-10, 15, -25), (10, 50, -10)),
+        box((-12, 0, -25), (12, 50, -10)),
     )
     forks = [box((s * track - 14, 30, z), (s * track + 14, 60, z + 10)) for s in (-1, 1) for z in (-25, 15)]
     post = [box((s * track - 14, 50, -25), (s * track + 14, 60, 25)) for s in (-1, 1)]
+    frame = cut(frame, bore((0, 0, 0), X, 12, 90))
     frame = cut(
         union(frame, *forks, *post), *(bore((s * track, 40, 0), Z, 5) for s in (-1, 1)), cyl((0, 14, -40), Z, 6, 80)
     )

@@ -51,7 +51,9 @@ def vise(random):
     travel = random.uniform(20, 50)
     ways = [box((-20, s * 22 - 8, 0), (150, s * 22 + 8, 12)) for s in (-1, 1)]
     body = union(
-        *ways, box((-20, -30, -12), (150, 30, 0)), box((130, -30, 0), (150, 30, 45)), box((60, -10, 0), (80, 10, 12))
+        *ways,
+        box((-20, -30, -12), (150, 30, 0)),
+        box((130, -30, 0), (150, 30, 45)),
     )
     jaw_holes = [at(0, y, 32) for y in (-18, 18)]
     body = cut(body, bore((0, 0, 6), X, 5), *(cyl((125, *p[1:]), X, 2, 20) for p in jaw_holes))
@@ -64,9 +66,8 @@ def vise(random):
         plate = cut(box((low, -30, 18), (low + 6, 30, 44)), *(bore((low, *p[1:]), X, 2.6) for p in jaw_holes))
         drawing.add(f"{name} plate", plate)
         drawing.joint("Weld", f"{name} plate", host)
-    collar, head = cyl((x - 27, 0, 6), X, 8, 5), cyl((x - 75, 0, 6), X, 8, 18)
-    spindle = union(cyl((x - 75, 0, 6), X, 5, 170), collar, head)
-    drawing.add("spindle", cut(spindle, bore((x - 66, 0, 6), Y, 3)))
+    spindle = union(cyl((-60, 0, 6), X, 5, 215), cyl((x - 27, 0, 6), X, 8, 5), cyl((-60, 0, 6), X, 8, 18))
+    drawing.add("spindle", cut(spindle, bore((-51, 0, 6), Y, 3)))
     keeper = cut(
         union(box((x - 28 - 4, -14, 13.5), (x - 22, 14, 30)), box((x - 32, -14, -0.5), (x - 27, 14, 30))),
         bore((0, 0, 6), X, 5.3),
@@ -74,10 +75,8 @@ def vise(random):
     keeper = cut(keeper, box((x - 27, -20, -9), (x - 22, 20, 13.5)), *(bore((0, y, 24), X, 1.6) for y in (-9, 9)))
     drawing.parts["jaw"] = cut(jaw, *(cyl((x - 22, y, 24), X, 1.25, 10) for y in (-9, 9)))
     drawing.add("keeper", keeper)
-    drawing.add(
-        "handle",
-        union(cyl((x - 66, -45, 6), Y, 3 - play, 90), cyl((x - 66, 45, 6), Y, 5, 4), cyl((x - 66, -49, 6), Y, 5, 4)),
-    )
+    ends = [cyl((-51, y, 6), Y, 5, 4) for y in (-49, 45)]
+    drawing.add("handle", union(cyl((-51, -45, 6), Y, 3 - play, 90), *ends))
     drawing.joint("Weld", "keeper", "jaw")
     drawing.joint("Prismatic", "jaw", "body", (0, 0, 6), X)
     drawing.joint("Cylindrical", "spindle", "body", (0, 0, 6), X)
@@ -89,25 +88,17 @@ def vise(random):
 def drawer_slide(random):
     """Three channels in each other, the outer one screwed to a cabinet by holes without screws, the inner to a box."""
     drawing, play = Drawing(["cabinet"]), random.choice([0.0, 0.15])
-    out, half = random.uniform(60, 120), 22.0
+    out = random.uniform(60, 120)
     holes = [at(x, 0, 0) for x in (30, 150, 270)]
     drawing.add("cabinet", cut(box((-20, -60, -18), (320, 60, 0)), *(cyl(p - 12 * Z, Z, 1.6, 20) for p in holes)))
-    sizes = {
-        "outer": (0.0, half, 0.0, 300),
-        "middle": (2.0, half - 2, out / 2, 300),
-        "inner": (4.0, half - 4, out, 300),
-    }
-    for k, (name, (z, wide, x, long)) in enumerate(sizes.items()):
-        gap = 0.0 if k == 0 else play
-        wide, z = wide - gap, z + gap
-        floor = (
-            box((x, -wide, z), (x + long, wide, z + 2 - 2 * gap))
-            if name != "inner"
-            else box((x, -wide, z), (x + long, wide, 10))
-        )
-        walls = [box((x, s * wide, z), (x + long, s * (wide - 2 + 2 * gap), 12 - z / 2)) for s in (-1, 1)]
-        lips = [box((x, s * wide, 12 - z / 2 - 2), (x + long, s * (wide - 5 + z), 12 - z / 2)) for s in (-1, 1)]
-        drawing.add(name, union(floor, *walls) if name == "inner" else union(floor, *walls, *lips))
+    outer = union(box((0, -22, 0), (300, 22, 2)), *(box((0, s * 22, 0), (300, s * 20, 14)) for s in (-1, 1)))
+    drawing.add("outer", union(outer, *(box((0, s * 22, 12), (300, s * 16, 14)) for s in (-1, 1))))
+    low, high, wide = 2 + play, 12 - play, 20 - play
+    ends = out / 2, out / 2 + 300
+    middle = [box((ends[0], s * wide, low), (ends[1], s * (wide - 2), high)) for s in (-1, 1)]
+    middle += [box((ends[0], s * wide, high - 2), (ends[1], s * 12, high)) for s in (-1, 1)]
+    drawing.add("middle", union(box((ends[0], -wide, low), (ends[1], wide, low + 2)), *middle))
+    drawing.add("inner", box((out, play - wide + 2, low + 2 + play), (out + 300, wide - 2 - play, high - 2 - play)))
     drawing.parts["outer"] = cut(drawing.parts["outer"], *(bore(p, Z, 2.2) for p in holes))
     drawing.joint("Weld", "outer", "cabinet")
     drawing.joint("Prismatic", "middle", "outer", (0, 0, 0), X)

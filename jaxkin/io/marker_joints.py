@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Pose, inverse, unit
 from jaxkin.io.robot_model import RobotJoint, RobotLink, along, placed
 from jaxkin.joints.coupling import Coupling
@@ -102,7 +103,7 @@ class MarkerJoints:
             steps = _chain(kind, first, second, sizes)
         between = [f"{name}/{number}" for number in range(1, len(steps))]
         for link, step in zip(between, steps, strict=False):
-            self.links[link] = RobotLink(link, step.behind)
+            self.links[link] = RobotLink(link, step.behind, inertial=NONE)
         ends = (one.link, *between, other.link)
         for own, parts, step in zip((*between, name), pairwise(ends), steps, strict=True):
             try:
@@ -149,14 +150,15 @@ def _chain(kind: str, first: Pose, second: Pose, sizes: Mapping[str, float]) -> 
     point = second[:3, 3]
     there = placed(first[:3, :3], point)
     z = first[:3, 2]
-    level = first @ placed(np.eye(3), (0.0, 0.0, (point - first[:3, 3]) @ z))
+    level = first @ placed(np.eye(3), (0.0, 0.0, float((point - first[:3, 3]) @ z)))
     distance = sizes.get("distance", 0.0)
     last = _Step(JointKind.SPHERICAL, second, second)
     match kind:
         case "PointInLineJoint":
             return _Step(JointKind.PRISMATIC, first, there), last
         case "PointInPlaneJoint":
-            level = first @ placed(np.eye(3), (*(inverse(first) @ second)[:2, 3], 0.0))
+            x, y, *_ = (inverse(first) @ second)[:3, 3].tolist()
+            level = first @ placed(np.eye(3), (x, y, 0.0))
             return *_slides(level, there, np.eye(3)[:2]), last
         case "LineInPlaneJoint":
             flat = _tilted(second, z, np.pi / 2)

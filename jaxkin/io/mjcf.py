@@ -16,6 +16,7 @@ import numpy as np
 from jaxkin._names import listed
 from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
+from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_shapes import Shapes
 from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
@@ -80,10 +81,12 @@ class _Reader:
 
     def __init__(self, path: Path, root: Element) -> None:
         self.file, self.root = path.name, root
-        self.compiler, self.defaults = Compiler(root, path.name), Defaults(root, path.name)
+        self.compiler = Compiler(root, path.name)
+        notes = attached(root, path, self.compiler)
+        self.defaults = Defaults(root, path.name)
         replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
-        self.found = Bodies(notes=unknown_parts(root, SECTIONS, path.name))
+        self.found = Bodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name)])
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""

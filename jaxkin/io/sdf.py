@@ -17,7 +17,6 @@ from jaxkin.io.robot_model import (
     RobotJoint,
     RobotLink,
     RobotModel,
-    Shape,
     along,
     direction,
     limit,
@@ -29,6 +28,7 @@ from jaxkin.io.robot_model import (
 )
 from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
+from jaxkin.io.sdf_shapes import shapes_of
 from jaxkin.io.xml_tree import read_xml
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
@@ -150,8 +150,9 @@ class _Reader:
         static = static or (model.findtext("static") or "").strip() in ("true", "1")
         for each in model.iterfind("link"):
             name = each.get("name", "")
+            shapes = shapes_of(each, self.file, self.notes)
             place, weighs = pose @ frames.in_model(name), sdf_inertial(each, f"{self.file}: {tag(each)}: inertial")
-            self.links[prefix + name] = RobotLink(prefix + name, place, tuple(self._shapes(each)), weighs)
+            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, weighs)
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")
@@ -215,8 +216,8 @@ class _Reader:
         own = frames.in_model(each.get("name", ""))
         first, second = (pose[:3, :3] @ self._axis(each.find(key), own, frames, where) for key in ("axis", "axis2"))
         ratio = float(numbers(each.findtext("gearbox_ratio"), 1, f"{where}: gearbox_ratio", (1.0,))[0])
-        names = prefix + each.get("name", ""), *ends, link if link == WORLD else prefix + link
-        return Gearbox(*names, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
+        name, reference = prefix + each.get("name", ""), link if link == WORLD else prefix + link
+        return Gearbox(name, ends[0], ends[1], reference, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
 
     def _mimic(
         self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
@@ -262,27 +263,6 @@ class _Reader:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
         return -2 * np.pi / turns if turns else 0.0
-
-    def _shapes(self, link: Element) -> list[Shape]:
-        """Read what is seen of a link; where that is nothing, what it collides with."""
-        found = []
-        for each in link.findall("visual") or link.findall("collision"):
-            pose = read_pose(each, f"{self.file}: {tag(link)}")
-            where = f"{self.file}: {tag(link)}: {tag(each)}"
-            for solid in each.iterfind("geometry/*"):
-                sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),
-                         "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
-                if solid.tag == "mesh":
-                    scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
-                    found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
-                elif solid.tag in sizes:
-                    size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
-                            for key in sizes[solid.tag]]  # fmt: skip
-                    kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
-                    found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
-                elif solid.tag not in ("plane", "empty"):
-                    self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
-        return found
 
 
 def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:

@@ -1,5 +1,6 @@
 """FreeCAD's own documents: assemblies of its workbench, written here as it writes them, against closed forms."""
 
+import re
 import zipfile
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.geometry.pose import rotation
+from jaxkin.io.fcstd import read_fcstd
 from reference.freecad import (
     CRANK,
     ROD,
@@ -184,3 +186,27 @@ def test_what_is_no_document_is_refused_in_one_line(tmp_path, make, message):
     with pytest.raises(ValueError, match=message) as error:
         jk.load(make(tmp_path))
     assert "\n" not in str(error.value) and "a.FCStd" in str(error.value)
+
+
+def test_a_damaged_list_of_objects_is_read_or_refused_in_one_line(tmp_path):
+    path = slider_crank(tmp_path)[0]
+    with zipfile.ZipFile(path) as archive:
+        text = archive.read("Document.xml").decode()
+    random, refused = np.random.default_rng(0), 0
+    for _ in range(150):
+        values = [*re.finditer(r'"([^"]*)"', text)]
+        at = values[random.integers(len(values))]
+        other = ["", "x", "nan", "1e400", "-5", "Assembly", "crank", "99999999999", "a.b.c", values[-5][1]]
+        changed = f"{text[: at.start(1)]}{other[random.integers(len(other))]}{text[at.end(1) :]}"
+        elements = [*re.finditer(r"<Property [^>]*>.*?</Property>|<[^>]*/>", changed)]
+        gone = elements[random.integers(len(elements))]
+        with zipfile.ZipFile(tmp_path / "damaged.FCStd", "w") as archive:
+            archive.writestr("Document.xml", changed[: gone.start()] + changed[gone.end() :])
+        try:
+            model = read_fcstd(tmp_path / "damaged.FCStd")
+        except (ValueError, FileNotFoundError) as error:
+            refused += 1
+            assert "\n" not in str(error) and ".FCStd" in str(error)
+        else:
+            assert {part for joint in model.joints for part in joint.parts} <= {link.name for link in model.links}
+    assert 5 < refused < 100

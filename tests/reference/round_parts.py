@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 import numpy as np
 import trimesh
 
 from jaxkin.assembly.assembly import Assembly
-from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.part import Face, Part, moved, scaled
 from jaxkin.geometry.surfaces import Cylinder, Plane
+from jaxkin.joints.joint import Joint
+from jaxkin.mechanism.mechanism import Mechanism
 
 Z = np.array([0.0, 0.0, 1.0])
 SECTIONS = 48
@@ -61,3 +64,25 @@ def part(name: str, *pieces: list[tuple]) -> Part:
 def assembly(*parts: Part) -> Assembly:
     """An assembly in millimetres."""
     return Assembly(parts, "mm", "drawn.step")
+
+
+def anywhere(drawn: Assembly, seed: int) -> Assembly:
+    """Turn, move, scale and shuffle an assembly."""
+    generator = np.random.default_rng(seed)
+    pose = np.eye(4)
+    pose[:3, :3] = np.linalg.qr(generator.normal(size=(3, 3)))[0]
+    pose[:3, :3] *= np.sign(np.linalg.det(pose[:3, :3]))
+    pose[:3, 3] = generator.normal(size=3) * 300
+    size = 10 ** generator.uniform(-1, 1)
+    parts = [moved(scaled(each, size), pose) for each in drawn.parts]
+    return replace(drawn, parts=tuple(parts[k] for k in generator.permutation(len(parts))))
+
+
+def owners(mechanism: Mechanism) -> dict[str, str]:
+    """Map each part to the first part of its body."""
+    return {part: body for body, parts in mechanism.bodies.items() for part in parts}
+
+
+def moving(mechanism: Mechanism) -> list[Joint]:
+    """List the joints that have freedoms."""
+    return [joint for joint in mechanism.all_joints if joint.freedoms]

@@ -6,12 +6,14 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -48,9 +50,9 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     for (pin, other), ways in directions.items():
         # where there is a hole on the axis, the pin or what it is on goes through
         sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
-        coaxial = sides == {False}
-        if len(ways) == 2 or coaxial:
-            where = "between two faces" if len(ways) == 2 else "on the coaxial end"
+        coaxial, between = sides == {False}, len(ways) == 2 and True not in sides
+        if between or coaxial:
+            where = "between two faces" if between else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
             result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
     return result
@@ -113,12 +115,15 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
     fits: dict[str, float] = {}
+    traps: set[str] = set()
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
             if pin.part in stack.fasteners and hole.part in stack.held:
                 owner = body[hole.part]
                 reach.setdefault(owner, []).append((*hole.reach(along), hole.part))
                 fits[owner] = min(fits.get(owner, np.inf), max(pair.clearance, 0.0))
+                if slides and _is_trapped(known, pin.part, hole):
+                    traps.add(owner)
     if not reach:
         return (stack.held[0] if stack.held else None), "only"
     ends = {
@@ -127,13 +132,65 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     widest = max(ends, key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len({body[each] for each in stack.held}) == 1:
-        return part, "only"
+        turns = known.sleeves.issuperset(stack.held)  # as a shaft in bushes
+        return (None, "") if turns else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
     if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
         return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
     looser = [fit for owner, fit in fits.items() if owner != tightest]
+    if traps - {tightest}:
+        return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
     if looser and min(looser) - fits[tightest] > SAME_FIT * stack.axis.radius:
         return ends[tightest][2], "more tightly than by others"
     return None, ""
+
+
+def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
+    """Tell whether faces on both sides keep a pin from sliding in the hole of a part, such as those beside a collar."""
+    one, other = (known.measured.stops(known.solids[part], hole) for part in (pin, hole.part))
+    room = play(one, other, hole.radius)
+    return room is not None and room <= MAX_PLAY * hole.radius
+
+
+def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find plain rods that fit one hole exactly and stand on its floor: posts and dowels, which are set into it."""
+    on: dict[str, set[str]] = {}
+    for contact in known.contacts:
+        if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
+            for part, other in (contact.parts, contact.parts[::-1]):
+                on.setdefault(part, set()).add(other)
+    result = []
+    for rod in (name for name in known.names if name in fastening):
+        if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(on.get(rod, ())) != 1:
+            continue
+        (host,) = on[rod]
+        if len(known.solids[rod].faces) == 3:  # the pin and its two ends
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
+            result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def pressed_rings(known: Known) -> list[Inference]:
+    """Find round parts that are tight on one pin and that no face keeps there: nuts on rods, collars, wheels."""
+    around: dict[str, list[CommonAxis]] = {}
+    for pair in known.axes:
+        for part in pair.parts:
+            around.setdefault(part, []).append(pair)
+    result = []
+    for name, pairs in around.items():
+        tight = all(pair.other.part == name and pair.tight and not pair.virtual for pair in pairs)
+        pins = {pair.one.part for pair in pairs}
+        own, hole = known.bores[name], max(pairs, key=engaged).other
+        if not tight or len(pins) > 1 or name in known.fixed or not all(bore.on_axis_of(hole) for bore in own):
+            continue
+        if all(bore.hole for bore in own) or not is_round(known, name, own):
+            continue
+        (pin,) = pins
+        if not _is_trapped(known, pin, hole):
+            sizes = (("radius", hole.radius), ("clearance", min(pair.clearance for pair in pairs)))
+            text = f"{name!r} is tight on {pin!r}, with an interference of {-sizes[1][1]:.2g}"
+            parts = tuple(sorted((name, pin), key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result

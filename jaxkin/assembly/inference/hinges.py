@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
-from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, nearest, play
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, between_bores, nearest, play
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -80,10 +80,7 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
             if guided:
                 result.append(_guided(known, pair))
             else:
-                ends = [end for each in found for end in each.other.reach(pair.one.axis)]
-                short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * pair.other.radius
-                fastened = pair.one.part in fastening
-                result += _hinge(known, pair, owners, any(pins), any(across), fastened, short)
+                result += _hinge(known, pair, found, owners, any(pins), any(across), pair.one.part in fastening)
     return result
 
 
@@ -112,7 +109,13 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
 
 
 def _hinge(
-    known: Known, pair: CommonAxis, owners: Pair, exact: bool, touching: bool, fastened: bool, short: bool
+    known: Known,
+    pair: CommonAxis,
+    found: Sequence[CommonAxis],
+    owners: Pair,
+    exact: bool,
+    touching: bool,
+    fastened: bool,
 ) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
@@ -124,6 +127,11 @@ def _hinge(
         for owner in owners
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
+    ends = [end for each in found for end in each.other.reach(pair.one.axis)]
+    short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * hole.radius
+    between = None if pair.virtual else _between(known, pair, found)
+    if between is not None and between <= MAX_PLAY * hole.radius:
+        room = between if room is None else min(room, between)
     free = None if room is None or room > MAX_PLAY * hole.radius else room
     free = 0.0 if touching else free
     if exact and free is None:
@@ -157,6 +165,17 @@ def _hinge(
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
     return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+
+
+def _between(known: Known, pair: CommonAxis, found: Sequence[CommonAxis]) -> float | None:
+    """Find how far a body can slide whose pin is in bores on both sides of it, as a ring between its bearings is."""
+    body, axis = known.body, pair.one.axis
+    holes = [each.other for each in found if body[each.one.part] == body[pair.one.part]]
+    spans = merged(span for hole in holes for span in hole.spans_along(axis))
+    if len(spans) < 2:
+        return None
+    owned = [part for part in known.parts if body[part.name] == body[pair.one.part]]
+    return between_bores(owned, pair.one, spans)
 
 
 def _guided(known: Known, pair: CommonAxis) -> Hinge:

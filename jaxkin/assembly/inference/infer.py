@@ -12,6 +12,8 @@ from jaxkin.assembly.inference.held import (
     bolted_bodies,
     butting_pins,
     embedded_pins,
+    pressed_rings,
+    standing_rods,
     with_hosts,
 )
 from jaxkin.assembly.inference.hinges import Stop, hinges
@@ -21,7 +23,7 @@ from jaxkin.assembly.inference.keyed import keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
-from jaxkin.assembly.inference.sleeves import seated_sleeves, sleeves, sliding_rods
+from jaxkin.assembly.inference.sleeves import hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.undrawn import screwed_flat
@@ -56,12 +58,14 @@ def infer(
     known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
-    fastening -= sliding_rods(known, set_in)
+    fastening -= sliding_rods(known, set_in) | hollow_axles(known)
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
     fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
     known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
+    known.add(standing_rods(known, fastening))
+    known.add(pressed_rings(known))
     every = with_hosts(stacks(known.axes, fastening, known.touching, known.order), known)
     while added := bolted_bodies(known, every):
         known.add(added)

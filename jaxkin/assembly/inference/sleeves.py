@@ -34,14 +34,14 @@ def sleeves(known: Known) -> list[Sleeve]:
     """Find the sleeves among the parts that are round: their outside in a hole, and a hole of their own on that
     axis."""
     pins = [pair for pair in known.axes if not pair.virtual and not pair.threaded]
-    result = []
+    axles, result = hollow_axles(known), []
     for name in known.names:
         outside = [pair for pair in pins if pair.one.part == name]
-        if not outside:
+        if not outside or name in axles:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
-        if any(bore.hole for bore in own) and _is_round(known, name, own):
+        if any(bore.hole for bore in own) and is_round(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
@@ -92,7 +92,24 @@ def _is_shared(known: Known, sleeve: Sleeve) -> bool:
     return any(pair.other.part == hole.part and pair.other.faces == hole.faces for pair in pairs)
 
 
-def _is_round(known: Known, name: str, own: list[Bore]) -> bool:
+def hollow_axles(known: Known) -> set[str]:
+    """Find the parts with a hole that are held on both sides of a hole that they are in: what is there turns on
+    them."""
+    result = set()
+    for pair in known.axes:
+        name, along = pair.one.part, pair.one.axis
+        if pair.virtual or not any(bore.hole and bore.on_axis_of(pair.one) for bore in known.bores[name]):
+            continue
+        low, high = pair.other.reach(along)
+        others = [each.other for each in known.axes if each.one.part == name and each.other.part != pair.other.part]
+        ends = [span for hole in others if hole.on_axis_of(pair.one) for span in hole.spans_along(along)]
+        if any(last <= low for _, last in ends) and any(first >= high for first, _ in ends):
+            result.add(name)
+    return result
+
+
+def is_round(known: Known, name: str, own: list[Bore]) -> bool:
+    """Tell whether a part with these bores is round about the axis of its widest pin."""
     widest = max((bore for bore in own if not bore.hole), key=lambda bore: bore.radius)
     corners = known.solids[name].outermost - widest.point
     away = np.linalg.norm(corners - np.outer(corners @ widest.axis, widest.axis), axis=1)

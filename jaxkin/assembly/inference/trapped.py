@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +28,9 @@ MAX_OVERLAP = 0.2
 MIN_MET = 0.02
 """Width, over the radius, of the ring about the axis in which two faces meet, at least: a piston passes a shoulder that
 begins where the piston ends."""
+
+_WIDER = 1.05
+"""Distance from the axis over the radius of a pin from which on it is shoulders that are met, not the pin itself."""
 
 
 class Stop(NamedTuple):
@@ -90,3 +94,18 @@ def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | N
     facing = [(a, b) for a in one if a.forwards for b in other if not b.forwards]
     gaps = [b.height - a.height for a, b in facing if min(a.outer, b.outer) - max(a.inner, b.inner) > MIN_MET * radius]
     return min((max(gap, 0.0) for gap in gaps if gap >= -MAX_OVERLAP * radius), default=None)
+
+
+def between_bores(parts: Sequence[Part], pin: Bore, spans: Sequence[tuple[float, float]]) -> float | None:
+    """Return how far a body with a pin in two bores, at spans along the axis of the pin, can slide until what it has
+    between them meets them; None where it has nothing wider there."""
+    corners = np.concatenate([part.triangles.reshape(-1, 3) for part in parts]) - pin.point
+    along = corners @ pin.axis
+    away = np.linalg.norm(corners - np.outer(along, pin.axis), axis=1)
+    along = along[(away > _WIDER * pin.radius) & (away <= REACH * pin.radius)] + pin.point @ pin.axis
+    slack = MAX_OVERLAP * pin.radius
+    for (_, low), (high, _) in pairwise(spans):
+        inside = along[(along >= low - slack) & (along <= high + slack)]
+        if len(inside):
+            return float(max(inside.min() - low, 0.0) + max(high - inside.max(), 0.0))
+    return None
