@@ -2,7 +2,8 @@
 
 Each notebook becomes a page in Markdown, and each picture among its outputs a file that the page shows; nothing is run.
 A comment "constants of FOLDER..." in a page is replaced by the constants of the modules there, with their docstrings,
-and "exports that no other page has" by the references of what else can be imported from jaxkin.
+"joints by hand" by the references of the functions that make them, and "exports that no other page has" by those of
+what else can be imported from jaxkin.
 """
 
 from __future__ import annotations
@@ -41,6 +42,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 def on_page_markdown(markdown: str, **_) -> str:
     """Put constants and references in the place of the comments that ask for them."""
+    joints = [f"::: jaxkin.{name}" for name in joints_by_hand()]
+    markdown = markdown.replace("<!-- joints by hand -->", "\n\n".join(joints))
     markdown = markdown.replace("<!-- exports that no other page has -->", "\n\n".join(other_exports()))
     return re.sub(r"<!-- constants of (.*?) -->", lambda match: constants_of(match[1].split()), markdown)
 
@@ -48,11 +51,21 @@ def on_page_markdown(markdown: str, **_) -> str:
 def other_exports() -> list[str]:
     """References of the names that `jaxkin` exports and no page of the API has."""
     pages = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "docs" / "api").glob("*.md"))
-    listed = set(re.findall(r"^::: jaxkin\.(\w+)", pages, re.M))
-    text = (ROOT / "jaxkin" / "__init__.py").read_text(encoding="utf-8")
-    imports = [node for node in ast.parse(text).body if isinstance(node, ast.ImportFrom)]
+    listed = {*re.findall(r"^::: jaxkin\.(\w+)", pages, re.M), *joints_by_hand()}
+    imports = [node for node in module_body("jaxkin/_api.py") if isinstance(node, ast.ImportFrom)]
     exports = [alias.asname or alias.name for node in imports for alias in node.names]
-    return [f"::: jaxkin.{name}" for name in exports if not name.startswith("_") and name not in listed]
+    return [f"::: jaxkin.{name}" for name in exports if name != "*" and name not in listed]
+
+
+def joints_by_hand() -> list[str]:
+    """Names of the functions that make joints by hand."""
+    assigned = [node for node in module_body("jaxkin/joints/pairs.py") if isinstance(node, ast.Assign)]
+    return next(ast.literal_eval(node.value) for node in assigned if ast.unparse(node.targets[0]) == "__all__")
+
+
+def module_body(path: str) -> list[ast.stmt]:
+    """The statements of a module of the repository."""
+    return ast.parse((ROOT / path).read_text(encoding="utf-8")).body
 
 
 def constants_of(folders: list[str]) -> str:

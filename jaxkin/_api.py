@@ -32,11 +32,14 @@ from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
 from jaxkin.effects.forces.equilibrium import Equilibrium as Equilibrium
 from jaxkin.effects.forces.equilibrium import equilibrium as equilibrium
+from jaxkin.effects.forces.friction_result import Friction as Friction
 from jaxkin.effects.forces.given import Force as Force
+from jaxkin.effects.forces.given import JointFriction as JointFriction
 from jaxkin.effects.forces.given import JointLoad as JointLoad
 from jaxkin.effects.forces.given import Spring as Spring
 from jaxkin.effects.forces.given import Torque as Torque
 from jaxkin.effects.forces.given import force as force
+from jaxkin.effects.forces.given import joint_friction as joint_friction
 from jaxkin.effects.forces.given import joint_load as joint_load
 from jaxkin.effects.forces.given import joint_spring as joint_spring
 from jaxkin.effects.forces.given import spring as spring
@@ -63,6 +66,8 @@ from jaxkin.effects.screw_axes import ScrewAxes as ScrewAxes
 from jaxkin.effects.screw_axes import screw_axes as screw_axes
 from jaxkin.effects.singularities import Singularities as Singularities
 from jaxkin.effects.singularities import singularities as singularities
+from jaxkin.effects.swept_volume import SweptVolume as SweptVolume
+from jaxkin.effects.swept_volume import swept_volume as swept_volume
 from jaxkin.effects.tolerance import Tolerance as Tolerance
 from jaxkin.effects.tolerance import sigma as sigma
 from jaxkin.effects.tolerance_result import AllowedTolerances as AllowedTolerances
@@ -93,21 +98,7 @@ from jaxkin.joints.evidence import Evidence as Evidence
 from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.on_frames import joint_on_frames as joint_on_frames
-from jaxkin.joints.pairs import cam as cam
-from jaxkin.joints.pairs import constant_velocity as constant_velocity
-from jaxkin.joints.pairs import contact_joint as contact_joint
-from jaxkin.joints.pairs import curve_on_curve as curve_on_curve
-from jaxkin.joints.pairs import cylindrical as cylindrical
-from jaxkin.joints.pairs import fixed as fixed
-from jaxkin.joints.pairs import free as free
-from jaxkin.joints.pairs import pin_in_slot as pin_in_slot
-from jaxkin.joints.pairs import planar as planar
-from jaxkin.joints.pairs import point_on_curve as point_on_curve
-from jaxkin.joints.pairs import prismatic as prismatic
-from jaxkin.joints.pairs import revolute as revolute
-from jaxkin.joints.pairs import screw as screw
-from jaxkin.joints.pairs import spherical as spherical
-from jaxkin.joints.pairs import universal as universal
+from jaxkin.joints.pairs import *  # noqa: F403
 from jaxkin.linkage.closure_equations import ClosureEquations as ClosureEquations
 from jaxkin.linkage.linkage import Linkage as Linkage
 from jaxkin.mechanism.inverse.inverse import Inverse as Inverse

@@ -6,6 +6,8 @@ run share them, and the next run has them (`pytest --cache-clear` begins anew). 
 of all (`pytest -m ""`), test the programs that users get.
 """
 
+import ctypes
+import gc
 import os
 from pathlib import Path
 
@@ -32,12 +34,21 @@ def pytest_configure(config):
 MOST_MAPS = 15_000
 """Memory maps of a process above which compiled programs are forgotten. A program has some hundred of them, and Linux
 allows 65,530 by default: beyond that XLA crashes."""
+MOST_MEMORY = 2_000_000_000
+"""Bytes of memory above which they are forgotten, too: a process that runs half of the long tests had 6e9."""
 
 
 def pytest_runtest_teardown(item, nextitem):
     """Forget compiled programs between modules before the process has too many; those on the disk are read again."""
     if nextitem is not None and nextitem.path == item.path:
         return
-    maps = Path("/proc/self/maps")
-    if maps.exists() and maps.read_bytes().count(b"\n") > MOST_MAPS:
+    process = Path("/proc/self")
+    if not (process / "maps").exists():
+        return
+    maps = (process / "maps").read_bytes().count(b"\n")
+    memory = int((process / "statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    if maps > MOST_MAPS or memory > MOST_MEMORY:
         jax.clear_caches()
+        gc.collect()
+        if hasattr(libc := ctypes.CDLL(None), "malloc_trim"):  # glibc keeps what was freed otherwise
+            libc.malloc_trim(0)

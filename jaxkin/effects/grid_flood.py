@@ -26,9 +26,9 @@ from jaxkin.solve.closure.closure import closure, scaled_geometry
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL, input_slopes
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS
 from jaxkin.solve.status import Status, classify, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.joints import Joints

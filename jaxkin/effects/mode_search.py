@@ -26,9 +26,9 @@ from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS
 from jaxkin.solve.status import rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem

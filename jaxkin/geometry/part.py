@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose, apply
 from jaxkin.geometry.surfaces import Surface
 
@@ -64,6 +65,8 @@ class Part:
     """Names of the sub-assemblies that contain the part, outermost first, without the assembly of the whole file."""
     original_name: str = ""
     """The name in the file, before it was cleaned and numbered; empty where the file gives none."""
+    inertial: Inertial | None = None
+    """What the file says that the part weighs, world axes; None where it says nothing."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:
@@ -94,16 +97,19 @@ def moved(part: Part, pose: Pose) -> Part:
     faces = tuple(
         replace(face, surface=face.surface.moved(pose), triangles=apply(pose, face.triangles)) for face in part.faces
     )
-    return replace(part, faces=faces, triangles=apply(pose, part.triangles))
+    inertial = None if part.inertial is None else part.inertial.moved(pose)
+    return replace(part, faces=faces, triangles=apply(pose, part.triangles), inertial=inertial)
 
 
 def scaled(part: Part, factor: float) -> Part:
-    """Enlarge a part by a factor from the origin of the world, as for another unit of length."""
+    """Enlarge a part by a factor from the origin of the world, as for another unit of length: its mass stays."""
     faces = tuple(
         replace(face, surface=face.surface.scaled(factor), triangles=factor * face.triangles) for face in part.faces
     )
     resolution = factor * part.vertex_resolution
-    return replace(part, faces=faces, triangles=factor * part.triangles, vertex_resolution=resolution)
+    inertial = None if part.inertial is None else part.inertial.in_unit(factor)
+    triangles = factor * part.triangles
+    return replace(part, faces=faces, triangles=triangles, vertex_resolution=resolution, inertial=inertial)
 
 
 def size(parts: tuple[Part, ...]) -> float:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +16,9 @@ import numpy as np
 from jaxkin._files import check_file
 from jaxkin._names import nearest
 from jaxkin.geometry.pose import Pose, is_rigid
-from jaxkin.io.robot_model import WORLD, RobotJoint, RobotLink, RobotModel, numbers, placed
-from jaxkin.joints.kinds import JointKind
-from jaxkin.joints.two_frames import two_frames
+from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
+from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, Bodies, add_tie
+from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
 
 FIRST_LINES = ("OndselSolver", "freeCAD: 3D CAD with Motion Simulation  by  askoh.com")
 """First lines of the files, of the solver and of the program that it comes from."""
@@ -29,26 +29,17 @@ MAX_BYTES = 256_000_000
 MAX_DEEP = 40
 """Tabs at the beginning of a line; markers are at eight."""
 
-KINDS = {
-    "FixedJoint": JointKind.FIXED, "RevoluteJoint": JointKind.REVOLUTE, "TranslationalJoint": JointKind.PRISMATIC,
-    "CylindricalJoint": JointKind.CYLINDRICAL, "SphericalJoint": JointKind.SPHERICAL, "PlanarJoint": JointKind.PLANAR,
-    "UniversalJoint": JointKind.UNIVERSAL,
+NOT_KEPT = ("ConstantVelocityJoint",)
+"""Joints that are named and left out."""
+
+SIZES = {
+    "offset": "offset", "distance": "distanceIJ", "angle": "theIzJz", "radius_i": "radiusI", "radius_j": "radiusJ",
+    "radius": "pitchRadius", "pitch": "pitch",
 }  # fmt: skip
-"""Joints -> kind."""
+"""Size of a joint -> its key in the file."""
 
-IN_TURN = {
-    "PointInLineJoint": (JointKind.PRISMATIC, JointKind.SPHERICAL),
-    "PointInPlaneJoint": (JointKind.PLANAR, JointKind.SPHERICAL),
-}
-"""Joints that are two in turn, with a part without a solid between them: from the first marker to the second."""
-
-NOT_KEPT = ("AngleJoint", "GearJoint", "NoRotationJoint", "ParallelAxesJoint", "PerpendicularJoint", "RackPinionJoint",
-            "ConstantVelocityJoint", "SphSphJoint", "CylSphJoint", "RevCylJoint", "RevRevJoint",
-            "LineInPlaneJoint")  # fmt: skip
-"""Joints that are relations between others, or that no joint here is."""
-
-SCREW = "ScrewJoint"
-"""A relation between the turn and the advance of a cylindrical joint."""
+SIZES_OF = {GEAR: ("radius_i", "radius_j"), RACK: ("radius",), SCREW: ("pitch",)}
+"""Joints that tie others -> the sizes that they must have."""
 
 MOTIONS = {"RotationalMotion": "phi", "TranslationalMotion": "z"}
 """Motions -> the coordinate of a joint that they drive."""
@@ -121,42 +112,52 @@ class _Reader:
 
     def __init__(self, file: str, root: Node) -> None:
         self.file, self.root = file, root
-        self.notes: list[str] = []
         self.name = root.said("Name")
-        self.links = {WORLD: RobotLink(WORLD, np.eye(4))}
-        self.markers: dict[str, tuple[str, Pose]] = {}
-        self.joints: list[RobotJoint] = []
+        self.made = MarkerJoints(file, {WORLD: RobotLink(WORLD, np.eye(4))})
+        self.markers: dict[str, Marker] = {}
+        self.sides: dict[str, tuple[str, str]] = {}
+        """Path of a joint -> paths of its markers."""
 
     def model(self) -> RobotModel:
+        made = self.made
         ground = self._pose(self.root)
         self._markers(self.root, WORLD, ground, f"/{self.name}")
         for each in self.root.every("Parts"):
             name = each.said("Name")
-            if name in self.links:
+            if name in made.links:
                 raise ValueError(f"{self.file}, line {each.number}: another part is called {name!r}")
             pose = ground @ self._pose(each)
-            self.links[name] = RobotLink(name, pose)
+            made.links[name] = RobotLink(name, pose)
             self._markers(each, name, pose, f"/{self.name}/{name}")
-        if len(self.links) == 1:
+        if len(made.links) == 1:
             raise ValueError(f"{self.file}: there are no Parts in it")
-        sides: dict[str, tuple[str, str]] = {}
-        for each in self.root.every("ConstraintSets", "Joints"):
-            sides[f"/{self.name}/{each.said('Name')}"] = each.said("MarkerI"), each.said("MarkerJ")
+        joints = list(self.root.every("ConstraintSets", "Joints"))
+        for each in joints:
+            self.sides[f"/{self.name}/{each.said('Name')}"] = each.said("MarkerI"), each.said("MarkerJ")
             self._joint(each)
-        known = {each.name: each for each in self.joints}
-        for each in self.root.every("ConstraintSets", "Joints"):
-            if each.text == SCREW:
-                self._screw(each, known)
-        motors = [self._motor(each, known, sides) for each in self.root.every("ConstraintSets", "Motions")]
+        bodies = Bodies.among(made, (WORLD,))
+        for each in sorted(joints, key=lambda joint: joint.text != SCREW):  # screws first: gears may turn them
+            if each.text in TIES:
+                sizes = self._sizes(each, SIZES_OF[each.text])
+                add_tie(made, bodies, each.text, each.said("Name"), *self._ends(each), sizes, _called(each))
+        motors = [
+            made.motor(self._target(each), MOTIONS.get(each.text), _called(each))
+            for each in self.root.every("ConstraintSets", "Motions")
+        ]
         for each in self.root.every("ConstraintSets", "Limits"):
-            self._limit(each, known, sides)
+            self._limit(each)
         for each in self.root.every("ConstraintSets", "GeneralConstraintSets"):
-            self.notes.append(f"{self.file}: {each.text} {each.said('Name')!r} is not understood; left out")
-        joints = tuple(known.values())
-        needed = {part for each in joints for part in each.parts}
-        links = tuple(link for name, link in self.links.items() if name != WORLD or name in needed)
-        driven = tuple(dict.fromkeys(each for each in motors if each))
-        return RobotModel(links, joints, (WORLD,) if WORLD in needed else (), driven, tuple(self.notes), unit="")
+            made.notes.append(f"{self.file}: {_called(each)} is not understood; left out")
+        needed = {part for each in made.joints.values() for part in each.parts}
+        return RobotModel(
+            tuple(link for name, link in made.links.items() if name != WORLD or name in needed),
+            tuple(made.joints.values()),
+            (WORLD,) if WORLD in needed else (),
+            tuple(dict.fromkeys(each for each in motors if each)),
+            tuple(made.notes),
+            tuple(made.couplings),
+            unit="",
+        )
 
     def _pose(self, node: Node) -> Pose:
         where = f"{self.file}, line {node.number}: {node.text}"
@@ -172,98 +173,60 @@ class _Reader:
     def _markers(self, node: Node, link: str, pose: Pose, path: str) -> None:
         for point in node.every("RefPoints"):
             for each in point.every("Markers"):
-                self.markers[f"{path}/{each.said('Name')}"] = link, pose @ self._pose(point) @ self._pose(each)
+                place = pose @ self._pose(point) @ self._pose(each)
+                self.markers[f"{path}/{each.said('Name')}"] = Marker(link, place)
 
     def _joint(self, node: Node) -> None:
         """Read a joint; what is none is added to the notes."""
-        name = node.said("Name")
-        where = f"{self.file}: {node.text} {name!r}"
-        if node.text == SCREW:
-            return  # it relates the coordinates of another joint
+        where = f"{self.file}: {_called(node)}"
         if node.text in NOT_KEPT:
-            self.notes.append(f"{where} is not kept")
-            return
-        if node.text not in KINDS and node.text not in IN_TURN:
-            raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *IN_TURN, *NOT_KEPT))}")
-        (one, first), (other, second) = (self._marker(node.said(key), where) for key in ("MarkerI", "MarkerJ"))
-        if one == other:
-            self.notes.append(f"{where} is between two markers of {one!r}; left out")
-            return
-        offset = float(numbers(node.said("offset") or "0", 1, f"{where}: offset")[0])
-        first = first @ placed(np.eye(3), (0.0, 0.0, offset))
-        kinds = (KINDS[node.text],) if node.text in KINDS else IN_TURN[node.text]
-        text, before = f"{node.text} {name!r}", one
-        if len(kinds) > 1:
-            between = f"{name}/1"
-            self.links[between] = RobotLink(between, second)
-            self._add(f"{name}/1", (one, between), kinds[0], first, placed(first[:3, :3], second[:3, 3]), text, where)
-            first, before = second, between
-        self._add(name, (before, other), kinds[-1], first, second, text, where)
+            self.made.notes.append(f"{where} is not kept")
+        elif node.text in KINDS or node.text in CHAINS:
+            sizes = self._sizes(node, ("offset", "distance", "angle"))
+            self.made.add(node.text, node.said("Name"), *self._ends(node), sizes, _called(node))
+        elif node.text not in TIES:
+            raise ValueError(f"{where}: expected one of {', '.join((*KINDS, *CHAINS, *TIES, *NOT_KEPT))}")
 
-    def _screw(self, node: Node, known: dict[str, RobotJoint]) -> None:
-        """Make a screw of the cylindrical joint between the same two parts; without one it is noted."""
-        where = f"{self.file}: {node.text} {node.said('Name')!r}"
-        parts = {self._marker(node.said(key), where)[0] for key in ("MarkerI", "MarkerJ")}
-        pin = next((e for e in known.values() if e.kind is JointKind.CYLINDRICAL and {*e.parts} == parts), None)
-        if pin is None:
-            self.notes.append(f"{where} is not kept: there is no CylindricalJoint between its two parts")
-        else:
-            pitch = float(numbers(node.said("pitch"), 1, f"{where}: pitch")[0])
-            known[pin.name] = replace(pin, kind=JointKind.SCREW, pitch=pitch, values=pin.values[1:])
+    def _sizes(self, node: Node, names: Sequence[str]) -> dict[str, float]:
+        """Read the sizes of a joint: of a tie those that it must have, of others those that are there."""
+        where = f"{self.file}: {_called(node)}"
+        said = {name: node.said(SIZES[name]) for name in names}
+        return {
+            name: float(numbers(text, 1, f"{where}: {SIZES[name]}")[0])
+            for name, text in said.items()
+            if text or node.text in TIES
+        }
 
-    def _add(self, name: str, parts: tuple, kind: JointKind, first: Pose, second: Pose, text: str, where: str) -> None:
-        try:
-            frames = two_frames(kind, first, second)
-        except ValueError as error:
-            raise ValueError(f"{where}: {error}") from None
-        self.joints.append(RobotJoint(name, parts, kind, frames.frame_1, frames.frame_2, text, values=frames.values))
+    def _ends(self, node: Node) -> tuple[Marker, Marker]:
+        paths = node.said("MarkerI"), node.said("MarkerJ")
+        for path in paths:
+            if path not in self.markers:
+                known = nearest(path, self.markers)
+                raise ValueError(f"{self.file}: {_called(node)}: unknown marker {path!r}{known}")
+        return self.markers[paths[0]], self.markers[paths[1]]
 
-    def _marker(self, path: str, where: str) -> tuple[str, Pose]:
-        if path not in self.markers:
-            raise ValueError(f"{where}: unknown marker {path!r}{nearest(path, self.markers)}")
-        return self.markers[path]
-
-    def _target(self, node: Node, known: dict[str, RobotJoint], sides: dict[str, tuple[str, str]]) -> RobotJoint | None:
+    def _target(self, node: Node) -> str:
         """Find the joint that a motion or a limit is of: named, or between the same two markers."""
         path = node.said("MotionJoint")
-        if path not in sides:
+        if path not in self.sides:
             markers = node.said("MarkerI"), node.said("MarkerJ")
-            path = next((name for name, own in sides.items() if own == markers and all(own)), path)
-        return known.get(path.removeprefix(f"/{self.name}/"))
+            path = next((name for name, own in self.sides.items() if own == markers and all(own)), path)
+        return path.removeprefix(f"/{self.name}/")
 
-    def _motor(self, node: Node, known: dict[str, RobotJoint], sides: dict[str, tuple[str, str]]) -> str | None:
-        joint, coordinate = self._target(node, known, sides), MOTIONS.get(node.text)
-        where = f"{self.file}: {node.text} {node.said('Name')!r}"
-        names = () if joint is None else COORDINATES.get(joint.kind, ())
-        if joint is None or coordinate not in names:
-            self.notes.append(f"{where} drives no coordinate of a joint that is read; left out")
-            return None
-        return joint.name if len(names) == 1 else f"{joint.name}.{coordinate}"
-
-    def _limit(self, node: Node, known: dict[str, RobotJoint], sides: dict[str, tuple[str, str]]) -> None:
+    def _limit(self, node: Node) -> None:
         """Add a limit to its joint; one that is of none, or not understood, is noted."""
-        joint, coordinate = self._target(node, known, sides), LIMITS.get(node.text)
-        where = f"{self.file}: {node.text} {node.said('Name')!r}"
-        names = () if joint is None else COORDINATES.get(joint.kind, ())
         bound, side = evaluated(node.said("Limit")), node.said("Type")
-        if joint is None or coordinate not in names or bound is None or side not in ("=>", ">=", "=<", "<="):
-            self.notes.append(f"{where} is of no coordinate of a joint that is read; left out")
+        if bound is None or side not in ("=>", ">=", "=<", "<="):
+            self.made.notes.append(f"{self.file}: {_called(node)} is not understood; left out")
             return
-        limits = list(joint.limits or ((-np.inf, np.inf),) * len(names))
-        number = names.index(coordinate)
-        low, high = limits[number]
-        bound -= joint.values[number] if joint.values else 0.0
-        limits[number] = (max(low, bound), high) if ">" in side else (low, min(high, bound))
-        known[joint.name] = replace(joint, limits=tuple(limits))
+        ends = (bound, np.inf) if ">" in side else (-np.inf, bound)
+        self.made.limit(self._target(node), LIMITS.get(node.text), *ends, _called(node))
 
 
-COORDINATES = {
-    JointKind.REVOLUTE: ("phi",),
-    JointKind.PRISMATIC: ("z",),
-    JointKind.SCREW: ("phi",),
-    JointKind.CYLINDRICAL: ("z", "phi"),
-}
-"""Kinds of joints whose coordinates motions and limits are of -> names of these."""
+def _called(node: Node) -> str:
+    """Call an element by its kind and name, for messages."""
+    return f"{node.text} {node.said('Name')!r}"
+
 
 _OPERATIONS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
 

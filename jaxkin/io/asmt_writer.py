@@ -16,7 +16,10 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.pose import Pose
-from jaxkin.io.asmt import COORDINATES, FIRST_LINES, KINDS, LIMITS, MOTIONS, SCREW
+from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS
+from jaxkin.io.asmt_ties import tie
+from jaxkin.io.marker_joints import COORDINATES, KINDS
+from jaxkin.io.marker_ties import SCREW
 from jaxkin.io.names import unique
 from jaxkin.io.robot_model import WORLD, along, placed
 from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
@@ -62,12 +65,13 @@ LAST = (
 def write_asmt(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
     """Write a mechanism as an assembly of FreeCAD's solver (.asmt), in its own unit, and return its path.
 
-    The file holds parts, joints, limits, and motors as motions that hold still; it names no unit, and has no place for
-    solids. Joints that the format does not have are chains of joints of one coordinate each, named "joint_phi". The
-    file appears whole or not at all.
+    The file holds parts, joints, limits, gears, racks and screws, and motors as motions that hold still; it names no
+    unit, and has no place for solids. Joints that the format does not have are chains of joints of one coordinate each,
+    named "joint_phi". The file appears whole or not at all.
 
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, for couplings, and for a joint with a coordinate that turns or slides twice, as a constant velocity joint.
+    pose, for couplings that are no gear, rack or screw of two joints on one other part, and for a joint with a
+    coordinate that turns or slides twice, as a constant velocity joint.
     """
     target = Path(path)
     if target.suffix.lower() != ".asmt":
@@ -93,13 +97,6 @@ class _Writer:
 
     def __init__(self, mechanism: Mechanism, name: str) -> None:
         check_writable(mechanism.all_joints, "assembly")
-        if mechanism.linkage.couplings:
-            coupling = mechanism.linkage.couplings[0]
-            raise ValueError(
-                f"ASMT cannot say the coupling {coupling.name!r}, {coupling}: write the mechanism without it, and what "
-                f"it ties, {listed(list(map(repr, coupling.coordinates)))}, moves on its own; jk.write_mjcf and "
-                "mechanism.save keep couplings"
-            )
         self.name = name
         self.parts = [part for part in mechanism.parts if part != WORLD]
         self.motors = {coordinate(mechanism.linkage, motor): motor for motor in mechanism.motors}
@@ -120,6 +117,17 @@ class _Writer:
                 self._one(number, joint, moved)
             else:
                 self._chain(joint, names[number], moved)
+        by_name = {joint.name: joint for joint in mechanism.all_joints}
+        for coupling in mechanism.linkage.couplings:
+            if (found := tie(coupling, by_name, mechanism.fixed)) is None:
+                raise ValueError(
+                    f"ASMT cannot say the coupling {coupling.name!r}, {coupling}: its gears, racks and screws tie two "
+                    "joints on one other part, a turn and a turn about parallel axes or a slide; write the mechanism "
+                    f"without it, and what it ties, {listed(list(map(repr, coupling.coordinates)))}, moves on its own; "
+                    "jk.write_mjcf and mechanism.save keep couplings"
+                )
+            sizes = tuple((key, _number(size)) for key, size in found.sizes)
+            self.joints.append(_Written(found.kind, coupling.name, found.sides, sizes))
 
     def _is_one(self, joint: Joint, moved: Sequence[int]) -> bool:
         """Tell whether the format has the joint, with the limits and motors that it has."""

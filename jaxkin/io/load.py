@@ -44,8 +44,8 @@ def load(
     (.xml), which SolidWorks, Creo, Inventor and Onshape write, the joints, mates and rigid groups are read too; the
     files of its solids are those beside it. Of a robot (.urdf) the links are the parts, in metres, and its joints are
     read with their limits and motors. A URDF is a tree; `loops` is the YAML file that closes its loops, as in Gepetto's
-    example-parallel-robots. Where the file's own pose is open, the loops are closed, and a note says how far parts were
-    moved.
+    example-parallel-robots. Assemblies of FreeCAD (.FCStd) are read in the same way, in mm, without their
+    solids. Where the file's own pose is open, the loops are closed, and a note says how far parts were moved.
 
     A mechanism that `Mechanism.save` wrote (.json) comes back whole: `jk.load(path).mechanism()`.
 

@@ -14,11 +14,14 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import listed
+from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
+from jaxkin.io.mjcf_attach import attached
 from jaxkin.io.mjcf_keyframe import at_keyframe
 from jaxkin.io.mjcf_shapes import Shapes
 from jaxkin.io.mjcf_text import Compiler, Defaults, included, replicated
 from jaxkin.io.mjcf_ties import Ties
+from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
@@ -54,6 +57,8 @@ class Bodies:
     poses: dict[str, Pose] = field(default_factory=lambda: {WORLD: np.eye(4)})
     """From each body to the world, metres."""
     shapes: dict[str, list[Shape]] = field(default_factory=lambda: {WORLD: []})
+    inertials: dict[str, Inertial] = field(default_factory=dict)
+    """Of the bodies of which the model says what they weigh, in their frames."""
     joints: list[RobotJoint] = field(default_factory=list)
     order: list[str] = field(default_factory=list)
     """Names of the joints in the order of `qpos`; "" for a free one."""
@@ -76,10 +81,12 @@ class _Reader:
 
     def __init__(self, path: Path, root: Element) -> None:
         self.file, self.root = path.name, root
-        self.compiler, self.defaults = Compiler(root, path.name), Defaults(root, path.name)
+        self.compiler = Compiler(root, path.name)
+        notes = attached(root, path, self.compiler)
+        self.defaults = Defaults(root, path.name)
         replicated(root, self.compiler)
         self.shapes = Shapes(root, self.compiler, self.defaults)
-        self.found = Bodies(notes=unknown_parts(root, SECTIONS, path.name))
+        self.found = Bodies(notes=[*notes, *unknown_parts(root, SECTIONS, path.name)])
 
     def model(self) -> RobotModel:
         """Go through the bodies, then what ties them together and what moves them."""
@@ -102,7 +109,9 @@ class _Reader:
         needed = {part for each in joints for part in each.parts}
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
         fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
-        links = tuple(RobotLink(name, found.poses[name], tuple(found.shapes[name])) for name in names)
+        links = tuple(
+            RobotLink(name, found.poses[name], tuple(found.shapes[name]), found.inertials.get(name)) for name in names
+        )
         notes = (*found.notes, *ties.notes)
         model = RobotModel(links, joints, tuple(fixed), motors, notes, couplings)
         model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints))
@@ -137,6 +146,7 @@ class _Reader:
         child_class = element.get("childclass", child_class)
         pose = at @ self.compiler.pose(element.attrib, where)
         found.poses[name], found.shapes[name] = pose, []
+        self._inertial(element, name, child_class, where)
         free = element.find("freejoint") is not None or any(
             self.defaults.said(each, child_class).get("type") == "free" for each in element.iterfind("joint")
         )
@@ -149,6 +159,23 @@ class _Reader:
             joints = [*self._own_joints(element, pose, where)]
             self._chain(joints, parent, name, pose, child_class)
         self._inside(element, name, pose, child_class)
+
+    def _inertial(self, element: Element, body: str, child_class: str | None, where: str) -> None:
+        """Read the mass of a body; where the model has MuJoCo compute it from geoms that weigh, it stays unknown."""
+        found = element.find("inertial")
+        if found is None or self.compiler.said.get("inertiafromgeom") == "true":
+            said = [self.defaults.said(each, each.get("childclass", child_class)) for each in element.iter("geom")]
+            own = sum(1 for _ in element.iterfind("geom")) + sum(1 for _ in element.iterfind("frame"))
+            if not own or all("0" in (each.get("mass"), each.get("density")) for each in said):
+                self.found.inertials[body] = NONE
+            return
+        where = f"{where}: inertial"
+        mass = float(numbers(found.get("mass"), 1, where)[0])
+        if (full := found.get("fullinertia")) is not None:
+            six = numbers(full, 6, where)
+        else:
+            six = np.concatenate([numbers(found.get("diaginertia"), 3, where), np.zeros(3)])
+        self.found.inertials[body] = inertial(mass, self.compiler.pose(found.attrib, where), six, where)
 
     def _own_joints(self, element: Element, at: Pose, where: str) -> Iterator[tuple[Element, Pose]]:
         """Yield the joints of a body with the place that they are given in: those in frames are given in these."""
@@ -170,7 +197,7 @@ class _Reader:
         for number, (each, at) in enumerate(joints, start=1):
             after = body if number == len(joints) else f"{body}/{number}"
             if after != body:
-                found.poses[after], found.shapes[after] = pose, []
+                found.poses[after], found.shapes[after], found.inertials[after] = pose, [], NONE
             name = each.get("name") or f"{body}/joint {number}"
             found.joints.append(self._joint(each, name, (before, after), at, child_class))
             found.order.append(name)

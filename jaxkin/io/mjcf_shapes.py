@@ -58,7 +58,7 @@ class Shapes:
     def _mesh(self, name: str, where: str, pose: np.ndarray) -> Shape:
         said = self.meshes.get(name, {"file": name})
         file = said.get("file", "")
-        if self.compiler.strip:
+        if self.compiler.strip and "folder" not in said:
             file = file.replace("\\", "/").rpartition("/")[2]
         reference = placed(
             quaternion(numbers(said.get("refquat"), 4, where, (1, 0, 0, 0)), where),
@@ -67,7 +67,7 @@ class Shapes:
         scale = tuple(numbers(said.get("scale"), 3, where, (1, 1, 1)))
         if not file and "vertex" in said:
             return Shape(pose @ inverse(reference), "mesh", scale, name, _inline(said, f"{where}: mesh {name!r}"))
-        folder = self.compiler.folder.rstrip("/")
+        folder = said.get("folder", self.compiler.folder).rstrip("/")  # an attached model lies in one of its own
         return Shape(pose @ inverse(reference), "mesh", scale, f"{folder}/{file}" if folder else file)
 
 

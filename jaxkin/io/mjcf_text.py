@@ -23,6 +23,9 @@ MAX_COPIED = 100_000
 MAIN = "main"
 """Name of the outermost default class where the file gives none."""
 
+WRITTEN_OUT = "(written out)"
+"""Class of elements that have all attributes themselves: those of attached models."""
+
 
 def included(root: Element, path: Path) -> Element:
     """Put the elements of included files in the place of each <include>, those of the files that they include too.
@@ -165,6 +168,7 @@ class Defaults:
             self.main = name if number == 0 else self.main
             self._read(each, name, self.classes.get(name, {}))
         self.classes.setdefault(self.main, {})
+        self.classes[WRITTEN_OUT] = {}
 
     def _read(self, element: Element, name: str, above: Mapping[str, dict[str, str]]) -> None:
         """Read a class and those in it; each has what the one around it has."""

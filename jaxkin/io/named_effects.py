@@ -53,9 +53,9 @@ def _forces(
 ) -> dict[str, Result]:
     """Compute drive forces and reactions under weight, at rest or for constant `speeds`, degrees and lengths a second.
 
-    `density` is that of `jk.masses`: kg/m^3, the name of a material, or either by part.
+    `density` is that of `jk.masses`: kg/m^3, the name of a material, or either by part; files of robots need none.
     """
-    if density is None:
+    if density is None and not any(part.inertial for part in motion.mechanism.solids):
         raise ValueError(
             "forces needs the density of the parts, in kg/m^3 or the name of a material: write in a study "
             '[effects.forces] with density = "steel", or density = { crank = 2700, "*" = 7850 }'

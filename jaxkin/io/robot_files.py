@@ -8,6 +8,7 @@ from xml.etree.ElementTree import Element
 from jaxkin.assembly.exported import Exported
 from jaxkin.geometry.part import Part
 from jaxkin.io.asmt import read_asmt
+from jaxkin.io.fcstd import read_fcstd
 from jaxkin.io.mjcf import read_mjcf
 from jaxkin.io.robots import assembled
 from jaxkin.io.sdf import read_sdf
@@ -17,7 +18,10 @@ from jaxkin.io.xml_tree import read_xml
 ASMT = ".asmt"
 """The suffix of assemblies of FreeCAD's solver."""
 
-ROBOT_SUFFIXES = (".urdf", ".mjcf", ".sdf", ".world", ASMT)
+FCSTD = ".fcstd"
+"""The suffix of FreeCAD's own documents."""
+
+ROBOT_SUFFIXES = (".urdf", ".mjcf", ".sdf", ".world", ASMT, FCSTD)
 """Suffixes of robot files; those of MuJoCo are ".xml", as other files are too."""
 
 ROBOT_ROOTS = ("robot", "mujoco", "sdf")
@@ -32,9 +36,10 @@ def read_robot(
     `loops` is the YAML file of the loops of a URDF. Raises FileNotFoundError where a file is not there, and ValueError,
     in one line, for what is not understood or not safe to leave out.
     """
-    if path.suffix.lower() == ASMT:
+    suffix = path.suffix.lower()
+    if suffix in (ASMT, FCSTD):
         _refuse_loops(path, loops)
-        return assembled(read_asmt(path), path, seconds)
+        return assembled(read_asmt(path) if suffix == ASMT else read_fcstd(path), path, seconds)
     root = read_xml(path) if root is None else root
     if root.tag == "robot":
         return assembled(read_urdf(path, root, loops), path, seconds)

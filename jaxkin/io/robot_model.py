@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose, rotation
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
@@ -48,6 +49,8 @@ class RobotLink:
     pose: Pose
     """From the link to the world, metres."""
     shapes: tuple[Shape, ...] = ()
+    inertial: Inertial | None = None
+    """In the frame of the link, metres; None where the file says nothing of its mass."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,7 +118,8 @@ def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.nd
     found = [triangles for shape in link.shapes if (triangles := triangles_of(shape, link.name)) is not None]
     notes = () if found or not link.shapes else ("no file of its solid",)
     corners = np.concatenate(found) if found else _corners(Shape(np.eye(4), "box", (mark,) * 3))
-    return Part(name, (), apply(link.pose, corners), notes=notes, original_name=link.name)
+    inertial = None if link.inertial is None else link.inertial.moved(link.pose)
+    return Part(name, (), apply(link.pose, corners), notes=notes, original_name=link.name, inertial=inertial)
 
 
 def _corners(shape: Shape) -> np.ndarray:

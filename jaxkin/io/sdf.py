@@ -8,14 +8,15 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
+from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_inertials import sdf_inertial
 from jaxkin.io.robot_model import (
     WORLD,
     RobotJoint,
     RobotLink,
     RobotModel,
-    Shape,
     along,
     direction,
     limit,
@@ -26,6 +27,8 @@ from jaxkin.io.robot_model import (
     unknown_parts,
 )
 from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
+from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
+from jaxkin.io.sdf_shapes import shapes_of
 from jaxkin.io.xml_tree import read_xml
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
@@ -107,6 +110,7 @@ class _Reader:
         self.joints: list[RobotJoint] = []
         self.fixed: list[str] = []
         self.motors: list[str] = []
+        self.gearboxes: list[Gearbox] = []
         self.mimics: list[tuple[str, str, Element, str]] = []
         """Of each joint that follows another: its name, the prefix of its model, the element, and its place."""
 
@@ -130,10 +134,10 @@ class _Reader:
                 self.notes.append(f"{self.file}: a controller is of {name!r}, which is no joint that moves; left out")
         motors = tuple(dict.fromkeys(name for name in self.motors if name in known))
         joints = {each.name: each for each in self.joints}
-        couplings = tuple(made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None)
-        return RobotModel(
-            tuple(links), tuple(self.joints), tuple(fixed), motors, tuple(self.notes), couplings=couplings
-        )
+        couplings = [made for mimic in self.mimics if (made := self._mimic(*mimic, joints)) is not None]
+        couplings += gearboxes(self.file, self.gearboxes, self.links, self.joints, fixed, self.notes)
+        notes, joints = tuple(self.notes), tuple(self.joints)
+        return RobotModel(tuple(links), joints, tuple(fixed), motors, notes, couplings=tuple(couplings))
 
     def _frames(self, model: Element) -> Frames:
         inner = {each.get("name", ""): self._frames(each) for each in model.iterfind("model")}
@@ -146,8 +150,9 @@ class _Reader:
         static = static or (model.findtext("static") or "").strip() in ("true", "1")
         for each in model.iterfind("link"):
             name = each.get("name", "")
-            shapes = tuple(self._shapes(each))
-            self.links[prefix + name] = RobotLink(prefix + name, pose @ frames.in_model(name), shapes)
+            shapes = shapes_of(each, self.file, self.notes)
+            place, weighs = pose @ frames.in_model(name), sdf_inertial(each, f"{self.file}: {tag(each)}: inertial")
+            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, weighs)
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")
@@ -162,10 +167,7 @@ class _Reader:
         """Read a joint: of "revolute2" two, with a part without a solid between them."""
         name, said = prefix + each.get("name", ""), each.get("type", "")
         where = f"{self.file}: {tag(each)}"
-        if said in RELATIONS:
-            self.notes.append(f"{where} of type {said!r} is not kept: the two joints move on their own")
-            return
-        if said not in KINDS:
+        if said not in KINDS and said not in RELATIONS:
             raise ValueError(f"{where}: expected one of the types {', '.join((*KINDS, *RELATIONS))}, got {said!r}")
         ends = []
         for side in ("parent", "child"):
@@ -173,6 +175,9 @@ class _Reader:
             ends.append(link if link == WORLD else prefix + link)
         if static:
             return  # all of its links are at rest
+        if said in RELATIONS:
+            self.gearboxes.append(self._gearbox(each, frames, prefix, pose, ends))
+            return
         if ends[0] == ends[1]:
             raise ValueError(f"{where}: its parent and its child are the same link, {ends[0]!r}")
         own = frames.in_model(each.get("name", ""))
@@ -194,18 +199,30 @@ class _Reader:
         parts = (ends[0], ends[1])
         if said == "revolute2":
             between = f"{name}/1"
-            self.links[between] = RobotLink(between, frame)
+            self.links[between] = RobotLink(between, frame, inertial=NONE)
             self.joints.append(RobotJoint(f"{name} 1", (ends[0], between), kind, frame, frame, text, limits))
             frame = pose @ placed(along(other), own[:3, 3])
             name, parts, limits = f"{name} 2", (between, ends[1]), self._limits(second, where)
         pitch = self._pitch(each, where) if kind is JointKind.SCREW else 0.0
         self.joints.append(RobotJoint(name, parts, kind, frame, frame, text, limits, pitch=pitch))
 
+    def _gearbox(self, each: Element, frames: Frames, prefix: str, pose: Pose, ends: list[str]) -> Gearbox:
+        """Read a gearbox; ValueError where it does not say the link that its angles count from."""
+        where = f"{self.file}: {tag(each)}"
+        said = (each.findtext("gearbox_reference_body") or "").strip()
+        if not said:
+            raise ValueError(f"{where}: expected the link that its angles count from in <gearbox_reference_body>")
+        link = frames.link_of(said)
+        own = frames.in_model(each.get("name", ""))
+        first, second = (pose[:3, :3] @ self._axis(each.find(key), own, frames, where) for key in ("axis", "axis2"))
+        ratio = float(numbers(each.findtext("gearbox_ratio"), 1, f"{where}: gearbox_ratio", (1.0,))[0])
+        name, reference = prefix + each.get("name", ""), link if link == WORLD else prefix + link
+        return Gearbox(name, ends[0], ends[1], reference, (first, second), ratio, f"{tag(each)} of type 'gearbox'")
+
     def _mimic(
         self, name: str, prefix: str, mimic: Element, where: str, joints: dict[str, RobotJoint]
     ) -> Coupling | None:
-        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for a leader that is not
-        there."""
+        """Make the coupling `name = multiplier (leader - reference) + offset`; ValueError for an unknown leader."""
         leader = prefix + mimic.get("joint", "")
         if leader not in joints:
             raise ValueError(f"{where}: mimic names the unknown joint {leader!r}{nearest(leader, joints)}")
@@ -246,27 +263,6 @@ class _Reader:
             return float(numbers(said, 1, where)[0])
         turns = float(numbers(each.findtext("thread_pitch"), 1, where, (-2 * np.pi,))[0])
         return -2 * np.pi / turns if turns else 0.0
-
-    def _shapes(self, link: Element) -> list[Shape]:
-        """Read what is seen of a link; where that is nothing, what it collides with."""
-        found = []
-        for each in link.findall("visual") or link.findall("collision"):
-            pose = read_pose(each, f"{self.file}: {tag(link)}")
-            where = f"{self.file}: {tag(link)}: {tag(each)}"
-            for solid in each.iterfind("geometry/*"):
-                sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),
-                         "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
-                if solid.tag == "mesh":
-                    scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
-                    found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
-                elif solid.tag in sizes:
-                    size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
-                            for key in sizes[solid.tag]]  # fmt: skip
-                    kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
-                    found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
-                elif solid.tag not in ("plane", "empty"):
-                    self.notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
-        return found
 
 
 def _cross(one: np.ndarray, other: np.ndarray, where: str) -> np.ndarray:

@@ -8,8 +8,10 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
+from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
+from jaxkin.io.robot_inertials import SIX, inertial
 from jaxkin.io.robot_loops import Loops, read_loops
 from jaxkin.io.robot_model import (
     RobotJoint,
@@ -78,7 +80,9 @@ class _Reader:
             parent, child = self._parts(each)
             poses[child] = poses[parent] @ self._origin(each.find("origin"), tag(each))
             joints.append(self._joint(each, (parent, child), poses[child]))
-        links = tuple(RobotLink(name, poses[name], self._shapes(each)) for name, each in self.links.items())
+        links = tuple(
+            RobotLink(name, poses[name], self._shapes(each), self._inertial(each)) for name, each in self.links.items()
+        )
         known = {each.name: each for each in joints}
         for name, _ in self.loops.kinds:
             self._known(name, known, "joint_name")
@@ -188,6 +192,17 @@ class _Reader:
         if low > high:
             self.notes.append(f"{where}: its lower limit {low:g} is above the upper one {high:g}; left out")
         return limits_between(low, high) if low <= high else ()
+
+    def _inertial(self, link: Element) -> Inertial | None:
+        """Read the mass of a link: none where only others have one, unknown where no link has."""
+        found, where = link.find("inertial"), f"{self.file}: {tag(link)}: inertial"
+        if found is None:
+            return NONE if self.root.find("link/inertial") is not None else None
+        given = {each.tag: each for each in found}
+        mass = numbers(given["mass"].get("value") if "mass" in given else None, 1, f"{where}: mass")
+        matrix = given["inertia"].attrib if "inertia" in given else {}
+        six = [float(numbers(matrix.get(name), 1, f"{where}: {name}", (0,))[0]) for name in SIX]
+        return inertial(float(mass[0]), self._origin(given.get("origin"), f"{tag(link)}: inertial"), six, where)
 
     def _shapes(self, link: Element) -> tuple[Shape, ...]:
         """Read what is seen of a link; where that is nothing, what it collides with."""

@@ -23,6 +23,11 @@ def read_xml(path: Path) -> Element:
     """
     if (size := check_file(path, "file in XML")) > MOST_BYTES:
         raise ValueError(f"{path.name}: {size} bytes of XML; at most {MOST_BYTES} are read")
+    return parse_xml(path.read_bytes(), path.name)
+
+
+def parse_xml(data: bytes, name: str) -> Element:
+    """Read the root element of XML as `read_xml` does; `name` is what messages call it."""
     builder, depth = TreeBuilder(), 0
     parser = expat.ParserCreate()
 
@@ -30,7 +35,7 @@ def read_xml(path: Path) -> Element:
         nonlocal depth
         depth += 1
         if depth > MOST_DEEP:
-            raise ValueError(f"{path.name}: elements nested more than {MOST_DEEP} deep")
+            raise ValueError(f"{name}: elements nested more than {MOST_DEEP} deep")
         builder.start(tag.rpartition(":")[2], attributes)
 
     def end(tag: str) -> None:
@@ -39,13 +44,13 @@ def read_xml(path: Path) -> Element:
         builder.end(tag.rpartition(":")[2])
 
     def refuse(*_: object) -> None:
-        raise ValueError(f"{path.name}: declares a document type (DOCTYPE), which may hold entities; remove the line")
+        raise ValueError(f"{name}: declares a document type (DOCTYPE), which may hold entities; remove the line")
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.CharacterDataHandler = builder.data
     parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(path.read_bytes(), True)
+        parser.Parse(data, True)
     except expat.ExpatError as error:
-        raise ValueError(f"{path.name}: damaged XML: {error}") from None
+        raise ValueError(f"{name}: damaged XML: {error}") from None
     return builder.close()

@@ -23,6 +23,24 @@ from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
 
+__all__ = [  # noqa: RUF022 - what users import from `jaxkin`, in the order of the documents
+    "revolute",
+    "prismatic",
+    "cylindrical",
+    "planar",
+    "spherical",
+    "universal",
+    "constant_velocity",
+    "screw",
+    "fixed",
+    "free",
+    "pin_in_slot",
+    "point_on_curve",
+    "cam",
+    "curve_on_curve",
+    "contact_joint",
+]
+
 
 def revolute(
     name: str, part1: str, part2: str, *, point: Triple, axis: Triple, limits: GivenLimits | None = None

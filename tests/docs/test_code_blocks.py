@@ -17,6 +17,7 @@ import typer
 
 import jaxkin as jk
 from documents import PAGES, blocks, name
+from reference.freecad import slider_crank
 
 LONG = {
     f"docs/{page}.md"
@@ -59,6 +60,7 @@ def files(tmp_path_factory) -> Path:
             content = packed.extractfile(f"gepetto__5bar_linkage{suffix}")
             assert content is not None
             (folder / f"robot{suffix}").write_bytes(content.read())
+    slider_crank(folder)  # "machine.FCStd"
     for part in jk.load(folder / "fourbar.step").parts:
         mesh = trimesh.Trimesh(**trimesh.triangles.to_kwargs(part.triangles))
         mesh.export(folder / f"{part.name}.stl")

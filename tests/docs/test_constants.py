@@ -1,9 +1,12 @@
-"""The constants that `docs/solver.md` lists: each says why it has its value."""
+"""What `docs/site_hooks.py` puts into pages: constants with their reasons, and the references of what users import."""
 
 import importlib.util
+import inspect
+import re
 
 import pytest
 
+import jaxkin as jk
 from documents import ROOT
 
 FOLDERS = ("linkage", "mechanism", "mobility", "solve")
@@ -22,3 +25,12 @@ def test_every_constant_stands_alone_and_says_why(hooks):
     found = [(path.relative_to(ROOT).as_posix(), *row) for path in MODULES for row in hooks.constants(path)]
     assert len(found) > 60
     assert [row[:2] for row in found if "," in row[1] or not row[3]] == []
+
+
+def test_all_that_users_import_has_one_entry_in_the_documents(hooks):
+    pages = (ROOT / "docs" / "api").glob("*.md")
+    text = "\n".join(hooks.on_page_markdown(page.read_text(encoding="utf-8")) for page in pages)
+    entries = re.findall(r"^::: jaxkin\.(\w+)$", text, re.M)
+    assert len(entries) == len({*entries})
+    public = {name for name in dir(jk) if not name.startswith("_") and not inspect.ismodule(getattr(jk, name))}
+    assert public - {*entries} == set()

@@ -71,10 +71,11 @@ CASES = {
     "driven ball": (on_ball, {"ball.theta": 0.2 * WAY, "ball.phi": -0.1 * WAY, "ball.psi": 0.3 * WAY}),
     "target": (catalogue.jansen, None),
 }
+SLOW = ("Jansen", "ball in a bore", "driven ball")
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.study] * (name in SLOW)) for name in CASES])
 def test_rates_are_derivatives_of_the_sweep(name):
     make, drive = CASES[name]
     mechanism = make()

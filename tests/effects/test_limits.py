@@ -181,7 +181,10 @@ def test_what_has_no_limits_is_refused():
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("mechanism", "drive", "hold"),
-    [(stephenson(), "G", []), (hexapod(), "leg 0", [f"leg {i}" for i in range(1, 6)])],
+    [
+        (stephenson(), "G", []),
+        pytest.param(hexapod(), "leg 0", [f"leg {i}" for i in range(1, 6)], marks=pytest.mark.study),
+    ],
     ids=["Stephenson", "hexapod"],
 )
 def test_a_sweep_ends_there(mechanism, drive, hold):

@@ -146,6 +146,7 @@ def test_what_is_no_map_is_refused():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_two_legs_of_a_hexapod():
     """The legs of all poses are as long as they were told; the others rest."""
     mechanism, grid = hexapod(), np.linspace(-30.0, 30.0, 13)

@@ -46,6 +46,62 @@ def test_the_ground_is_called_world_where_the_mechanism_has_one(tmp_path):
     assert back.fixed == ("world",) and back.parts == ("world", "arm")
 
 
+def on_carrier(coupling, *, ground=False, flip=1, axis=Z, kind=jk.revolute):
+    """A turn and another joint on an arm, or on two fixed parts, tied to each other."""
+    arm = jk.revolute("arm", GROUND, "carrier", point=(0.5, 0.2, 0), axis=Z)
+    on = ("left", "right") if ground else ("carrier", "carrier")
+    a = jk.revolute("a", "one", on[0], point=(1, 0, 0), axis=(0, 0, flip))
+    b = kind("b", on[1], "two", **({"point": (3, 1, 0.5)} if kind is jk.revolute else {}), axis=axis)
+    fixed = ["left", "right"] if ground else [GROUND]
+    return jk.Mechanism.build(fixed=fixed, joints=[*(() if ground else (arm,)), a, b], couplings=[coupling])
+
+
+@pytest.mark.parametrize("flip", [1, -1])
+@pytest.mark.parametrize("ground", [False, True])
+@pytest.mark.parametrize(
+    ("coupling", "axis", "kind"),
+    [
+        (jk.gear("a", "b", -0.4, name="ring"), (0, 0, 1), jk.revolute),
+        (jk.gear("a", "b", 0.4, name="outer"), (0, 0, 1), jk.revolute),
+        (jk.gear("a", "b", 0.4), (0, 0, -1), jk.revolute),
+        (jk.belt("b", "a", 2.0, 0.7), (0, 0, 1), jk.revolute),
+        (jk.rack("a", "b", 0.8), (0.6, 0.8, 0), jk.prismatic),
+        (jk.rack("a", "b", -0.8), (0.6, 0.8, 0), jk.prismatic),
+        (jk.relation({"b": 2.0, "a": 0.1}), (0, 0, 1), jk.prismatic),
+        (jk.relation({"a": 2.0, "b": 0.1}), (0, 0, -1), jk.prismatic),
+    ],
+    ids=lambda value: getattr(value, "name", ""),
+)
+def test_gears_belts_racks_and_screws_come_back(tmp_path, coupling, axis, kind, ground, flip):
+    mechanism = on_carrier(coupling, ground=ground, flip=flip, axis=axis, kind=kind)
+    back = written(mechanism, tmp_path).mechanism()
+    assert [each.name for each in back.linkage.couplings] == [coupling.name]
+    compare_moved(mechanism, back, single=False, metres=False)
+
+
+def test_wheels_that_touch_have_radii_that_reach_from_axis_to_axis(tmp_path):
+    jk.write_asmt(on_carrier(jk.gear("a", "b", 0.4)), tmp_path / "model.asmt")
+    lines = [line.strip() for line in (tmp_path / "model.asmt").read_text().splitlines()]
+    radii = [float(lines[lines.index(key) + 1]) for key in ("radiusI", "radiusJ")]
+    np.testing.assert_allclose(sum(np.abs(radii)), np.hypot(2, 1), rtol=1e-15)
+
+
+@pytest.mark.parametrize(
+    "mechanism",
+    [
+        on_carrier(jk.relation({"arm": 1.0, "b": 0.5})),  # on two carriers
+        on_carrier(jk.polynomial("a", "b", [0.0, 1.0, 0.5])),
+        on_carrier(jk.gear("a", "b", 1.0), axis=(0, 1, 0)),  # bevel wheels
+        on_carrier(jk.rack("a", "b", 1.0), axis=(0, 0.6, 0.8), kind=jk.prismatic),
+    ],
+    ids=["carriers", "curved", "bevel", "askew"],
+)
+def test_couplings_that_are_no_gear_rack_or_screw_are_refused(tmp_path, mechanism):
+    with pytest.raises(ValueError, match="ASMT cannot say the coupling"):
+        jk.write_asmt(mechanism, tmp_path / "model.asmt")
+    assert not list(tmp_path.iterdir())
+
+
 def test_what_cannot_be_written_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"\.asmt file"):
         jk.write_asmt(planar_fourbar(), tmp_path / "model.xml")

@@ -67,6 +67,7 @@ def test_derivatives_with_respect_to_the_profile_are_differences(oval):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_a_profile_is_designed():
     """The points of a profile are variables of an optimiser: the law of another cam is found again."""
     wanted = roller()

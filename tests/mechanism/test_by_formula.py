@@ -122,8 +122,13 @@ def test_the_tolerance_and_the_method_that_are_asked_for_decide(general):
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "ways"),
-    [("four-bar", "001110"), ("Watt", "001110"), ("slider-crank", "000110"), ("spherical four-bar", "111000")]
-    + [("RSSR", "111111")],
+    [
+        ("four-bar", "001110"),
+        ("slider-crank", "000110"),
+        ("RSSR", "111111"),
+        pytest.param("Watt", "001110", marks=pytest.mark.study),
+        pytest.param("spherical four-bar", "111000", marks=pytest.mark.study),
+    ],
 )
 def test_derivatives_are_the_implicit_ones(name, ways, general):
     """By the inputs, and by where the joints are: all frames are displaced, in ways that keep the loops closed."""

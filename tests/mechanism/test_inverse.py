@@ -140,6 +140,7 @@ def test_all_working_modes_from_many_starts():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_a_delta_with_a_path_that_leaves_its_reach():
     start = np.array([20.0, -30.0, -420.0])
     target = jk.point("platform", start)

@@ -6,7 +6,6 @@ from functools import partial
 
 import numpy as np
 
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS
 from reference import catalogue, planar
 from reference.hard_case import TURN, HardCase, angles, displacements, turn
 from reference.hard_fourbars import (
@@ -33,8 +32,6 @@ CHANGE_POINTS = (
             {"A": drive},
             displacements(lambda given: {"B": -given, "C": given, "D": given}),
             "rocker turns as the crank",
-            # of second order at a change point: an accepted residual is half of the error times `sigma_min`
-            roundings=2 * CLOSED_ROUNDINGS if how == "exactly at 0 and pi" else 100,
         )
         for how, drive in {
             "a turn forwards": turn(25),

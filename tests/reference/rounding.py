@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -78,7 +79,7 @@ def tilted_fourbar(tilt: float, **options) -> Mechanism:
 
 
 def _from_solids(name: str, fixed: str) -> Callable[[], Mechanism]:
-    return lambda: load(path(name)).mechanism(fixed=[fixed])
+    return cache(lambda: load(path(name)).mechanism(fixed=[fixed]))
 
 
 EVERY: dict[str, Callable[[], Mechanism]] = {

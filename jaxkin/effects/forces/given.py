@@ -71,13 +71,26 @@ class JointLoad:
     """Newton metre seconds per radian, or newton seconds per metre."""
 
 
-Applied = Force | Torque | Spring | JointLoad
+@dataclass(frozen=True, eq=False)
+class JointFriction:
+    """Coulomb friction in a joint: see `jk.joint_friction`."""
+
+    joint: str
+    coefficient: Float[Array | np.ndarray, ""]
+    radius: Float[Array | np.ndarray, ""] | None
+    """Radius at which the faces touch, unit of the mechanism; None for a joint that does not turn with friction."""
+    smooth: Float[Array | np.ndarray, ""]
+    """Speed of sliding, unit of the mechanism a second, below which friction fades; 0 for none."""
+
+
+Applied = Force | Torque | Spring | JointLoad | JointFriction
 
 for _kind, _fields, _static in (
     (Force, ["point", "vector"], ["part", "turns"]),
     (Torque, ["vector"], ["part", "turns"]),
     (Spring, ["points", "stiffness", "length", "damping"], ["parts"]),
     (JointLoad, ["load", "stiffness", "rest", "damping"], ["coordinate"]),
+    (JointFriction, ["coefficient", "radius", "smooth"], ["joint"]),
 ):
     jax.tree_util.register_dataclass(_kind, data_fields=_fields, meta_fields=_static)
 
@@ -132,6 +145,35 @@ def joint_load(coordinate: str, load: Any) -> JointLoad:
     It acts on part 2 of the joint along the coordinate, and its opposite on part 1.
     """
     return JointLoad(coordinate, _numbers(load, f"the load in {coordinate!r}"), *[np.zeros(())] * 3)
+
+
+def joint_friction(joint: str, coefficient: Any, *, radius: Any = None, smooth: Any = 0.0) -> JointFriction:
+    """Put Coulomb friction into a joint: force on its sliding faces = coefficient times what presses them together.
+
+    The faces of hinges, cylindrical joints, screws and balls touch at `radius` from the axis or centre, unit of the
+    mechanism: friction there is a torque of coefficient x radius x force. What presses them together is the force that
+    the joint transmits: all of it in a hinge or a ball, across the axis in a slide or a cylindrical joint, along the
+    normal of a plane, across the thread of a screw, of mean radius `radius`. Torques across the axis, which tilt a pin
+    in its bearing, press nothing.
+
+    Friction acts against the sliding velocity, of a cylindrical joint against that of turn and slide together. At rest
+    it has no direction. With `smooth`, a speed v0 in the unit of the mechanism a second, it is multiplied by
+    v / sqrt(v^2 + v0^2). One number each. Raises ValueError for numbers below zero.
+    """
+    what = f"the friction of {joint!r}"
+    given = [_one(coefficient, what, "coefficient"), _one(smooth, what, "smooth")]
+    across = None if radius is None else _one(radius, what, "radius")
+    if across is not None and not traced(across) and across == 0:
+        raise ValueError(f"the radius of {what} must be above zero")
+    return JointFriction(joint, given[0], across, given[1])
+
+
+def _one(given: Any, what: str, name: str) -> Any:
+    """One number from zero on; ValueError for others."""
+    found = _real(given, f"the {name} of {what}", "one number")
+    if found.shape != () or (not traced(found) and not (np.isfinite(found) and found >= 0)):
+        raise ValueError(f"the {name} of {what} must be one number from 0 on, got {given!r}")
+    return found
 
 
 def _vectors(given: Any, what: str, one: bool = False) -> Vectors:

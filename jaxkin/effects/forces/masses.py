@@ -1,4 +1,4 @@
-"""Mass, centre and inertia of the parts of a mechanism: from their solids, or as they are given."""
+"""Mass, centre and inertia of the parts of a mechanism: from their solids or their file, or as they are given."""
 
 from __future__ import annotations
 
@@ -103,11 +103,13 @@ def masses(
     *,
     given: Mapping[str, Mass | Number] | None = None,
 ) -> Masses:
-    """Find mass, centre and inertia of each part of a mechanism, from its solids or as they are given.
+    """Find mass, centre and inertia of each part of a mechanism: as given, as its file says, or from its solids.
 
     `density` is in kg/m^3, or the name of a material in `jaxkin.effects.forces.masses.DENSITIES`; a dictionary has one
     for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its `jk.Mass`, or
-    only its kilograms: it needs no density, and on mechanisms by hand no solid. Fixed parts need no mass.
+    only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots say what their links
+    weigh: that goes before a density for all parts ("*" too), and not before one that names the part. Fixed parts need
+    no mass.
 
     Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
     mass can be found, with what to write; for solids that are open, and for unknown parts and materials.
@@ -119,13 +121,15 @@ def masses(
         if name not in mechanism.parts:
             raise ValueError(f"there is no part {name!r} to give a mass{nearest(str(name), mechanism.parts)}")
     solids = {part.name: part for part in mechanism.solids}
-    densities = _densities(density, mechanism, tuple(solids.values()))
+    densities, named = _densities(density, tuple(solids.values()))
     rows, missing = [], []
     for name in mechanism.parts:
         if name in known:
             rows.append(_given(name, known[name], solids.get(name), METRES[mechanism.unit]))
         elif name in mechanism.fixed:
             rows.append((0.0, np.zeros(3), np.zeros((3, 3))))
+        elif name in solids and name not in named and (own := solids[name].inertial) is not None:
+            rows.append((own.mass, own.centre, own.inertia))
         elif name in solids and name in densities:
             rows.append(_of_solid(solids[name], densities[name], METRES[mechanism.unit]))
         else:
@@ -152,18 +156,20 @@ def _what_is_missing(missing: Sequence[str], solids: Mapping[str, Part], density
     )
 
 
-def _densities(density: Any, mechanism: Mechanism, solids: Sequence[Part]) -> dict[str, Any]:
-    """Density of each part that has one, kg/m^3."""
+def _densities(density: Any, solids: Sequence[Part]) -> tuple[dict[str, Any], set[str]]:
+    """Density of each part that has one, kg/m^3, and the parts that it names by more than "*"."""
     if density is None:
-        return {}
+        return {}, set()
     if not isinstance(density, Mapping):
-        return dict.fromkeys((part.name for part in solids), _density(density))
+        return dict.fromkeys((part.name for part in solids), _density(density)), set()
     found: dict[str, Any] = {}
+    named: set[str] = set()
     # a pattern with "*" gives way to names, and "*" alone to all others
     for key in sorted(density, key=lambda key: ("*" not in str(key), len(str(key)))):
         for name in match_parts(key, solids, "density"):
             found[name] = _density(density[key])
-    return found
+            named |= {name} if key != "*" else set()
+    return found, named
 
 
 def _density(given: Any) -> Any:

@@ -17,6 +17,8 @@ from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.effects.forces.balance import balance, solve
 from jaxkin.effects.forces.changes import changes, unmoved
+from jaxkin.effects.forces.friction import friction
+from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.screws import Scale, cross
@@ -26,9 +28,11 @@ from jaxkin.effects.forces.wrenches import (
     Acting,
     Loads,
     Moving,
+    Wrench,
     acting_on,
     check,
     given_rates,
+    loads_and_frictions,
     units_of,
     weights,
 )
@@ -69,6 +73,8 @@ class Reactions:
     """For each joint the load that would hold its coordinates without a drive, newton metres or newtons: zero to
     rounding unless a freedom that nothing drives, an idle one too, is out of balance, or a pose is singular. It is part
     of `forces` and `torques`. Of a ball without a drive they are the torques about x, y, z of the world."""
+    friction: Friction | None = None
+    """What friction does, which is part of `forces` and `torques`; None where no joint has any."""
 
     @cached_property
     def undetermined(self) -> tuple[Undetermined, ...]:
@@ -96,6 +102,7 @@ class Reactions:
         if len(order) > MAX_LINES:
             lines.append(f"  and {len(order) - MAX_LINES} more: see .forces and .torques")
         lines += self._what_is_held(max(float(np.nanmax(each)) for each in forces.values()))
+        lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         lines += [f"  {each}" for each in self.undetermined[:MAX_LINES]]
         return "\n".join(lines)
 
@@ -132,7 +139,9 @@ class Reactions:
 
 
 jax.tree_util.register_dataclass(
-    Reactions, data_fields=["motion", "points", "forces", "torques", "drives", "held"], meta_fields=[]
+    Reactions,
+    data_fields=["motion", "points", "forces", "torques", "drives", "held", "friction"],
+    meta_fields=[],
 )
 
 
@@ -161,14 +170,21 @@ def reactions(
     # at rest nothing is differentiated
     found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
     moving, acts = acting_on(mechanism.unit, True, mechanism.linkage, found, weights(acting))
-    places, forces, torques, drives, held = _balanced(
-        drive, mechanism.unit, mechanism.linkage, known.status, moving, acts
-    )
+    rubs, losses = friction(motion, drive, moving, acts, loads_and_frictions(acting)[1])
+    found = _balanced(drive, mechanism.unit, mechanism.linkage, known.status, moving, acts, rubs)
+    if losses is not None:
+        found = found[0], *jax.tree.map(lambda rows: _unless(losses.locked, rows), found[1:])
+    places, forces, torques, drives, held = found
 
     def named(rows: Sequence[Array]) -> Named[Array]:
         return Named("joint", zip(mechanism.joints, rows, strict=True))
 
-    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held))
+    return Reactions(motion, named(places), named(forces), named(torques), drives, named(held), losses)
+
+
+def _unless(locked: Array, rows: Array) -> Array:
+    """Set the rows of some poses to NaN."""
+    return jnp.where(locked.reshape(-1, *[1] * (rows.ndim - 1)), jnp.nan, rows)
 
 
 Rows = tuple[Float[Array, "poses _"], ...]
@@ -176,7 +192,13 @@ Rows = tuple[Float[Array, "poses _"], ...]
 
 @partial(whole_program, static=(0, 1))
 def _balanced(
-    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], moving: Moving, acts: Loads
+    drive: KnownDrive,
+    unit: str,
+    linkage: Linkage,
+    status: Int[Array, " poses"],
+    moving: Moving,
+    acts: Loads,
+    rubs: dict[int, Wrench],
 ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
     """Points of the joints, forces, torques about the points, forces of the drives, and what holds the rest."""
     metre, closed = METRES[unit], status == Status.CLOSED.value
@@ -188,14 +210,18 @@ def _balanced(
         """Metres by which a force of the balance makes the load in a coordinate: the size for angles, 1 for lengths."""
         return 1.0 if is_length(linkage.joints[joint].coordinates[k]) else size * metre
 
-    loaded = {at: load / lever(*at) for at, load in acts.joints.items() if at not in driven}
+    loads = {at: load / lever(*at) for at, load in acts.joints.items()}
+    for joint, wrench in rubs.items():
+        for k, screw in enumerate(found.screws[joint]):
+            loads[joint, k] = loads.get((joint, k), 0.0) + jnp.sum(wrench * screw, axis=0)
+    loaded = {at: load for at, load in loads.items() if at not in driven}
     sent = solve(linkage, found, list(driven), acts.parts, loaded)
     drives = {}
     for (joint, k), name in driven.items():
         along = jnp.sum(sent.wrenches[joint] * found.screws[joint][k], axis=0)
         for gradient, strength in zip(found.gradients, sent.couplings, strict=True):
             along = along - strength * gradient.get((joint, k), 0.0)
-        drives[name] = jnp.where(closed, along * lever(joint, k) - acts.joints.get((joint, k), 0.0), jnp.nan)
+        drives[name] = jnp.where(closed, (along - loads.get((joint, k), 0.0)) * lever(joint, k), jnp.nan)
 
     def rows(values: Array) -> Float[Array, "poses _"]:
         return jnp.where(closed, values, jnp.nan).T

@@ -17,7 +17,8 @@ from jaxtyping import Array, Float
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.forces.changes import Changes, Rows
-from jaxkin.effects.forces.given import Applied, Force, JointLoad, Spring, Torque
+from jaxkin.effects.forces.friction_of import check_friction
+from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, twists_of_parts, velocity_at, wrench_at
 from jaxkin.effects.rates import tangents_of
@@ -31,6 +32,8 @@ from jaxkin.solve.execution.compiler import whole_program
 
 Wrench = Float[Array, "6 _"]
 """Torque over the size of the mechanism, then force: newtons. The last axis is the poses, or one for all poses."""
+
+Load = Force | Torque | Spring | JointLoad
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.81)
 
@@ -59,7 +62,7 @@ class Weights(NamedTuple):
 
     masses: Masses | None
     gravity: Float[Array | np.ndarray, "3"]
-    applied: tuple[Applied, ...]
+    applied: tuple[Load, ...]
 
 
 class Moving(NamedTuple):
@@ -134,21 +137,22 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
     return jnp.concatenate([wrench[:3] - torque / lever, wrench[3:]])
 
 
-def applied_of(acting: Acting) -> tuple[Applied, ...]:
-    """What is applied, one alone as well as several; ValueError for other things."""
+def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
+    """What is applied but for friction, and the friction of joints, which depends on the rest; else ValueError."""
     given = acting.applied
-    applied = (given,) if isinstance(given, (Force, Torque, Spring, JointLoad)) else tuple(given)
+    applied = (given,) if isinstance(given, Applied) else tuple(given)
     for each in applied:
-        if not isinstance(each, (Force, Torque, Spring, JointLoad)):
+        if not isinstance(each, Applied):
             raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
-    return applied
+    loads = tuple(each for each in applied if not isinstance(each, JointFriction))
+    return loads, tuple(each for each in applied if isinstance(each, JointFriction))
 
 
 def check(motion: Motion, acting: Acting) -> None:
     """Raise ValueError for arguments that do not fit the motion, with what to write instead."""
     if not isinstance(motion, Motion):
         raise ValueError(f"forces are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
-    mechanism, masses, applied = motion.mechanism, acting.masses, applied_of(acting)
+    mechanism, masses, (applied, frictions) = motion.mechanism, acting.masses, loads_and_frictions(acting)
     for each in applied:
         parts = each.parts if isinstance(each, Spring) else () if isinstance(each, JointLoad) else (each.part,)
         for part in parts:
@@ -173,6 +177,7 @@ def check(motion: Motion, acting: Acting) -> None:
                 )
         if isinstance(each, JointLoad):
             _loaded(mechanism.linkage, each)
+    check_friction(mechanism.linkage, frictions, acting.rates is not None)
     if acting.rates is None and acting.accelerations is not None:
         raise ValueError("accelerations were given without rates: write rates={'A': 0.0} for a start from rest")
 
@@ -183,7 +188,7 @@ def weights(acting: Acting) -> Weights:
     gravity = given if traced(given) else np.asarray(given, float)
     if gravity.shape != (3,):
         raise ValueError(f"gravity must be three numbers, m/s^2, as (0, 0, -9.81), got {given!r}")
-    return Weights(acting.masses, gravity, applied_of(acting))
+    return Weights(acting.masses, gravity, loads_and_frictions(acting)[0])
 
 
 def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
@@ -202,7 +207,7 @@ _PER_POSE = {
 """Kind of load -> names of its numbers, which may have one row a pose, and number of axes of a row."""
 
 
-def _name_of(load: Applied) -> str:
+def _name_of(load: Load) -> str:
     """Name a load in a message."""
     if isinstance(load, Spring):
         return f"the spring of {load.parts[0]!r} and {load.parts[1]!r}"

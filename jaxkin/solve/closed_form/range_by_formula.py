@@ -31,7 +31,8 @@ from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.closed_form.way import reach
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, Poses
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
+from jaxkin.solve.range.poses import Poses
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
@@ -124,10 +125,10 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
         values = values - TURN * turns
     number = jnp.clip(jnp.searchsorted(samples.at, values, side="left") - 1, samples.first, samples.last - 1)
     left, right = _sample(system, samples, number), _sample(system, samples, number + 1)
-    between, from_left, trusted = _trusted_side(left, right, values)
-    state = select_poses(
-        between, _interpolated(system, left, right, values), select_poses(from_left, left.state, right.state)
-    )
+    between, beyond, from_left, trusted = _trusted_side(left, right, values)
+    nearest = select_poses(from_left, left.state, right.state)
+    nearest = select_poses(beyond, _weighted(system, left, right, values), nearest)
+    state = select_poses(between, _interpolated(system, left, right, values), nearest)
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
     if system.periodic:
         state = State(state.x + turns * samples.winding[:, None], state.turns)
@@ -137,10 +138,11 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
 
 def _trusted_side(
     left: _Sample, right: _Sample, values: Float[Array, " poses"]
-) -> tuple[Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
+) -> tuple[Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
     """Choose the neighbouring samples from which the pose at each value is predicted.
 
     Returns whether both neighbours are closed with one status, so that the pose is interpolated between them; whether
+    the pose is beyond a limit, and the outer neighbour too, so that poses of least residual lie between them; whether
     the pose otherwise belongs to the left neighbour; and whether the pose gets the status of its neighbour (if not, it
     is JUMPED where it closes). If the neighbours differ, there is a limit between them: the motion was followed to the
     inner neighbour, which is nearer to the assembled pose, and the loops may close again at the outer one.
@@ -154,7 +156,9 @@ def _trusted_side(
     from_left = belongs_to_inner == rising
     nearest_closed = jnp.where(from_left, left_closed, right_closed)
     trusted = between | (near_inner | ~belongs_to_inner) & nearest_closed
-    return between, from_left, trusted
+    inner_closed = jnp.where(rising, left_closed, right_closed)
+    beyond = ~outer_closed & ~(inner_closed & near_inner)
+    return between, beyond, from_left, trusted
 
 
 def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Array, " poses"]:
@@ -168,6 +172,14 @@ def _wrapped(samples: BranchSamples, values: Float[Array, " poses"]) -> Float[Ar
     down = values - TURN * jnp.ceil(jnp.maximum(values - most, 0.0) / TURN)
     back = down + TURN * jnp.ceil(jnp.maximum(least - down, 0.0) / TURN)
     return jnp.where((back >= least) & (back <= most), back, values)
+
+
+def _weighted(system: LoopSystem, left: _Sample, right: _Sample, values: Float[Array, " poses"]) -> State:
+    """Interpolate linearly between two samples of least residual, whose slopes are not known."""
+    width = right.at - left.at
+    t = (values - left.at) / jnp.where(width > 0, width, 1.0)
+    state = jax.tree.map(lambda a, b: a + t * (b - a), left.state, right.state)
+    return retract(system, state, jnp.zeros_like(state.x))
 
 
 def _interpolated(system: LoopSystem, left: _Sample, right: _Sample, values: Float[Array, " poses"]) -> State:

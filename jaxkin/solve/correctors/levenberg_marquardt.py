@@ -26,6 +26,18 @@ MAX_DAMPED_STEP = 0.5
 """Longest step, in radians or characteristic lengths: farther away the linear model of a rotation is no longer good."""
 STAGNANT_DECREASE = 1e-9
 """Relative decrease of the merit in one step below which the merit has reached its minimum."""
+LEAST_MEAN_SQUARE = 1e-2
+"""Mean square of the rows of J below which damping is no longer relative to it, but to this. Of loops of rods beyond a
+limit, J vanishes at the least residual, and steps with relative damping grow as its inverse: an RSSR linkage took all
+200 of its steps there, most of them refused, and takes twenty from the limit."""
+STATIONARY_COSINE = 1e-3
+"""Cosine between residual and range of J below which a pose counts as stationary: see `_range_cosine`."""
+SETTLED_COSINE = 1e-5
+"""Cosine between residual and range of J below which a pose of an open loop is improved no further: its residual is the
+least to 1e-10 of itself."""
+OPEN_RESIDUAL = 1e-9
+"""Least residual norm of a pose that `SETTLED_COSINE` applies to. Of loops that can close, and come to a singular pose
+by halves, the cosine is the distance from it and the residual norm the square of that: 1e-10 at most."""
 
 
 class LevenbergMarquardtResult(NamedTuple):
@@ -78,7 +90,8 @@ def levenberg_marquardt(
         lower, higher = jnp.maximum(0.3 * iterate.trust, 1e-2), jnp.minimum(8 * iterate.trust, 1e12)
         trust = jnp.where(first, iterate.trust, jnp.where(better, lower, higher))
         jacobian = free_jacobian(system, chosen)
-        damping = trust * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
+        scale = jnp.maximum(1.0, LEAST_MEAN_SQUARE / (_mean_square(jacobian) + 1e-300))
+        damping = trust * scale * jnp.minimum(2 * chosen.merit, 1.0) + damping_floor(dtype)
         delta = -solve_least_norm(jacobian, chosen.residual, damping, system.used)
         length = jnp.sqrt(jnp.sum(delta * delta, axis=0))
         delta = delta * jnp.minimum(1.0, MAX_DAMPED_STEP / jnp.maximum(length, MAX_DAMPED_STEP))
@@ -92,6 +105,7 @@ def levenberg_marquardt(
             | (chosen.merit < 32 * eps**2)
             | exhausted
             | least
+            | (_range_cosine(system, chosen, jacobian) < SETTLED_COSINE) & (chosen.residual_norm > OPEN_RESIDUAL)
             | ~jnp.isfinite(chosen.merit)
             | (iterate.count == max_steps)
         )
@@ -107,23 +121,29 @@ def levenberg_marquardt(
     no = jnp.zeros(poses, bool)
     start = _Iterate(jnp.asarray(0), state, nothing, jnp.ones(poses, dtype), no, state)
     last = lax.while_loop(running, step, start)
-    return LevenbergMarquardtResult(
-        last.state, last.closure, last.closure.residual_norm, _stationary(system, last.closure)
-    )
+    stationary = _range_cosine(system, last.closure, free_jacobian(system, last.closure)) < STATIONARY_COSINE
+    return LevenbergMarquardtResult(last.state, last.closure, last.closure.residual_norm, stationary)
 
 
-def _stationary(system: LoopSystem, evaluation: Closure) -> Bool[Array, " poses"]:
-    """Test whether the residual is orthogonal to the range of J: no free coordinate reduces it to first order.
+def _mean_square(jacobian: Float[Array, "equations columns poses"]) -> Float[Array, " poses"]:
+    """Compute the mean square of the rows of J."""
+    return jnp.sum(jacobian**2, axis=(0, 1)) / len(jacobian)
+
+
+def _range_cosine(
+    system: LoopSystem, evaluation: Closure, jacobian: Float[Array, "equations columns poses"]
+) -> Float[Array, " poses"]:
+    """Compute how nearly the residual is orthogonal to the range of J: |J^T r| over the norms of J and r.
+
+    Where it is, no free coordinate reduces the residual to first order.
 
     At a least residual J^T r = 0. Where the residual is large, Gauss-Newton converges to it linearly; the test is
     therefore on the angle between residual and range, which an iterate on its way does not meet. The Jacobian of a rod
     holds no rotation of its ball, to which its residual is orthogonal: each rod adds 1 to the square of J.
     """
-    jacobian = free_jacobian(system, evaluation)
     reach = jnp.sum(jacobian * evaluation.residual[:, None], axis=0)
     square = jnp.sum(jacobian**2, axis=(0, 1)) + sum(len(cut) > 1 for cut in system.cuts)
-    cosine = jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * evaluation.merit + 1e-300))
-    return cosine < 1e-3
+    return jnp.sqrt(jnp.sum(reach**2, axis=0) / (square * 2 * evaluation.merit + 1e-300))
 
 
 def select_poses(mask: Bool[Array, " poses"], yes, no):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import jax.numpy as jnp
 from jax import lax
-from jaxtyping import Array, Float
+from jaxtyping import Array, Bool, Float
 
 from jaxkin.solve.closure.closure import Closure, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
@@ -18,13 +18,16 @@ from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.status import Scalar
+from jaxkin.solve.status import Scalar, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, retract
 
 MAX_QUADRATIC_RATIO = 1e-2
 """Ratio of two residual norms below which convergence counts as quadratic. At a limit of the motion, where the Jacobian
 is singular, convergence is linear and the ratio a quarter at best."""
+CLOSED_ROUNDINGS = 64
+"""Largest residual norm, in units of rounding, of a pose that a correction has closed: poses above it are passed on to
+a method that costs more."""
 
 
 class _Iterate(NamedTuple):
@@ -34,6 +37,8 @@ class _Iterate(NamedTuple):
     extrapolated: Float[Array, " poses"]
     """Residual norm of `trial`, extrapolated from the last two; infinite where convergence is not quadratic."""
     trial: State
+    led_away: Bool[Array, " poses"]
+    """Whether a step has raised the residual norm of a pose that was closed: the pose is singular."""
 
 
 def newton(
@@ -46,8 +51,11 @@ def newton(
     """Take `newton_iterations` of the options, or fewer if all residual norms get to at most `target_residual`.
 
     Each step solves J delta = -r (Eq. 10, linearised) block after block. Returns the states, their closure and their
-    residual norms (square root of Eq. 12). With `extrapolate_residual`, the last step is not evaluated where
-    convergence is quadratic: its residual norm is extrapolated, and its state is one step ahead of the closure.
+    residual norms (square root of Eq. 12). At a singular pose rounding makes a long step, from which the next ones come
+    back by halves and stop at the square root of rounding: such poses have a residual norm of infinity.
+
+    With `extrapolate_residual`, the last step is not evaluated where convergence is quadratic: its residual norm is
+    extrapolated, and its state is one step ahead of the closure; and there is no test for singular poses.
     """
     system, geometry = problem.system, problem.geometry
     poses, dtype = state.x.shape[-1], state.x.dtype
@@ -56,12 +64,17 @@ def newton(
 
     def running(at: _Iterate) -> Array:
         return (at.count <= problem.options.newton_iterations) & any_in_lockstep(
-            (at.closure.residual_norm > target_residual) & (at.extrapolated > target_residual)
+            (at.closure.residual_norm > target_residual) & (at.extrapolated > target_residual) & ~at.led_away
         )
 
     def step(at: _Iterate) -> _Iterate:
         # the closure is evaluated at one place only: the compiled program holds its code once
         evaluation = closure(system, geometry, at.trial)
+        led_away = at.led_away
+        if not extrapolate_residual:
+            before = at.closure.residual_norm
+            raised = evaluation.residual_norm > jnp.maximum(before, rounding_residual(dtype, CLOSED_ROUNDINGS))
+            led_away |= (before <= default_tolerance(dtype)) & raised
 
         def solved() -> Array:
             return solve_blocks(
@@ -83,12 +96,12 @@ def newton(
             )
         # a closed pose takes no further step: near a singular pose it would lead away; poses must not depend on others
         delta = jnp.where(evaluation.residual_norm > target_residual, -delta, 0.0)
-        return _Iterate(at.count + 1, at.trial, evaluation, extrapolated, retract(system, at.trial, delta))
+        return _Iterate(at.count + 1, at.trial, evaluation, extrapolated, retract(system, at.trial, delta), led_away)
 
     nothing = jnp.zeros((system.equations, system.columns, poses), dtype)
     start = Closure(nothing[:, 0], nothing, infinite, infinite)
-    last = lax.while_loop(running, step, _Iterate(jnp.asarray(0), state, start, infinite, state))
-    state, residual_norm = last.state, last.closure.residual_norm
+    last = lax.while_loop(running, step, _Iterate(jnp.asarray(0), state, start, infinite, state, infinite < 0))
+    state, residual_norm = last.state, jnp.where(last.led_away, jnp.inf, last.closure.residual_norm)
     if extrapolate_residual:
         ahead = (residual_norm > target_residual) & (last.extrapolated <= target_residual)
         state, residual_norm = select_poses(ahead, (last.trial, last.extrapolated), (state, residual_norm))

@@ -14,9 +14,9 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt, select_poses
-from jaxkin.solve.correctors.newton import newton
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS, newton
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, MAX_CORRECTION, Poses
+from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.status import ClosureTolerance, Scalar, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.state import State, difference, drive
 

@@ -13,9 +13,6 @@ from jaxtyping import Array, Float, Int
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
 
-CLOSED_ROUNDINGS = 64
-"""Largest residual norm, in units of rounding, of a pose that a correction has closed: poses above it are passed on to
-a method that costs more."""
 MAX_CORRECTION = 0.1
 """Largest distance of a corrected pose from its prediction, radians or characteristic lengths, at which the pose is
 trusted to be on the branch."""

@@ -26,13 +26,14 @@ from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.polish import correct_poses
-from jaxkin.solve.range.poses import CLOSED_ROUNDINGS, MAX_CORRECTION, Poses, group_size, in_groups
+from jaxkin.solve.range.poses import MAX_CORRECTION, Poses, group_size, in_groups
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints

@@ -1,0 +1,239 @@
+"""Coulomb friction in joints: what presses their faces together, and what their sliding costs.
+
+The faces of a joint slide on each other with the velocity s = (v, r w): v is that of the point of the joint on part 2
+relative to part 1, w the relative angular velocity, r the radius at which the faces touch. They are pressed together by
+N, the part of what the joint transmits that it could not transmit by sliding: see `FRICTION_OF`. Friction acts on part
+2 against the sliding,
+
+    (force, torque / r) = -mu N s / |s|,
+
+and on part 1 the other way round. Its power is -mu N |s|.
+
+Reactions depend on friction, and friction on reactions: the balance of the parts (`balance`) is linear in the loads
+along the freedoms of joints, so that what presses joint j is c_j = c_j0 + sum over k of C_jk N_k, and N_j = |c_j|. The
+c_j0 and C_jk are found by one factorisation a pose; the few equations that are left by Newton's method. Near the joints
+without friction the Jacobian 1 - d|c|/dN is the identity; where its determinant has changed its sign, or no N is found,
+no forces move the mechanism as it is prescribed: it locks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+from jax import lax
+from jaxtyping import Array, Bool, Float
+
+from jaxkin._named import Named
+from jaxkin.effects.forces.balance import balance, solve
+from jaxkin.effects.forces.friction_of import FRICTION_OF
+from jaxkin.effects.forces.friction_result import Friction
+from jaxkin.effects.forces.given import JointFriction
+from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_at
+from jaxkin.effects.forces.wrenches import Loads, Moving
+from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.units import METRES
+from jaxkin.linkage.linkage import Linkage
+from jaxkin.mechanism.known_motion import KnownDrive
+from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.compiler import whole_program
+
+FOLLOWED = 12
+"""Steps in which friction grows from none to all of it, one of Newton's each: from the joints without friction at once,
+a screw with mu above the tangent of its lead angle was not solved, whose thread is pressed the other way round then."""
+STEPS = 20
+"""Steps of Newton's method in all: it needs 4 to 6 once friction has grown."""
+EXACT_STEPS = 2
+"""Steps that are differentiated, from the solution: they change nothing, and carry derivatives up to the third."""
+SOLVED = 1e4
+"""Largest error of N, in units of rounding of the largest force, that counts as solved: that of the balance itself."""
+
+
+class Sliding(NamedTuple):
+    """How the faces of a joint slide on each other in each pose."""
+
+    against: Twist
+    """The wrench of friction of one newton, -s/|s|, about the middle of the mechanism; zero at rest."""
+    rests: Bool[Array, " poses"]
+
+
+def friction(
+    motion: Motion, drive: KnownDrive, moving: Moving, acts: Loads, given: Sequence[JointFriction]
+) -> tuple[dict[int, Twist], Friction | None]:
+    """Find the wrench of friction on part 2 of each joint, by its number, about the middle; none where none is given.
+
+    All joints have been placed. Where the mechanism locks, there is no friction, and `Friction.locked` says so.
+    """
+    if not given:
+        return {}, None
+    mechanism = motion.mechanism
+    wrenches, locked, found = _solved(drive, mechanism.unit, mechanism.linkage, moving, acts, tuple(given))
+    locked = locked & motion.closed
+    known = motion.closed & ~locked
+    normal, limit, losses, rests = (
+        Named("joint with friction", zip((each.joint for each in given), rows, strict=True)) for rows in found
+    )
+    normal, limit, losses = (
+        jax.tree.map(lambda rows: jnp.where(known, rows, jnp.nan), each) for each in (normal, limit, losses)
+    )
+    return wrenches, Friction(motion, normal, limit, losses, rests, locked)
+
+
+@partial(whole_program, static=(0, 1))
+def _solved(
+    drive: KnownDrive, unit: str, linkage: Linkage, moving: Moving, acts: Loads, given: tuple[JointFriction, ...]
+) -> tuple[dict[int, Twist], Bool[Array, " poses"], tuple[list[Array], ...]]:
+    """Wrenches of friction, whether poses lock, and for each joint N, mu N, watts, and whether it rests."""
+    names = [joint.name for joint in linkage.joints]
+    numbers = [names.index(each.joint) for each in given]
+    slides = [_sliding(linkage, moving, number, each) for number, each in zip(numbers, given, strict=True)]
+    most = [jnp.asarray(each.coefficient, float) for each in given]
+    full = [mu * slide.against for mu, slide in zip(most, slides, strict=True)]
+    normal, locked = _normal_forces(*_pressing(drive, unit, linkage, moving, acts, given, numbers, full))
+    wrenches = {number: pressed * wrench for number, pressed, wrench in zip(numbers, normal, full, strict=True)}
+    lever = moving.at.scale.size * METRES[unit]
+    losses = [
+        -lever * jnp.sum(wrench * _twist_in(linkage, moving, number), axis=0) for number, wrench in wrenches.items()
+    ]
+    limits = [mu * pressed for mu, pressed in zip(most, normal, strict=True)]
+    return wrenches, locked, (list(normal), limits, losses, [slide.rests for slide in slides])
+
+
+def _twist_in(linkage: Linkage, moving: Moving, number: int) -> Twist:
+    """Twist of part 2 of a joint relative to part 1, about the middle."""
+    rates = moving.velocity[number] if moving.velocity else jnp.zeros_like(moving.displacements[number])
+    return relative_twist(linkage.joints[number], moving.at.joints[number], rates, moving.at.scale)
+
+
+def _sliding(linkage: Linkage, moving: Moving, number: int, given: JointFriction) -> Sliding:
+    """Find how the faces of a joint slide on each other."""
+    arm, scale = moving.at.joints[number].point, moving.at.scale
+    twist = _twist_in(linkage, moving, number)
+    radius = 0.0 if given.radius is None else jnp.asarray(given.radius, float) / scale.size
+    s = jnp.concatenate([velocity_at(twist, arm), radius * twist[:3]])
+    square = jnp.sum(s**2, axis=0)
+    fastest = [jnp.sum(each**2, axis=0) for each in (twist, *moving.twists.values())]
+    rests = square <= float(jnp.finfo(square.dtype).eps) * jnp.max(jnp.stack(fastest), axis=0)
+    smooth = jnp.asarray(given.smooth, float) / scale.size
+    rate = jnp.where(rests, 1.0, square) + smooth**2
+    direction = -jnp.where(rests, 0.0, 1.0) * s / jnp.sqrt(rate)
+    return Sliding(jnp.concatenate([radius * direction[3:] + cross(arm, direction[:3]), direction[:3]]), rests)
+
+
+def _pressing(
+    drive: KnownDrive,
+    unit: str,
+    linkage: Linkage,
+    moving: Moving,
+    acts: Loads,
+    given: Sequence[JointFriction],
+    numbers: Sequence[int],
+    full: Sequence[Twist],
+) -> tuple[Float[Array, "joints 4 poses"], Float[Array, "joints joints 4 poses"]]:
+    """What presses each joint without friction, and for one newton of N in each joint: c_0, and C by (k, j)."""
+    driven = [(joint, k) for _, joint, k in drive.driven]
+    found = balance(linkage, moving.at, moving.displacements, driven)
+    lever = moving.at.scale.size * METRES[unit]
+    poses = found.arms[0].shape[1]
+
+    def pressed(
+        acting: dict[str, Twist], loaded: dict[tuple[int, int], Array], rubs: Float[Array, "joints poses"]
+    ) -> Float[Array, "joints 4 poses"]:
+        sent = solve(linkage, found, driven, acting, loaded).wrenches
+        each = zip(numbers, given, rubs, strict=True)
+        return jnp.stack([_pressed(linkage, moving, number, own, sent[number], rub) for number, own, rub in each])
+
+    # without friction first, then one newton of N in each joint
+    loaded = {
+        (number, k): jnp.zeros((len(given) + 1, poses))
+        for number, joint in enumerate(linkage.joints)
+        for k in range(joint.freedoms)
+        if (number, k) not in driven
+    }
+    for (number, k), load in acts.joints.items():
+        if (number, k) in loaded:
+            own = load / (1.0 if is_length(linkage.joints[number].coordinates[k]) else lever)
+            loaded[number, k] = loaded[number, k].at[0].set(own)
+    for row, (number, wrench) in enumerate(zip(numbers, full, strict=True), start=1):
+        for k, screw in enumerate(found.screws[number]):
+            if (number, k) in loaded:
+                loaded[number, k] = loaded[number, k].at[row].set(jnp.sum(wrench * screw, axis=0))
+    acting = {
+        part: jnp.zeros((len(given) + 1, 6, poses)).at[0].set(jnp.broadcast_to(wrench, (6, poses)))
+        for part, wrench in acts.parts.items()
+    }
+    turning = jnp.stack(
+        [jnp.sum(wrench * found.screws[number][-1], axis=0) for number, wrench in zip(numbers, full, strict=True)]
+    )
+    rubs = jnp.concatenate([jnp.zeros((1, *turning.shape)), jnp.eye(len(given))[:, :, None] * turning])
+    every = jax.vmap(pressed)(acting, loaded, rubs)
+    return every[0], every[1:]
+
+
+def _pressed(
+    linkage: Linkage,
+    moving: Moving,
+    number: int,
+    given: JointFriction,
+    wrench: Twist,
+    rubs: Float[Array, " poses"],
+) -> Float[Array, "4 poses"]:
+    """What presses the faces of a joint together, of the wrench that it transmits: N is the length of these rows.
+
+    A screw of radius r and advance p transmits through its thread the force F along its axis, and the torque T with
+    T + p F = `rubs`, the load of friction along its coordinate: what else acts there, such as its drive, is a torque
+    beside the thread. Across the thread this is (r F - p T / r) / h = F h / r - rubs p / (r h), h^2 = r^2 + p^2.
+    """
+    (movement,), own = linkage.joints[number].movements, moving.at.joints[number]
+    which, force = FRICTION_OF[movement], wrench[3:]
+    none = jnp.zeros((1, wrench.shape[1]))
+    if which.along and which.across and movement != "T_screw":
+        return jnp.concatenate([force, none])
+    axis = own.twists[-1][3:] if MOVEMENTS[movement].only_slides else own.twists[-1][:3]
+    far = jnp.sum(force * axis, axis=0)
+    across = force - far * axis
+    if movement != "T_screw":
+        return jnp.concatenate([far * axis if which.along else across, none])
+    radius = jnp.asarray(given.radius, float) / moving.at.scale.size
+    advance = jnp.sum(velocity_at(own.twists[-1], own.point) * axis, axis=0)
+    slant = jnp.sqrt(radius**2 + advance**2)
+    through = far * slant / radius - rubs * advance / (radius * slant)
+    return jnp.concatenate([across, through[None]])
+
+
+def _normal_forces(
+    c_0: Float[Array, "joints 4 poses"], by: Float[Array, "joints joints 4 poses"]
+) -> tuple[Float[Array, "joints poses"], Bool[Array, " poses"]]:
+    """Solve N_j = |c_j0 + sum over k of C_kj N_k| in each pose: N, zero where poses lock, and whether they do."""
+    unit = jnp.eye(len(c_0))
+
+    def step(c_0: Array, by: Array, normal: Array) -> tuple[Array, Array, Array]:
+        """A step of Newton's method; the error before it, and the Jacobian (poses, joints, joints)."""
+        c = c_0 + jnp.sum(by * normal[:, None, None], axis=0)
+        square = jnp.sum(c**2, axis=1)
+        size = jnp.sqrt(jnp.where(square > 0, square, 1.0)) * jnp.where(square > 0, 1.0, 0.0)
+        along = c / jnp.where(square > 0, size, 1.0)[:, None]
+        jacobian = unit - jnp.einsum("jrp,kjrp->pjk", along, by)
+        change = jnp.linalg.solve(jacobian, (normal - size).T[..., None])[..., 0].T
+        return normal - change, normal - size, jacobian
+
+    fixed_0, fixed_by = lax.stop_gradient((c_0, by))
+    found = jnp.sqrt(jnp.sum(fixed_0**2, axis=1))
+
+    def grown(number: Array, normal: Array) -> Array:
+        return step(fixed_0, jnp.minimum(1.0, (number + 1) / FOLLOWED) * fixed_by, normal)[0]
+
+    found = lax.fori_loop(0, STEPS, grown, found)
+    _, error, jacobian = step(fixed_0, fixed_by, found)
+    largest = jnp.max(jnp.abs(fixed_0), axis=(0, 1)) + jnp.max(jnp.abs(found), axis=0)
+    solved = jnp.max(jnp.abs(error), axis=0) <= SOLVED * float(jnp.finfo(c_0.dtype).eps) * largest
+    locked = ~(solved & (jnp.linalg.det(jacobian) > 0))
+    # where poses lock, nothing is left to solve: their derivatives would be no numbers
+    found = jnp.where(locked, 0.0, found)
+    c_0, by = jnp.where(locked, 0.0, c_0), jnp.where(locked, 0.0, by)
+    for _ in range(EXACT_STEPS):
+        found, *_ = step(c_0, by, found)
+    return found, locked

@@ -1,0 +1,291 @@
+"""The space that a part takes up along a motion, as a closed mesh (host code).
+
+The signed distance from the part is sampled once on a grid in its own axes. The part is then placed along the motion,
+with screw motions between the poses, in steps of half a step of the grid, and in a grid in the world the least
+distance of all placements is kept. The mesh is where that is zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from jaxtyping import Float
+
+from jaxkin._files import whole
+from jaxkin._names import nearest
+from jaxkin._traced import traced
+from jaxkin.geometry.isosurface import zero_surface
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.screw_motion import displacement_along, screw_between
+from jaxkin.geometry.signed_distance import BAND, Open, signed_distance
+from jaxkin.mechanism.motion import Motion
+
+if TYPE_CHECKING:
+    from trimesh import Trimesh
+
+STEPS_ACROSS = 80
+"""Steps of the grid along the longest edge of the box of all poses, where no resolution is given: half a million points
+at most, and a percent of that edge between them."""
+MAX_POINTS = 60_000_000
+"""Points of a grid at most: half a gigabyte for each array of numbers."""
+LARGEST_TURN = np.pi / 2
+"""Turn between two poses up to which what lies between them is filled: beyond, the way between them is a guess."""
+PLACED = 0.5
+"""Steps of the grid by which corners move from one placement to the next at most: sharp edges that slide across leave
+notches, of which half remain compared to whole steps."""
+OFF = np.sqrt(3.0) + PLACED / 2
+"""Steps of the grid by which the surface may be off: half a diagonal of a cell for each of the two grids, between whose
+points distances are interpolated, and what sharp edges leave between two placements."""
+MESH_FILES = (".stl", ".ply", ".obj", ".glb")
+"""Suffixes of the files that `SweptVolume.save` writes."""
+
+
+@dataclass(frozen=True, eq=False)
+class SweptVolume:
+    """The space that a part takes up along a motion. Prints, draws and saves itself."""
+
+    part: str
+    mesh: Trimesh
+    """Closed, wound outwards; world coordinates, unit of the mechanism."""
+    resolution: float
+    """Step of the grid. What is thinner than this may be missing, holes narrower may be filled."""
+    error: float
+    """How far the surface may be from that of the swept solid, but for what `resolution` loses: a length."""
+    lost: float
+    """Share of its volume by which the part alone is too small on this grid, negative where it is too large."""
+    poses: int
+    """Closed poses of the motion."""
+    left_out: int
+    """Poses that are not CLOSED."""
+    placements: int
+    """Places of the part, those between poses too; the cost grows with their number and the inverse cube of
+    `resolution`."""
+    field: Float[np.ndarray, "x y z"]
+    """Distance from the swept solid at the points of the grid, negative inside, cut off at two steps."""
+    origin: Float[np.ndarray, "3"]
+    """First point of the grid."""
+    unit: str = ""
+
+    @property
+    def volume(self) -> float:
+        """Volume, in the cube of the unit of the mechanism."""
+        return float(self.mesh.volume)
+
+    @property
+    def volume_error(self) -> float:
+        """Volume of the layer of the thickness `error` on the surface: by far more than is usually wrong.
+
+        On smooth surfaces errors are of second order; faces that sharp edges sweep are a quarter of a step too far
+        inside.
+        """
+        return float(self.mesh.area) * self.error
+
+    @property
+    def box(self) -> Float[np.ndarray, "2 3"]:
+        """Lowest and highest corner."""
+        return np.asarray(self.mesh.bounds)
+
+    def __str__(self) -> str:
+        unit = f" {self.unit}" if self.unit else ""
+        low, high = (", ".join(f"{x:.5g}" for x in corner) for corner in self.box)
+        own = f"{100 * abs(self.lost):.2g} % too {'small' if self.lost > 0 else 'large'}"
+        left = f"; {self.left_out} poses that are not closed are left out" if self.left_out else ""
+        return (
+            f"Swept volume of {self.part} over {self.poses} poses{left}\n"
+            f"  volume {self.volume:.6g}{f'{unit}^3' if unit else ''}, surface within {self.error:.3g}{unit}: at most "
+            f"{self.volume_error:.2g} off\n"
+            f"  box ({low}) to ({high}){unit}\n"
+            f"  {self.placements} placements on a grid of {self.field.size} points, {self.resolution:.3g}{unit} apart; "
+            f"{len(self.mesh.faces)} triangles\n"
+            f"  the part alone is {own} on this grid: a smaller resolution= makes both better"
+        )
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw the swept solid as seen along z, y and x into a picture file; returns its path."""
+        from matplotlib.figure import Figure
+
+        path = Path(path)
+        figure = Figure(figsize=(11.0, 4.2), layout="constrained")
+        low = self.origin
+        for place, (towards, right, up) in enumerate(((2, 0, 1), (1, 0, 2), (0, 1, 2))):
+            axes = figure.add_subplot(1, 3, place + 1)
+            seen = _shaded(np.moveaxis(self.field, (right, up, towards), (0, 1, 2)), from_above=towards != 1)
+            high = low + self.resolution * (np.array(self.field.shape) - 1)
+            half = self.resolution / 2
+            extent = (low[right] - half, high[right] + half, low[up] - half, high[up] + half)
+            axes.imshow(seen.T, origin="lower", extent=extent, cmap="Blues_r", vmin=0.0, vmax=1.25)
+            unit = f" ({self.unit})" if self.unit else ""
+            axes.set(xlabel="xyz"[right] + unit, ylabel="xyz"[up] + unit)
+        figure.suptitle(f"swept by {self.part}, {self.volume:.5g} {self.unit or 'units'}^3", fontsize="medium")
+        with whole(path) as draft:
+            figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
+        return path
+
+    def save(self, path: str | Path) -> Path:
+        """Write the mesh, unit of the mechanism, as .stl, .ply, .obj or .glb; returns the path."""
+        path = Path(path)
+        if path.suffix.lower() not in MESH_FILES:
+            raise ValueError(f"a swept volume is written as {', '.join(MESH_FILES)}, got {path.name!r}")
+        with whole(path) as draft:
+            self.mesh.export(draft)
+        return path
+
+
+def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) -> SweptVolume:
+    """Find the space that a part takes up along a motion, between its poses too, as a closed mesh with its volume.
+
+    `resolution` is the step of a grid of distances, unit of the mechanism; by default an eightieth of the longest edge
+    of the box that the part sweeps. Half of it costs up to sixteen times as much. The way between successive poses is
+    filled by screw motions, and `SweptVolume.error` includes how far they are off, as told by each pose between its
+    neighbours.
+
+    Runs on the host. Raises ValueError for a part that is not there, has no solid or an open one, for successive poses
+    of which one is a quarter turn from the other, for a grid that is too large, and inside `jit`, `vmap` and `grad`.
+    """
+    solid, places, left_out = _given(motion, part)
+    corners = solid.outermost
+    moved = np.einsum("pij,cj->pci", places[:, :3, :3], corners) + places[:, None, :3, 3]
+    low, high = moved.min(axis=(0, 1)), moved.max(axis=(0, 1))
+    step = _step(part, resolution, low, high)
+    try:
+        distances, first = signed_distance(solid.triangles, step)
+    except Open:
+        raise ValueError(
+            f"the surface of {part!r} is not closed, so that it has no inside to sweep: repair its mesh, or read the "
+            "part from a STEP file"
+        ) from None
+    # screw motions may bulge out of the box of the poses by their sagitta
+    margin = (BAND + 1.0) * step + _sagitta(moved)
+    origin = low - margin
+    shape = tuple((np.ceil((high + margin - origin) / step).astype(int) + 1).tolist())
+    field = np.full(shape, BAND * step)
+    count = 0
+    for place in _placements(places, moved, step):
+        _add(field, origin, distances, first, step, place)
+        count += 1
+    points, triangles = zero_surface(field)
+    if not len(triangles):
+        raise ValueError(
+            f"{part!r} is thinner than {step:.3g}, the step of the grid, and leaves nothing there: write "
+            f"resolution={step / 8:.2g}"
+        )
+    from trimesh import Trimesh
+
+    mesh = Trimesh(origin + step * points, triangles, process=False)
+    alone = Trimesh(*zero_surface(distances), process=False)
+    lost = 1.0 - float(alone.volume) * step**3 / solid.volume if len(alone.faces) else 1.0
+    off = OFF * step + _off_between(places, moved, corners) + max((face.bulge for face in solid.faces), default=0.0)
+    unit = motion.mechanism.unit
+    return SweptVolume(part, mesh, step, off, lost, len(places), left_out, count, field, origin, unit)
+
+
+def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"], int]:
+    """The solid of a part, its closed places, and how many poses are left out; ValueError for what cannot be swept."""
+    if not isinstance(motion, Motion):
+        raise ValueError(f"a swept volume is that of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    if traced(motion):
+        raise ValueError("a swept volume is found on the host: ask outside of jit, vmap and grad")
+    mechanism = motion.mechanism
+    if part not in mechanism.parts:
+        raise ValueError(f"there is no part {part!r}{nearest(str(part), mechanism.parts)}")
+    solid = next((each for each in mechanism.solids if each.name == part), None)
+    if solid is None or not len(solid.triangles):
+        raise ValueError(f"{part!r} has no solid to sweep: read the mechanism from a file of solids")
+    closed = np.asarray(motion.closed)
+    if not closed.any():
+        raise ValueError(f"no pose of the motion is closed: {motion}")
+    places = np.broadcast_to(np.asarray(motion.transforms[part], float), (len(closed), 4, 4))
+    return solid, places[closed], int((~closed).sum())
+
+
+def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray) -> float:
+    """The step of the grid; ValueError for one that makes no sense, or too many points."""
+    if resolution is None:
+        return float((high - low).max()) / STEPS_ACROSS
+    if isinstance(resolution, bool | str) or not 0 < resolution < np.inf:
+        raise ValueError(f"the resolution must be a length above zero, unit of the mechanism, got {resolution!r}")
+    points = float(np.prod((high - low) / resolution + 2 * BAND + 3))
+    if points > MAX_POINTS:
+        least = float(resolution * (points / MAX_POINTS) ** (1 / 3))
+        raise ValueError(
+            f"the box that {part!r} sweeps has {points:.2g} points {resolution:g} apart, and {MAX_POINTS:.2g} are the "
+            f"most: write resolution={1.1 * least:.2g}"
+        )
+    return float(resolution)
+
+
+def _placements(places: np.ndarray, moved: np.ndarray, step: float) -> Iterator[Float[np.ndarray, "4 4"]]:
+    """Yield the poses, and between them those of a screw motion, in which corners move by at most `PLACED` steps."""
+    yield places[0]
+    for number in range(len(places) - 1):
+        velocity = screw_between(places[number], places[number + 1])
+        turn = float(np.linalg.norm(velocity[:3]))
+        if turn > LARGEST_TURN:
+            raise ValueError(
+                f"the part turns by {turn:.2g} rad between the closed poses {number} and {number + 1}, so that the way "
+                "between them is not known: sweep in smaller steps"
+            )
+        far = float(np.linalg.norm(moved[number + 1] - moved[number], axis=-1).max())
+        pieces = max(1, int(np.ceil(far / (PLACED * step))))
+        for piece in range(1, pieces + 1):
+            yield (
+                places[number + 1] if piece == pieces else displacement_along(velocity, piece / pieces) @ places[number]
+            )
+
+
+def _sagitta(moved: Float[np.ndarray, "poses corners 3"]) -> float:
+    """How far an arc of at most a quarter turn between two poses goes beyond its chord: 0.21 of the chord."""
+    if len(moved) < 2:
+        return 0.0
+    return 0.21 * float(np.linalg.norm(np.diff(moved, axis=0), axis=-1).max())
+
+
+def _off_between(places: np.ndarray, moved: np.ndarray, corners: np.ndarray) -> float:
+    """How far screw motions between poses are off: each pose against the middle of its neighbours, over four, as
+    errors grow with the square of the step."""
+    off = 0.0
+    for before, here, after in zip(places[:-2], moved[1:-1], places[2:], strict=True):
+        middle = displacement_along(screw_between(before, after), 0.5) @ before
+        off = max(off, float(np.linalg.norm(corners @ middle[:3, :3].T + middle[:3, 3] - here, axis=-1).max()))
+    return off / 4
+
+
+def _add(
+    field: np.ndarray, origin: np.ndarray, distances: np.ndarray, first: np.ndarray, step: float, place: np.ndarray
+) -> None:
+    """Lower the distances in the world to those of a part at a place."""
+    from scipy.ndimage import affine_transform
+
+    ends = first + step * (np.array(list(np.ndindex(2, 2, 2))) * (np.array(distances.shape) - 1))
+    there = (ends @ place[:3, :3].T + place[:3, 3] - origin) / step
+    low = np.maximum(np.ceil(there.min(axis=0)).astype(int), 0)
+    high = np.minimum(np.floor(there.max(axis=0)).astype(int) + 1, field.shape)
+    # the point i of the grid of the world is the point R^T (o + h i - p), in steps from the first one of the part
+    back = place[:3, :3].T
+    offset = (back @ (origin + step * low - place[:3, 3]) - first) / step
+    own = affine_transform(
+        distances, back, offset, tuple(high - low), order=1, mode="constant", cval=BAND * step, prefilter=False
+    )
+    block = tuple(slice(a, b) for a, b in zip(low, high, strict=True))
+    np.minimum(field[block], own, out=field[block])
+
+
+def _shaded(field: Float[np.ndarray, "right up towards"], from_above: bool) -> Float[np.ndarray, "right up"]:
+    """Brightness of the surface that is seen first along the last axis; NaN where nothing is seen."""
+    field = field[:, :, ::-1] if from_above else field
+    inside = field < 0
+    at = np.argmax(inside, axis=2)
+    seen = inside.any(axis=2)
+    here = np.take_along_axis(field, at[..., None], axis=2)[..., 0]
+    before = np.take_along_axis(field, np.maximum(at - 1, 0)[..., None], axis=2)[..., 0]
+    depth = np.where(seen, at - here / np.where(seen, here - before, 1.0), np.nan)
+    slopes = np.gradient(depth)
+    normal = np.stack([slopes[0], slopes[1], np.ones_like(depth)]) / np.sqrt(1 + slopes[0] ** 2 + slopes[1] ** 2)
+    light = np.array([-0.4, 0.5, 0.77])
+    return np.where(
+        seen, 0.2 + 0.8 * np.clip(np.tensordot(light, np.nan_to_num(normal, nan=0.2), axes=1), 0, 1), np.nan
+    )

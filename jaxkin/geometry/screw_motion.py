@@ -1,0 +1,39 @@
+"""The screw motion between two poses, and displacements along it."""
+
+from __future__ import annotations
+
+import numpy as np
+from jaxtyping import Float
+
+SMALL = 1e-4
+"""Angle in radians below which sines are taken as their series: the next terms are a^2/24 of those kept, rounding."""
+
+
+def screw_between(one: np.ndarray, other: np.ndarray) -> Float[np.ndarray, "6"]:
+    """The twist (rotation, velocity of the origin), constant over a unit of time, that moves one pose to another."""
+    from scipy.spatial.transform import Rotation
+
+    change = other @ np.linalg.inv(one)
+    turn = Rotation.from_matrix(change[:3, :3]).as_rotvec()
+    return np.concatenate([turn, np.linalg.solve(_mean_rotation(turn), change[:3, 3])])
+
+
+def displacement_along(velocity: np.ndarray, share: float) -> Float[np.ndarray, "4 4"]:
+    """The displacement by a share of a screw motion."""
+    from scipy.spatial.transform import Rotation
+
+    found = np.eye(4)
+    turn = share * velocity[:3]
+    found[:3, :3] = Rotation.from_rotvec(turn).as_matrix()
+    found[:3, 3] = _mean_rotation(turn) @ (share * velocity[3:])
+    return found
+
+
+def _mean_rotation(turn: np.ndarray) -> Float[np.ndarray, "3 3"]:
+    """The mean of all rotations up to a rotation vector: 1 + (1 - cos a)/a^2 W + (a - sin a)/a^3 W^2."""
+    x, y, z = turn
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    angle = float(np.linalg.norm(turn))
+    if angle < SMALL:
+        return np.eye(3) + cross / 2 + cross @ cross / 6
+    return np.eye(3) + (1 - np.cos(angle)) / angle**2 * cross + (angle - np.sin(angle)) / angle**3 * cross @ cross

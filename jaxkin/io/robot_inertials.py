@@ -1,0 +1,45 @@
+"""Masses of links from the elements <inertial> of robot files; what is no mass of a body is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.geometry.inertial import Inertial
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.robot_model import numbers
+from jaxkin.io.sdf_frames import read_pose
+
+SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
+"""Names of the entries of an inertia matrix in URDF and SDF, in the order of `inertial`."""
+ROUNDED = 1e-6
+"""Least eigenvalue of an inertia over its largest one, below zero, that still counts as rounding of the file."""
+
+
+def inertial(mass: float, place: Pose, six: Sequence[float] | np.ndarray, where: str) -> Inertial:
+    """Make the inertial of a link of the place of its centre and axes, and xx, yy, zz, xy, xz, yz of its inertia there.
+
+    Raises ValueError for a mass below zero, and for a matrix that no distribution of mass has.
+    """
+    if mass < 0:
+        raise ValueError(f"{where}: expected a mass from 0 on, got {mass:g}")
+    xx, yy, zz, xy, xz, yz = map(float, six)
+    matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    least, *_, largest = np.linalg.eigvalsh(matrix)
+    if least < -ROUNDED * abs(largest):
+        raise ValueError(f"{where}: expected an inertia without negative eigenvalues, got {list(map(float, six))}")
+    turn = place[:3, :3]
+    return Inertial(mass, place[:3, 3].copy(), turn @ matrix @ turn.T)
+
+
+def sdf_inertial(link: Element, where: str) -> Inertial | None:
+    """Read the mass of a link of SDF, with the defaults of the format inside of <inertial>: 1 kg, 1 kg m^2."""
+    found = link.find("inertial")
+    if found is None or found.get("auto") == "true":
+        return None
+    mass, matrix = float(numbers(found.findtext("mass"), 1, where, (1,))[0]), found.find("inertia")
+    given = {} if matrix is None else {each.tag: each.text for each in matrix}
+    six = [float(numbers(given.get(name), 1, f"{where}: {name}", (name[1] == name[2],))[0]) for name in SIX]
+    return inertial(mass, read_pose(found, where), six, where)

@@ -1,0 +1,32 @@
+"""The solids of links of SDF."""
+
+from __future__ import annotations
+
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from jaxkin.io.robot_model import Shape, numbers, tag
+from jaxkin.io.sdf_frames import read_pose
+
+
+def shapes_of(link: Element, file: str, notes: list[str]) -> tuple[Shape, ...]:
+    """Read what is seen of a link; where that is nothing, what it collides with. What is no known solid is noted."""
+    found = []
+    for each in link.findall("visual") or link.findall("collision"):
+        pose = read_pose(each, f"{file}: {tag(link)}")
+        where = f"{file}: {tag(link)}: {tag(each)}"
+        for solid in each.iterfind("geometry/*"):
+            sizes = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"),
+                     "capsule": ("radius", "length"), "ellipsoid": ("radii",)}  # fmt: skip
+            if solid.tag == "mesh":
+                scale = tuple(numbers(solid.findtext("scale"), 3, where, (1, 1, 1)))
+                found.append(Shape(pose, "mesh", scale, (solid.findtext("uri") or "").strip()))
+            elif solid.tag in sizes:
+                size = [numbers(solid.findtext(key), 3 if key in ("size", "radii") else 1, where)
+                        for key in sizes[solid.tag]]  # fmt: skip
+                kind = "sphere" if solid.tag == "ellipsoid" else solid.tag
+                found.append(Shape(pose, kind, tuple(np.concatenate(size).tolist())))
+            elif solid.tag not in ("plane", "empty"):
+                notes.append(f"{where}: {tag(solid)} is no solid that is known; left out")
+    return tuple(found)
