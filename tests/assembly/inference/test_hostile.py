@@ -85,9 +85,9 @@ def test_four_hundred_bolts_hold_two_plates_as_one_body():
     bolts = [bolt(f"bolt {k}", x, y) for k, (x, y) in enumerate(holes)]
     whole = assembly(*plates, *bolts)
     whole.contacts()
-    start = time.perf_counter()
+    start = time.process_time()
     mechanism = whole.mechanism(fixed=["lower"])
-    assert time.perf_counter() - start < 30.0  # five seconds on a free core
+    assert time.process_time() - start < 30.0  # five seconds of a processor
     assert len(mechanism.bodies) == 1
     assert any(note.startswith("inferred beside exact contacts") for note in mechanism.notes)
 
