@@ -147,7 +147,7 @@ def clashes(
     if traced(motion):
         raise ValueError("clashes are found on the host: call clashes outside of jit, vmap and grad")
     mechanism = motion.mechanism
-    if not mechanism.solids:
+    if not any(part.is_solid for part in mechanism.solids):
         raise ValueError(
             "clashes needs solids, and this mechanism has none: make it from files, jk.load(files).mechanism(fixed=...)"
         )
@@ -181,10 +181,11 @@ def clashes(
 
 
 def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Sequence[str]]) -> np.ndarray:
-    """Mark the pairs of solids that are of different bodies and not to be left out."""
+    """Mark the pairs of solids that are of different bodies and not to be left out; boxes that mark places are none."""
     names = [part.name for part in mechanism.solids]
     bodies = np.unique([setting.body[name] for name in names], return_inverse=True)[1]
-    compared = bodies[:, None] != bodies[None]
+    solid = np.array([part.is_solid for part in mechanism.solids])
+    compared = (bodies[:, None] != bodies[None]) & solid[:, None] & solid[None]
     for pair in ignore:
         if isinstance(pair, str) or len(pair) != 2:
             raise ValueError(f"ignore is a list of pairs of parts, [['bolt', 'plate']], got the entry {pair!r}")

@@ -193,7 +193,7 @@ def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"]
     if part not in mechanism.parts:
         raise ValueError(f"there is no part {part!r}{nearest(str(part), mechanism.parts)}")
     solid = next((each for each in mechanism.solids if each.name == part), None)
-    if solid is None or not len(solid.triangles):
+    if solid is None or not solid.is_solid or not len(solid.triangles):
         raise ValueError(f"{part!r} has no solid to sweep: read the mechanism from a file of solids")
     closed = np.asarray(motion.closed)
     if not closed.any():

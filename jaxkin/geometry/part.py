@@ -67,6 +67,8 @@ class Part:
     """The name in the file, before it was cleaned and numbered; empty where the file gives none."""
     inertial: Inertial | None = None
     """What the file says that the part weighs, world axes; None where it says nothing."""
+    is_solid: bool = True
+    """Whether the triangles are those of the part: False where its file has none, and a small box marks its place."""
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:

@@ -135,7 +135,9 @@ def _extent(export: Export) -> float:
 def _box(edge: float) -> Part:
     import trimesh
 
-    return Part("", (), edge * np.asarray(trimesh.creation.box().triangles), notes=("no file of its solid",))
+    return Part(
+        "", (), edge * np.asarray(trimesh.creation.box().triangles), notes=("no file of its solid",), is_solid=False
+    )
 
 
 class _Places:

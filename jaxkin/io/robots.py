@@ -119,7 +119,8 @@ def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.nd
     notes = () if found or not link.shapes else ("no file of its solid",)
     corners = np.concatenate(found) if found else _corners(Shape(np.eye(4), "box", (mark,) * 3))
     inertial = None if link.inertial is None else link.inertial.moved(link.pose)
-    return Part(name, (), apply(link.pose, corners), notes=notes, original_name=link.name, inertial=inertial)
+    triangles, is_solid = apply(link.pose, corners), bool(found)
+    return Part(name, (), triangles, notes=notes, original_name=link.name, inertial=inertial, is_solid=is_solid)
 
 
 def _corners(shape: Shape) -> np.ndarray:

@@ -166,7 +166,8 @@ def test_places_and_axes_of_inertias_are_those_of_mujoco(tmp_path):
 
 SDF = """<sdf version="1.9"><model name="m"><link name="base"/><link name="arm"><pose>1 2 3 0.1 0.2 0.3</pose>
 <inertial><pose>0.1 0 0.2 0.3 0.2 0.1</pose><mass>2</mass><inertia><ixx>0.3</ixx><ixy>0.01</ixy><iyy>0.4</iyy>
-<izz>0.5</izz></inertia></inertial></link><joint name="A" type="revolute"><parent>base</parent><child>arm</child>
+<izz>0.5</izz></inertia></inertial><visual><geometry><box><size>1 2 3</size></box></geometry></visual></link>
+<joint name="A" type="revolute"><parent>base</parent><child>arm</child>
 <axis><xyz>0 0 1</xyz></axis></joint><joint name="F" type="fixed"><parent>world</parent><child>base</child></joint>
 </model></sdf>"""
 
@@ -184,8 +185,26 @@ def test_sdf(tmp_path):
     np.testing.assert_allclose(masses.inertia[number], turn @ inertia @ turn.T, atol=1e-14)
     # a density of all parts gives way to the file, one of this part does not
     assert float(jk.masses(mechanism, "steel").mass[number]) == 2.0
-    assert float(jk.masses(mechanism, {"arm": "steel"}).mass[number]) != 2.0
+    assert float(jk.masses(mechanism, {"arm": "steel"}).mass[number]) == pytest.approx(6 * 7850, rel=1e-12)
     assert float(jk.masses(mechanism, given={"arm": jk.Mass(7.0, (0, 0, 0))}).mass[number]) == 7.0
+
+
+def test_a_link_without_a_solid_is_not_weighed_by_the_box_that_marks_its_place(tmp_path):
+    links = [f'<link name="{name}"/>' for name in "abc"]
+    links[2] = '<link name="c"><visual><geometry><sphere radius="0.1"/></geometry></visual></link>'
+    joints = [
+        f'<joint name="{a}{b}" type="continuous"><parent link="{a}"/><child link="{b}"/></joint>'
+        for a, b in ("ab", "bc")
+    ]
+    (tmp_path / "r.urdf").write_text(f'<robot name="r">{"".join(links + joints)}</robot>')
+    mechanism = jk.load(tmp_path / "r.urdf").mechanism()
+    with pytest.raises(ValueError, match="no mass of 'b': a part without a solid needs given="):
+        jk.masses(mechanism, "steel")
+    assert float(jk.masses(mechanism, "steel", given={"b": 0}).mass[1]) == 0.0
+    motion = mechanism.sweep({"ab": [0.0, 1.0], "bc": [0.0, 0.0]})
+    assert jk.clashes(motion).pairs == ()
+    with pytest.raises(ValueError, match="'b' has no solid to sweep"):
+        jk.swept_volume(motion, "b")
 
 
 @pytest.mark.parametrize(

@@ -120,15 +120,16 @@ def masses(
     for name in known:
         if name not in mechanism.parts:
             raise ValueError(f"there is no part {name!r} to give a mass{nearest(str(name), mechanism.parts)}")
-    solids = {part.name: part for part in mechanism.solids}
-    densities, named = _densities(density, tuple(solids.values()))
+    parts = {part.name: part for part in mechanism.solids}
+    solids = {name: part for name, part in parts.items() if part.is_solid}
+    densities, named = _densities(density, tuple(parts.values()))
     rows, missing = [], []
     for name in mechanism.parts:
         if name in known:
             rows.append(_given(name, known[name], solids.get(name), METRES[mechanism.unit]))
         elif name in mechanism.fixed:
             rows.append((0.0, np.zeros(3), np.zeros((3, 3))))
-        elif name in solids and name not in named and (own := solids[name].inertial) is not None:
+        elif name in parts and name not in named and (own := parts[name].inertial) is not None:
             rows.append((own.mass, own.centre, own.inertia))
         elif name in solids and name in densities:
             rows.append(_of_solid(solids[name], densities[name], METRES[mechanism.unit]))
