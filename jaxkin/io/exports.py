@@ -12,6 +12,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin.assembly.exported import Constraint, Exported
+from jaxkin.geometry.inertial import NONE
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part, moved, scaled
 from jaxkin.geometry.pose import Pose
@@ -121,7 +122,9 @@ def _placed(
     placed, of = [], {}
     for name, (part, solid) in zip(names, solids, strict=True):
         path = tuple(map(cleaned, part.names[:-1]))
-        at = moved(solid, _in_unit(part.transform, metres))
+        own = part.inertial if part.path not in of else NONE  # of several solids the first has the mass of all
+        at = replace(solid, inertial=own and own.in_unit(1.0 / metres))
+        at = moved(at, _in_unit(part.transform, metres))
         placed.append(replace(at, name=name, path=path, original_name=part.names[-1]))
         of.setdefault(part.path, []).append(name)
     return tuple(placed), [tuple(group) for group in of.values() if len(group) > 1], {p: n[0] for p, n in of.items()}

@@ -9,6 +9,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.io.xml_tree import read_xml
 
 METRES_BY_NAME = {
@@ -37,8 +38,8 @@ class ExportedPart:
     """Name of its STEP file, beside the XML; empty where the export names none."""
     transform: np.ndarray
     """(4, 4) from its file to the world, metres."""
-    mass: float | None
-    """Kilograms."""
+    inertial: Inertial | None
+    """What it weighs: metres, in the axes of its file; None where the export does not say all of it."""
     grounded: bool
     body: tuple[str, ...] | None
     """The rigid group, or the rigid assembly, that holds it, by its path; None where the part moves alone."""
@@ -169,10 +170,22 @@ class _Reader:
             yield from self._instances(one, inner, called, self.placed[inner], held, own)
 
     def _part(self, part: Element, path: tuple, names: tuple, grounded: bool, body: tuple | None) -> ExportedPart:
-        geometry, mass = part.find("GeometryFile"), part.findtext("MassProperties/Mass")
+        geometry = part.find("GeometryFile")
         file = "" if geometry is None else geometry.get("name", "")
-        kilograms = None if mass is None else float(self._numbers(mass, 1, names[-1])[0]) * self.kilograms
-        return ExportedPart(path, names, file, self.placed[path], kilograms, grounded, body)
+        return ExportedPart(path, names, file, self.placed[path], self._inertial(part, names[-1]), grounded, body)
+
+    def _inertial(self, part: Element, name: str) -> Inertial | None:
+        """Read what a part weighs; None, and a note, for a mass below zero."""
+        texts = [part.findtext(f"MassProperties/{each}") for each in ("Mass", "CenterOfMass", "Inertia")]
+        if None in texts:
+            return None
+        (mass,), centre, six = (self._numbers(text, n, name) for text, n in zip(texts, (1, 3, 6), strict=True))
+        if mass < 0:
+            self.notes.append(f"{name}: expected a mass from 0 on, got {mass:g}; it is not taken")
+            return None
+        xx, yy, zz, yz, zx, xy = six * self.kilograms * self.metres**2
+        inertia = np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]])
+        return Inertial(float(mass) * self.kilograms, centre * self.metres, inertia)
 
     def _relations(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint | ExportedMate]:
         """Yield the joints and mates of an assembly at a path; note those that are neither."""

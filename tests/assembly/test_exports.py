@@ -2,15 +2,17 @@
 
 import json
 import lzma
-import tarfile
 from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 import jaxkin as jk
 from jaxkin import examples
+from jaxkin.geometry.units import METRES
 from jaxkin.joints.evidence import EvidenceKind
+from reference.archives import unpack
 from reference.exported import FRAME, Z, instance, joint, load, mate
 
 DATA = Path(__file__).with_name("data")
@@ -20,8 +22,7 @@ DATA = Path(__file__).with_name("data")
 def lift_table(tmp_path_factory):
     """The export of a lift table, 14 parts (MathWorks, licence beside the data), without the files of its solids."""
     folder = tmp_path_factory.mktemp("lift table")
-    with tarfile.open(DATA / "lift_table_export.tar.xz") as packed:
-        packed.extract("LiftTable.xml", folder, filter="data")
+    unpack(DATA / "lift_table_export.tar.xz", folder, "LiftTable.xml")
     with pytest.warns(UserWarning, match="drawn as small boxes"):
         return jk.load(folder / "LiftTable.xml")
 
@@ -30,8 +31,7 @@ def lift_table(tmp_path_factory):
 def lift_table_of_solids(tmp_path_factory):
     """The same with its solids, a STEP file a part."""
     folder = tmp_path_factory.mktemp("lift table of solids")
-    with tarfile.open(DATA / "lift_table_export.tar.xz") as packed:
-        packed.extractall(folder, filter="data")
+    unpack(DATA / "lift_table_export.tar.xz", folder)
     return jk.load(folder / "LiftTable.xml")
 
 
@@ -79,6 +79,22 @@ def test_the_solids_of_the_export_stand_where_its_step_file_has_them(lift_table_
 
 
 @pytest.mark.long
+@pytest.mark.long
+def test_parts_weigh_what_the_cad_system_says(lift_table_of_solids):
+    """Centre and inertia are those of the solids, for one density a part; a chord of a circle loses a thousandth."""
+    metre, skew = METRES[lift_table_of_solids.unit], 0.0
+    masses = jk.masses(lift_table_of_solids.mechanism())
+    for name, mass, centre, inertia in zip(masses.parts, masses.mass, masses.centre, masses.inertia, strict=True):
+        if mass:
+            (part,) = (each for each in lift_table_of_solids.parts if each.name == name)
+            solid = trimesh.Trimesh(part.triangles.reshape(-1, 3), np.arange(len(part.triangles) * 3).reshape(-1, 3))
+            own = solid.moment_inertia * metre**2 * float(mass) / solid.volume
+            np.testing.assert_allclose(centre, solid.center_mass, atol=1e-4 / metre)
+            np.testing.assert_allclose(inertia, own, atol=2e-3 * np.abs(own).max())
+            skew = max(skew, np.abs(own - np.diag(np.diag(own))).max() / np.abs(own).max())
+    assert skew > 0.4  # products of inertia in another order, or of the other sign, would be seen
+
+
 def test_groups_of_nested_assemblies_are_bodies(aileron):
     mechanism = aileron.mechanism()
     assert len(mechanism.bodies) == 8 and mechanism.mobility().freedoms == 1
@@ -182,8 +198,7 @@ def test_names_that_come_again_are_numbered(tmp_path):
 @pytest.mark.long
 def test_solids_are_looked_for_nearby_but_not_taken_from_other_machines(lift_table_of_solids, tmp_path):
     """In a folder next to the export, if that has all of them: one that has a part of the same name is another's."""
-    with tarfile.open(DATA / "lift_table_export.tar.xz") as packed:
-        packed.extractall(tmp_path / "geometry", filter="data")
+    unpack(DATA / "lift_table_export.tar.xz", tmp_path / "geometry")
     (tmp_path / "export").mkdir()
     moved = (tmp_path / "geometry" / "LiftTable.xml").rename(tmp_path / "export" / "LiftTable.xml")
     with_solids = jk.load(moved)
@@ -197,8 +212,7 @@ def test_solids_are_looked_for_nearby_but_not_taken_from_other_machines(lift_tab
 @pytest.mark.long
 def test_solids_in_several_units_are_converted_and_solids_of_one_instance_are_one_body(tmp_path):
     """A four-bar linkage of four solids in millimetres, and a pin in metres."""
-    with tarfile.open(DATA / "lift_table_export.tar.xz") as packed:
-        packed.extract("Link Pin.step", tmp_path, filter="data")
+    unpack(DATA / "lift_table_export.tar.xz", tmp_path, "Link Pin.step")
     (tmp_path / "linkage.step").write_bytes(examples.path("fourbar").read_bytes())
     path = tmp_path / "two.xml"
     tree = instance("linkage", grounded="true") + instance("pin", (2, 0, 0), of="Q")

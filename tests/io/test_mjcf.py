@@ -1,6 +1,5 @@
 """Models of MuJoCo: default classes, orientations, loops, actuators and keyframes, and MuJoCo's own kinematics."""
 
-import tarfile
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -9,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
+from reference.archives import unpack
 
 GRIPPER = """<mujoco model="fourbar"><compiler angle="{angle}" eulerseq="{sequence}"/>
 <default><default class="link"><joint axis="0 1 0" range="-{range} {range}"/><default class="free"><joint range="0 0"/>
@@ -148,8 +148,9 @@ def test_what_is_wrong_is_told_in_one_line(tmp_path, said, message):
 @pytest.fixture(scope="module")
 def cassie(tmp_path_factory):
     folder = tmp_path_factory.mktemp("cassie")
-    with tarfile.open(Path(__file__).with_name("data") / "robots" / "robots.tar.xz") as packed:
-        packed.extract("menagerie__agility_cassie_cassie.xml", folder, filter="data")
+    unpack(
+        Path(__file__).with_name("data") / "robots" / "robots.tar.xz", folder, "menagerie__agility_cassie_cassie.xml"
+    )
     return folder / "menagerie__agility_cassie_cassie.xml"
 
 

@@ -3,7 +3,6 @@
 Tolerance: rounding of a few products of poses, 1e-12 of the size.
 """
 
-import tarfile
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,6 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
+from reference.archives import unpack
 
 ROBOTS = ("5bar_linkage", "robot_delta", "cassie_like", "digit_like")
 
@@ -19,8 +19,7 @@ ROBOTS = ("5bar_linkage", "robot_delta", "cassie_like", "digit_like")
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("robots")
-    with tarfile.open(Path(__file__).with_name("data") / "robots" / "robots.tar.xz") as packed:
-        packed.extractall(where, filter="data")
+    unpack(Path(__file__).with_name("data") / "robots" / "robots.tar.xz", where)
     return where
 
 

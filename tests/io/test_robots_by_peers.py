@@ -3,7 +3,6 @@
 Needs the group `peers`. Each program reads the file itself, and is given the coordinates of our motion.
 """
 
-import tarfile
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -12,6 +11,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.io.yaml_subset import parse_yaml
+from reference.archives import unpack
 
 SAME = 1e-11
 """Metres, and entries of rotations: sums along chains of a dozen links a metre long, of angles that are closed to
@@ -25,8 +25,7 @@ pytestmark = pytest.mark.long
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("robots")
-    with tarfile.open(Path(__file__).with_name("data") / "robots" / "robots.tar.xz") as packed:
-        packed.extractall(where, filter="data")
+    unpack(Path(__file__).with_name("data") / "robots" / "robots.tar.xz", where)
     return where
 
 

@@ -21,9 +21,16 @@ def side(tag: str, *path: str, at: str = "0 0 0") -> str:
     return f"<{tag}><InstancePath>{uids}</InstancePath>{FRAME.format(at)}</{tag}>"
 
 
-def written(folder: Path, tree: str, joints: str = "", assemblies: str = "", unit: str = "meter") -> Path:
+def written(
+    folder: Path,
+    tree: str,
+    joints: str = "",
+    assemblies: str = "",
+    unit: str = "meter",
+    weighs: str = "<Mass>2</Mass>",
+) -> Path:
     path = folder / "arm.xml"
-    part = '<Part name="p" uid="P"><MassProperties><Mass>2</Mass></MassProperties><GeometryFile name="p.step"/></Part>'
+    part = f'<Part name="p" uid="P"><MassProperties>{weighs}</MassProperties><GeometryFile name="p.step"/></Part>'
     path.write_text(
         f'<SimscapeMultibodyImportXML xmlns="urn:x"><DataUnits length="{unit}" mass="gram"/><RootAssembly name="arm">'
         f"<InstanceTree>{tree}</InstanceTree><Constraints/><Joints>{joints}</Joints></RootAssembly>"
@@ -38,8 +45,19 @@ def test_placements_are_composed_through_assemblies_and_units(tmp_path: Path) ->
     export = read_export(written(tmp_path, tree, assemblies='<Assembly uid="A"/>', unit="inch"))
     (part,) = export.parts
     assert (part.name, part.path, part.file, part.grounded) == ("a/b", ("a", "b"), "p.step", True)
-    assert part.mass == pytest.approx(0.002)
+    assert part.inertial is None  # the centre is not said
     np.testing.assert_allclose(part.transform[:3, 3], np.array([0, 1, 10]) * 0.0254, atol=1e-15)
+
+
+def test_masses_are_in_kilograms_and_metres(tmp_path: Path) -> None:
+    weighs = "<Mass>{}</Mass><CenterOfMass>1 2 3</CenterOfMass><Inertia>7 8 9 1 2 3</Inertia>"
+    tree = instance("a", "P", FRAME.format("0 0 0"))
+    own = read_export(written(tmp_path, tree, unit="inch", weighs=weighs.format(2))).parts[0].inertial
+    assert own is not None and own.mass == pytest.approx(0.002)
+    np.testing.assert_allclose(own.centre, 0.0254 * np.array([1, 2, 3]))
+    np.testing.assert_allclose(own.inertia, 0.001 * 0.0254**2 * np.array([[7, 3, 2], [3, 8, 1], [2, 1, 9]]))
+    export = read_export(written(tmp_path, tree, weighs=weighs.format(-2)))
+    assert export.parts[0].inertial is None and "a: expected a mass from 0 on, got -2" in export.notes[0]
 
 
 def test_joints_of_an_assembly_are_found_at_each_of_its_places(tmp_path: Path) -> None:

@@ -1,7 +1,6 @@
 """Robots in URDF with their loops in YAML, against forward kinematics computed from the file alone."""
 
 import re
-import tarfile
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +8,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.io.yaml_subset import parse_yaml
+from reference.archives import unpack
 from reference.robots import frame_links, urdf_poses
 
 ROBOTS = {"5bar_linkage": (2, 1), "robot_delta": (2, 3), "cassie_like": (5, 2), "digit_like": (6, 3)}
@@ -21,8 +21,7 @@ CLOSED = 1e-12
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("robots")
-    with tarfile.open(Path(__file__).with_name("data") / "robots" / "robots.tar.xz") as packed:
-        packed.extractall(where, filter="data")
+    unpack(Path(__file__).with_name("data") / "robots" / "robots.tar.xz", where)
     return where
 
 

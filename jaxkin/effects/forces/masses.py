@@ -107,9 +107,9 @@ def masses(
 
     `density` is in kg/m^3, or the name of a material in `jaxkin.effects.forces.masses.DENSITIES`; a dictionary has one
     for each part, whose names may have "*", where a full name goes before "*". `given` has for a part its `jk.Mass`, or
-    only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots say what their links
-    weigh: that goes before a density for all parts ("*" too), and not before one that names the part. Fixed parts need
-    no mass.
+    only its kilograms: it needs no density, and on mechanisms by hand no solid. Files of robots and exports of CAD
+    systems say what their parts weigh: that goes before a density for all parts ("*" too), and not before one that
+    names the part. Fixed parts need no mass.
 
     Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
     mass can be found, with what to write; for solids that are open, and for unknown parts and materials.
