@@ -20,6 +20,8 @@ _MORE = (1.0, 1.1, 1.3, 1.6, 2.0)
 """Factors by which the tolerance that a near miss seems to need is enlarged, in turn, until it works.
 
 The measured value may not do, since the region that the faces share also depends on the tolerance."""
+_PRINTED = 6
+"""Number of significant digits with which an advised tolerance is written."""
 _CLOSE = 9
 """Largest number of significant digits that `told_apart` writes; beyond them numbers differ by rounding only."""
 
@@ -57,9 +59,11 @@ def _candidates(
     yield from filter(None, fits)
     needed = reach(touch, region.extent) - max(0.0, clearance or 0.0)
     for more in _MORE if needed > 0 else ():
-        length = rounded_up(more * needed)
-        if tolerance.length < length <= tolerance.near_length:
-            yield {**fits[0], "length": length}
+        # as many digits as are printed where two are more than is accepted
+        for length in (rounded_up(more * needed), rounded_up(more * needed, _PRINTED)):
+            if tolerance.length < length <= tolerance.near_length:
+                yield {**fits[0], "length": length}
+                break
 
 
 def rounded_up(value: float, digits: int = DIGITS) -> float:

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from jaxkin.contacts.detect import find_contacts
@@ -66,6 +66,7 @@ def test_advice_for_pins_makes_them_fit(solids, size, more, fit, aside):
 
 
 @settings(max_examples=25, deadline=None)
+@example(0.00868, None)  # two digits are more than the largest gap of a near miss, 0.00869
 @given(st.floats(1e-5, 0.02), st.sampled_from([None, 1e-4, 3e-4]))
 def test_advice_for_gaps_closes_them(solids, gap, length):
     parts = lying(solids, gap)

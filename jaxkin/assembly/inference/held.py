@@ -132,7 +132,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     widest = max(ends, key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len({body[each] for each in stack.held}) == 1:
-        turns = known.sleeves.issuperset(stack.held)  # as a shaft in bushes
+        # as a shaft in bushes, also where its collars touch what these are in
+        turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
         return (None, "") if turns else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]

@@ -2,7 +2,7 @@
 
 The faces of a joint slide on each other with the velocity s = (v, r w): v is that of the point of the joint on part 2
 relative to part 1, w the relative angular velocity, r the radius at which the faces touch. They are pressed together by
-N, the part of what the joint transmits that it could not transmit by sliding: see `FRICTION_OF`. Friction acts on part
+N, the part of what the joint transmits that it could not transmit by sliding: see `PairFriction`. Friction acts on part
 2 against the sliding,
 
     (force, torque / r) = -mu N s / |s|,
@@ -29,13 +29,14 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._named import Named
 from jaxkin.effects.forces.balance import balance, solve
-from jaxkin.effects.forces.friction_of import FRICTION_OF
+from jaxkin.effects.forces.friction_of import pair_friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import JointFriction
 from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_at
 from jaxkin.effects.forces.wrenches import Loads, Moving
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.units import METRES
+from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import KnownDrive
 from jaxkin.mechanism.motion import Motion
@@ -187,15 +188,19 @@ def _pressed(
     T + p F = `rubs`, the load of friction along its coordinate: what else acts there, such as its drive, is a torque
     beside the thread. Across the thread this is (r F - p T / r) / h = F h / r - rubs p / (r h), h^2 = r^2 + p^2.
     """
-    (movement,), own = linkage.joints[number].movements, moving.at.joints[number]
-    which, force = FRICTION_OF[movement], wrench[3:]
+    joint, own = linkage.joints[number], moving.at.joints[number]
+    which, force = pair_friction(joint), wrench[3:]
+    if which is None:
+        raise ValueError(f"the friction of {joint.name!r} is not known")  # `check_friction` has refused it
+    pair = MOVEMENTS[joint.movements[0]]
+    helical, slides = pair.pair == JointKind.SCREW, pair.only_slides
     none = jnp.zeros((1, wrench.shape[1]))
-    if which.along and which.across and movement != "T_screw":
+    if which.along and which.across and not helical:
         return jnp.concatenate([force, none])
-    axis = own.twists[-1][3:] if MOVEMENTS[movement].only_slides else own.twists[-1][:3]
+    axis = own.twists[-1][3:] if slides else own.twists[-1][:3]
     far = jnp.sum(force * axis, axis=0)
     across = force - far * axis
-    if movement != "T_screw":
+    if not helical:
         return jnp.concatenate([far * axis if which.along else across, none])
     radius = jnp.asarray(given.radius, float) / moving.at.scale.size
     advance = jnp.sum(velocity_at(own.twists[-1], own.point) * axis, axis=0)

@@ -11,6 +11,9 @@ from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.forces.given import JointFriction
 from jaxkin.effects.forces.undetermined import Undetermined
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.linkage import Linkage
 
 
@@ -30,16 +33,21 @@ class PairFriction(NamedTuple):
 _ALL = ("force x", "force y", "force z")
 _ACROSS = ("force x", "force y")
 
-FRICTION_OF = {
-    "T_phi": PairFriction(along=True, across=True, radius="needed", components=_ALL),
-    "T_z": PairFriction(along=False, across=True, radius="none", components=_ACROSS),
-    "T_z_phi": PairFriction(along=False, across=True, radius="needed", components=_ACROSS),
-    "T_screw": PairFriction(along=True, across=True, radius="needed", components=_ALL),
-    "T_xy_phi": PairFriction(along=True, across=False, radius="may", components=("force z",)),
-    "T_theta_phi_psi": PairFriction(along=True, across=True, radius="needed", components=_ALL),
+FRICTION_OF: dict[str | None, PairFriction] = {
+    JointKind.REVOLUTE: PairFriction(along=True, across=True, radius="needed", components=_ALL),
+    JointKind.PRISMATIC: PairFriction(along=False, across=True, radius="none", components=_ACROSS),
+    JointKind.CYLINDRICAL: PairFriction(along=False, across=True, radius="needed", components=_ACROSS),
+    JointKind.SCREW: PairFriction(along=True, across=True, radius="needed", components=_ALL),
+    JointKind.PLANAR: PairFriction(along=True, across=False, radius="may", components=("force z",)),
+    JointKind.SPHERICAL: PairFriction(along=True, across=True, radius="needed", components=_ALL),
 }
-"""Movement of a joint -> its friction. In a screw the part of all forces across its thread presses.
+"""Kind of a pair -> its friction. In a screw the part of all forces across its thread presses.
 Torques about axes that a joint does not turn about press nothing."""
+
+
+def pair_friction(joint: Joint) -> PairFriction | None:
+    """Find the friction of a joint that is one lower pair; None for other joints."""
+    return FRICTION_OF.get(MOVEMENTS[joint.movements[0]].pair) if len(joint.movements) == 1 else None
 
 
 def check_friction(linkage: Linkage, given: Sequence[JointFriction], moves: bool) -> None:
@@ -53,19 +61,17 @@ def check_friction(linkage: Linkage, given: Sequence[JointFriction], moves: bool
         if name in seen:
             raise ValueError(f"the friction of {name!r} is given twice: give it once")
         seen.add(name)
-        movements = joints[name].movements
-        if len(movements) != 1 or movements[0] not in FRICTION_OF:
+        if (pair := pair_friction(joints[name])) is None:
             raise ValueError(
                 f"friction is known of revolute, prismatic, cylindrical, screw, planar and spherical joints, and "
                 f"{name!r} is {joints[name].kind}: write jk.joint_load({name!r}, ...) for a load that you know"
             )
-        wanted = FRICTION_OF[movements[0]].radius
-        if wanted == "needed" and each.radius is None:
+        if pair.radius == "needed" and each.radius is None:
             raise ValueError(
                 f"the friction of {name!r}, {joints[name].kind}, needs the radius at which its faces touch: "
                 f"jk.joint_friction({name!r}, {_shown(each.coefficient)}, radius=5)"
             )
-        if wanted == "none" and each.radius is not None:
+        if pair.radius == "none" and each.radius is not None:
             raise ValueError(f"{name!r} is {joints[name].kind} and does not turn: leave out the radius of its friction")
     if given and not moves:
         raise ValueError(
@@ -80,11 +86,11 @@ def _shown(coefficient: object) -> str:
 
 def undetermined_friction(linkage: Linkage, names: Sequence[str], found: Sequence[Undetermined]) -> list[Undetermined]:
     """Find the joints among `names` whose friction rests on reactions that are not determined, with these."""
-    movements = {joint.name: joint.movements[0] for joint in linkage.joints if joint.name in names}
+    pairs = {joint.name: pair_friction(joint) for joint in linkage.joints if joint.name in names}
     told = []
     for each in found:
-        if each.joint in movements:
-            components = [name for name in each.components if name in FRICTION_OF[movements[each.joint]].components]
+        if (pair := pairs.get(each.joint)) is not None:
+            components = [name for name in each.components if name in pair.components]
             if components:
                 told.append(Undetermined(each.joint, each.parts, tuple(components)))
     return told

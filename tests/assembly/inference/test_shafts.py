@@ -44,9 +44,11 @@ def test_a_key_holds_a_hub_on_its_shaft(seed, play, keyed):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_a_shaft_in_bushes_of_one_body_turns_in_them(seed):
+    """A flag shows that it turns: round parts alone count as what only spins."""
     base = part("base", BASE, ring(8.0, 14.0, -60, -40), ring(8.0, 14.0, 40, 60))
     bushes = [part(f"bush {z}", ring(5.0, 8.0, z, z + 20)) for z in (-60, 40)]
-    shaft = part("shaft", pin(5.0, -70, 70), pin(9.0, -64, -60), pin(9.0, 60, 64))
+    flag = block((4, -2, 64), (18, 2, 70))
+    shaft = part("shaft", pin(5.0, -70, 70), pin(9.0, -64, -60), pin(9.0, 60, 64), flag)
     mechanism = anywhere(assembly(base, *bushes, shaft), seed).mechanism(fixed=["base"])
     body = owners(mechanism)
     assert body["bush -60"] == body["bush 40"] == body["base"] != body["shaft"]
