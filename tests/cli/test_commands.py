@@ -277,6 +277,7 @@ def test_a_process_ends_with_code_2_and_no_traceback(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_accuracy_prints_and_draws_what_it_costs(tmp_path):
     picture = tmp_path / "cost.png"
     done = invoke("accuracy", FOURBAR, "--fixed", "ground", "--drive", "ground-crank=0:90:13", "--png", picture)

@@ -115,6 +115,7 @@ def test_a_flat_face_across_a_hollow():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
     radius = 2.5 * HOLLOW
     round_one = radius * np.stack([np.cos(ANGLE), np.sin(ANGLE)], axis=1)

@@ -71,7 +71,7 @@ CASES = {
     "driven ball": (on_ball, {"ball.theta": 0.2 * WAY, "ball.phi": -0.1 * WAY, "ball.psi": 0.3 * WAY}),
     "target": (catalogue.jansen, None),
 }
-SLOW = ("Jansen", "ball in a bore", "driven ball")
+SLOW = ("Jansen", "Bennett", "Cardan", "ball in a bore", "driven ball")
 
 
 @pytest.mark.long

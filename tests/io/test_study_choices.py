@@ -154,6 +154,7 @@ def test_a_small_drive_leaves_no_joint_beyond_a_small_range():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_the_lift_table_is_swept_with_every_line(tmp_path):
     """The study that the command line writes of a real assembly, and each of its variants: some poses are closed."""
     (tmp_path / "lift.step").write_bytes(lzma.decompress(LIFT_TABLE.read_bytes()))

@@ -123,7 +123,7 @@ def test_the_tolerance_and_the_method_that_are_asked_for_decide(general):
 @pytest.mark.parametrize(
     ("name", "ways"),
     [
-        ("four-bar", "001110"),
+        pytest.param("four-bar", "001110", marks=pytest.mark.study),
         ("slider-crank", "000110"),
         ("RSSR", "111111"),
         pytest.param("Watt", "001110", marks=pytest.mark.study),

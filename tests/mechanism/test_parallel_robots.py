@@ -15,6 +15,7 @@ LEGS = [f"leg {i}" for i in range(6)]
 
 
 @pytest.mark.long
+@pytest.mark.study
 @pytest.mark.parametrize("shuffled", [False, True])
 def test_a_hexapod_follows_its_legs(shuffled):
     mechanism = hexapod()

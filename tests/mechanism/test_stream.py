@@ -93,6 +93,7 @@ def around(poses, turns):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_several_inputs_are_followed_on_their_way():
     """Behind the inputs that cannot be reached a straight line from the assembled pose says JUMPED."""
     drive = around(90, 0.5)

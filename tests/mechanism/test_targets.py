@@ -45,6 +45,7 @@ def test_each_leg_is_solved_by_itself_once_the_platform_is_given():
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_the_legs_of_a_hexapod_for_poses_of_its_platform():
     """Their lengths are the distances of their balls."""
     mechanism = hexapod()

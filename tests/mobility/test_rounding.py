@@ -98,7 +98,7 @@ SLOW = (
 
 
 SLOWEST = ("parallel links, cylindrical", "spherical_wrist", "schmidt_coupling", "peaucellier", "wrist", "three cranks")
-SLOWEST += ("Fig. 3", "Fig. 7")
+SLOWEST += ("Fig. 3", "Fig. 7", "delta")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name in SLOW)) for name in EVERY])

@@ -58,6 +58,7 @@ def test_shards_are_the_range(linkage, order):
 
 
 @pytest.mark.long
+@pytest.mark.study
 def test_shards_of_several_inputs_are_their_range():
     """In and out of reach of a five-bar: behind a limit a straight line from the assembled pose is tried."""
     way = np.linspace(0.0, 12.0, POSES)
