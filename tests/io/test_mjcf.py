@@ -1,7 +1,6 @@
 """Models of MuJoCo: default classes, orientations, loops, actuators and keyframes, and MuJoCo's own kinematics."""
 
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -9,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from reference.archives import unpack
+from reference.bare_models import bare_model
 
 GRIPPER = """<mujoco model="fourbar"><compiler angle="{angle}" eulerseq="{sequence}"/>
 <default><default class="link"><joint axis="0 1 0" range="-{range} {range}"/><default class="free"><joint range="0 0"/>
@@ -177,13 +177,7 @@ def test_cassie_sweeps_all_motors(cassie):
 @pytest.mark.long
 def test_axes_and_loops_are_those_of_mujoco(cassie, tmp_path):
     mujoco = pytest.importorskip("mujoco")
-    root = ElementTree.parse(cassie).getroot()
-    root.remove(root.find("asset"))  # neither meshes nor pictures are there
-    for body in root.iter("body"):
-        for geom in body.findall("geom"):
-            body.remove(geom)
-    ElementTree.ElementTree(root).write(tmp_path / "bare.xml")
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "bare.xml"))
+    model = bare_model(cassie, tmp_path)
     data = mujoco.MjData(model)
     assembly = jk.load(cassie)
     mechanism = assembly.mechanism()

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import jaxkin as jk
 from reference.archives import unpack
+from reference.bare_models import bare_model
 
 ROBOTS = ("5bar_linkage", "robot_delta", "cassie_like", "digit_like")
 
@@ -117,15 +118,8 @@ def test_gravity_torques_of_a_five_bar_are_those_of_pinocchio(folder, closed):
 
 
 def test_cassie_weighs_what_mujoco_has(folder, tmp_path):
-    mujoco = pytest.importorskip("mujoco")
     path = folder / "menagerie__agility_cassie_cassie.xml"
-    root = ElementTree.parse(path).getroot()
-    root.remove(root.find("asset"))  # neither meshes nor pictures are there
-    for body in root.iter("body"):
-        for geom in body.findall("geom"):
-            body.remove(geom)
-    ElementTree.ElementTree(root).write(tmp_path / "bare.xml")
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "bare.xml"))
+    model = bare_model(path, tmp_path)
     mechanism = jk.load(path).mechanism()
     masses = jk.masses(mechanism, given={mechanism.fixed[0]: 0})
     compared = 0

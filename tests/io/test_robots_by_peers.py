@@ -4,7 +4,6 @@ Needs the group `peers`. Each program reads the file itself, and is given the co
 """
 
 from pathlib import Path
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -12,6 +11,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.io.yaml_subset import parse_yaml
 from reference.archives import unpack
+from reference.bare_models import bare_model
 
 SAME = 1e-11
 """Metres, and entries of rotations: sums along chains of a dozen links a metre long, of angles that are closed to
@@ -76,13 +76,7 @@ def test_every_link_is_where_pinocchio_has_it_and_every_loop_is_closed(folder, n
 def test_every_body_of_cassie_is_where_mujoco_has_it(folder, tmp_path):
     mujoco = pytest.importorskip("mujoco")
     file = folder / "menagerie__agility_cassie_cassie.xml"
-    root = ElementTree.parse(file).getroot()
-    root.remove(root.find("asset"))  # neither meshes nor pictures are there
-    for body in root.iter("body"):
-        for geom in body.findall("geom"):
-            body.remove(geom)
-    ElementTree.ElementTree(root).write(tmp_path / "bare.xml")
-    model = mujoco.MjModel.from_xml_path(str(tmp_path / "bare.xml"))
+    model = bare_model(file, tmp_path)
     data = mujoco.MjData(model)
     motion, values = moved(jk.load(file))
     hinges = [model.joint(k).name for k in range(model.njnt) if model.jnt_type[k] == mujoco.mjtJoint.mjJNT_HINGE]

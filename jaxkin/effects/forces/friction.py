@@ -29,7 +29,7 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._named import Named
 from jaxkin.effects.forces.balance import balance, solve
-from jaxkin.effects.forces.friction_of import pair_friction
+from jaxkin.effects.forces.friction_of import FRICTION_OF
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import JointFriction
 from jaxkin.effects.forces.screws import Twist, cross, relative_twist, velocity_at
@@ -188,16 +188,12 @@ def _pressed(
     T + p F = `rubs`, the load of friction along its coordinate: what else acts there, such as its drive, is a torque
     beside the thread. Across the thread this is (r F - p T / r) / h = F h / r - rubs p / (r h), h^2 = r^2 + p^2.
     """
-    joint, own = linkage.joints[number], moving.at.joints[number]
-    which, force = pair_friction(joint), wrench[3:]
-    if which is None:
-        raise ValueError(f"the friction of {joint.name!r} is not known")  # `check_friction` has refused it
-    pair = MOVEMENTS[joint.movements[0]]
-    helical, slides = pair.pair == JointKind.SCREW, pair.only_slides
+    (movement,), own = (MOVEMENTS[name] for name in linkage.joints[number].movements), moving.at.joints[number]
+    which, force, helical = FRICTION_OF[movement.pair], wrench[3:], movement.pair == JointKind.SCREW
     none = jnp.zeros((1, wrench.shape[1]))
     if which.along and which.across and not helical:
         return jnp.concatenate([force, none])
-    axis = own.twists[-1][3:] if slides else own.twists[-1][:3]
+    axis = own.twists[-1][3:] if movement.only_slides else own.twists[-1][:3]
     far = jnp.sum(force * axis, axis=0)
     across = force - far * axis
     if not helical:
