@@ -23,7 +23,7 @@ LIGHT = np.array([-0.35, -0.55, 0.76], np.float32)
 CONTRAST = 0.45
 """How strongly the brightness of a face follows the cosine between its normal and `LIGHT`."""
 CREASE_COSINE = float(np.cos(np.deg2rad(38)))
-"""An edge is drawn where faces turn by more than this: more than a tessellated round face turns from one triangle to the next."""
+"""An edge is drawn where faces turn by more: beyond what a tessellated round face turns between triangles."""
 DEPTH_STEP = 2.0
 """Depth between neighbours, in pixels drawn and over the slope, that no plane has: a step."""
 SHADOW, SHADOW_REACH = 0.26, 7.0  # darkest shadow; how far it reaches and how deep a layer lies to be in it, in pixels
