@@ -53,17 +53,12 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     others MuJoCo computes the masses from their meshes, as shells.
 
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, for a coupling that MuJoCo cannot say (a polynomial in several coordinates, or of a power above four), and for
-    `masses` of another mechanism.
+    pose, for a joint along a curve, for a coupling that MuJoCo cannot say (a polynomial in several coordinates, or of a
+    power above four), and for `masses` of another mechanism.
     """
     target = Path(path)
     if target.suffix.lower() != ".xml":
         raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")
-    if along := [joint for joint in mechanism.all_joints if joint.curves]:
-        raise ValueError(
-            f"MuJoCo has no joints along curves, as {along[0].name!r} ({along[0].kind}) is one: leave it out, and "
-            "drive the follower by what jaxkin computes"
-        )
     root = _Writer(mechanism, target.stem, written_inertials(mechanism, masses)).root
     ElementTree.indent(root)
     with whole(target) as draft:
