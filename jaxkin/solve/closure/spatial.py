@@ -29,7 +29,7 @@ from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
-from jaxkin.solve.system.chain_tables import AXES, Z_AXIS, ChainTables, chain_tables
+from jaxkin.solve.system.chain_tables import Z_AXIS, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rotation_matrix
 
@@ -181,7 +181,7 @@ def _travel(
     if screw.any():
         advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
-    (cos, sin), travel = cos_sin(turn * q), advance * q
+    (cos, sin), travel = cos_sin(turn * q), jnp.asarray(advance) * q
     rates: Array | None = None
     if geometry.curves:
         cos, sin, travel, rates = along_curves(system, geometry.curves, state, (cos, sin, travel))
@@ -248,14 +248,14 @@ def spatial_geometry(
 ) -> Spatial:
     """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
     table = chain_tables(system)
-    turned = np.zeros((3, 4, 4))
-    turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
     # from behind each step, and from the begin of the chain, to the next step, and to the end of the chain
     upright = np.full_like(table.axis[:1], Z_AXIS)
     behind = np.concatenate([table.begin[None], table.leave]), np.concatenate([upright, table.axis])
     before = np.concatenate([table.enter, table.end[None]]), np.concatenate([table.axis, upright])
     which, axis = np.stack([behind, before], axis=1)
-    left, right = frames[which] @ turned[axis].astype(frames.dtype)
+    # `AXES` moves the columns of frames round: column c is what column c + axis + 1 was
+    columns = np.where(np.arange(4) < 3, (np.arange(4) + axis[..., None] + 1) % 3, 3)
+    left, right = frames[which[..., None, None], np.arange(4)[:, None], columns[..., None, :]]
     between = _inverse(left) @ right
     return Spatial(between[:-1], between[-1], pitch, spin_lines(system, frames), _centres(system, frames), curves)
 
