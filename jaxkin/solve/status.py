@@ -17,6 +17,8 @@
 - MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and
   the residual of the given joints is above the tolerance (`correctors.least_residual`).
 - The worst of several structure elements: see `SEVERITY`.
+- LIMITED in place of CLOSED: a coordinate is beyond the limits of its joint (`mechanism.joint_limits`). The loops are
+  closed, on the branch of the assembled pose, so that effects and derivatives are those of any closed pose.
 - NONFINITE: an input of the pose is NaN or infinite (`mechanism.sweep`, which solves for a finite input in its place).
 
 The reference methods (`reference_methods.minimise`: DFP, BFGS and others) do not use the table. They report CLOSED,
@@ -47,6 +49,7 @@ class Status(IntEnum):
     STALLED = 3
     NONFINITE = 4
     MISFIT = 5
+    LIMITED = 6
 
     @property
     def message(self) -> str:
@@ -61,10 +64,20 @@ _MESSAGES = {
     Status.STALLED: "not converged: give more poses in between, or start from a pose that is less singular",
     Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the "
     "mechanism say which of them disagree",
+    Status.LIMITED: "all loops closed, on the branch of the assembled pose, but a joint is beyond its limits: keep the "
+    "range within what jk.limits finds, or give the joint other limits",
     Status.NONFINITE: "the input or the geometry holds NaN or infinity: correct it",
 }
 
-SEVERITY = (Status.CLOSED, Status.MISFIT, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
+SEVERITY = (
+    Status.CLOSED,
+    Status.LIMITED,
+    Status.MISFIT,
+    Status.JUMPED,
+    Status.UNREACHABLE,
+    Status.STALLED,
+    Status.NONFINITE,
+)
 """All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its structure
 elements have: a pose that is useless for one element is useless for the mechanism."""
 
@@ -116,6 +129,11 @@ def classify(
     status = jnp.where(stationary, Status.UNREACHABLE.value, Status.STALLED.value)
     status = jnp.where(closed, jnp.where(same_branch, Status.CLOSED.value, Status.JUMPED.value), status)
     return jnp.where(jnp.isfinite(residual_norm), status, Status.NONFINITE.value).astype(jnp.int32)
+
+
+def is_closed_on_branch(status: Int[Array | np.ndarray, " poses"]) -> Bool[Array | np.ndarray, " poses"]:
+    """Tell which poses have all loops closed on the branch of the assembled pose, within limits of joints or not."""
+    return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
 
 
 def is_closed(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
