@@ -60,11 +60,11 @@ def sweep(
     options, and effects of the motion use them.
 
     Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached, or is beyond the limits of a joint, is
-    reported in `motion.status`; with `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose displacements are NaN or infinite is
-    NONFINITE and NaN itself, and all others are what they would be without it. Raises ValueError for a drive that makes
-    no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops have no freedoms for (see
-    `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of wrong values, and for
-    `throw=True` where numbers are traced.
+    reported in `motion.status`; with `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose
+    displacements are NaN or infinite is NONFINITE and NaN itself, and all others are what they would be without it.
+    Raises ValueError for a drive that makes no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops
+    have no freedoms for (see `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of
+    wrong values, and for `throw=True` where numbers are traced.
     """
     warn_of_float32()
     motion = with_limited(follow_drive(mechanism, drive, options_with(options, tolerance, method), tolerance))

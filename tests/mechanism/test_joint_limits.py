@@ -111,7 +111,7 @@ def test_statuses_are_those_of_the_sweep_inside_jit_and_gradients_those_without_
 
     one, other = (jax.grad(height(each))(jnp.asarray(TURN)) for each in (limited(), slider_crank()))
     np.testing.assert_array_equal(one, other)
-    with pytest.raises(ValueError, match="read motion.status"):
+    with pytest.raises(ValueError, match=r"read motion\.status"):
         jax.jit(lambda turn: limited().sweep({"A": turn}).beyond_limits)(TURN)
 
 
