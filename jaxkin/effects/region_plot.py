@@ -44,7 +44,8 @@ def draw_regions(found: ModeRegions, path: Path) -> Path:
         modes = ", ".join(found.modes.names[k].removeprefix("mode ") for k in found.regions[number])
         axes.set(xlabel=one, ylabel=other)
         axes.set_title(f"mode{'' if len(found.regions[number]) == 1 else 's'} {modes}", fontsize="medium")
-    figure.colorbar(drawn, ax=every, label="poses for the same inputs", ticks=np.arange(1, most + 1))
+    if drawn is not None:
+        figure.colorbar(drawn, ax=every, label="poses for the same inputs", ticks=np.arange(1, most + 1))
     with whole(path) as draft:
         figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
     return path

@@ -115,7 +115,8 @@ def excesses(motion: Motion) -> dict[str, Float[np.ndarray, " poses"]]:
     bounds, found = bounds_of(joints), {}
     if not bounds:
         return found
-    size = scaled_frames(*([np.asarray(getattr(j, side)) for j in joints] for side in ("frames_1", "frames_2")), np)[1]
+    frames = ([np.asarray(each.frames_1) for each in joints], [np.asarray(each.frames_2) for each in joints])
+    size = scaled_frames(frames[0], frames[1], np)[1]
     for each in bounds:
         q = np.asarray(motion.displacements[each.joint], float)[:, each.coordinate]
         slack = _slack(motion.displacements[each.joint].dtype) * (float(size) if each.length else 1.0)

@@ -168,8 +168,8 @@ def _at_rest(
     """
     # without the barrier XLA computes derivatives anew wherever they are used
     found = lax.optimization_barrier(changes(drive, known, inputs, None))
-    forces = dict.fromkeys(found.along, jnp.zeros(len(known.status)))
-    powers = dict.fromkeys(found.along, jnp.where(is_closed_on_branch(known.status), 0.0, jnp.nan))
+    forces: Inputs = dict.fromkeys(found.along, jnp.zeros(len(known.status)))
+    powers: Inputs = dict.fromkeys(found.along, jnp.where(is_closed_on_branch(known.status), 0.0, jnp.nan))
     if acting.applied:
         moving, sums = acting_on(unit, False, linkage, found, acting._replace(masses=None))
         forces, _ = _forces(drive, unit, linkage, known.status, moving, sums, {}, found.along, None)
@@ -180,7 +180,8 @@ def _at_rest(
             metre = METRES[unit] / metres_of(linkage.joints[joint].coordinates[index], unit)
             forces[name] = forces[name] + metre * change(found.along[name])
     closed = is_closed_on_branch(known.status)
-    return {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}, powers
+    held: Inputs = {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}
+    return held, powers
 
 
 @partial(whole_program, static=(0, 1))

@@ -92,5 +92,5 @@ def _centred(frame: Any, scale: Scale) -> Float[Array, "3 4 1"]:
 
 def _times(row: Row, frame: Float[Array, "3 4 1"]) -> Row:
     """Multiply a row by a frame from the right."""
-    found = [sum(row[i] * frame[i, j] for i in range(3)) for j in range(4)]
+    found = [row[0] * frame[0, j] + row[1] * frame[1, j] + row[2] * frame[2, j] for j in range(4)]
     return [*found[:3], found[3] + row[3]]

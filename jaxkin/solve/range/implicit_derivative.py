@@ -53,7 +53,9 @@ def _implicit_jvp(system: LoopSystem, primals, tangents):
     evaluation = closure(system, geometry, safe)
     # the driven columns of the Jacobian are there already, and the loops are closed: they are those of the residual
     _, columns = driven_rate(system, safe, d_inputs)
-    d_residual = sum(evaluation.jacobian[:, column] * columns[column] for column in system.driven)
+    d_residual = jnp.zeros_like(evaluation.residual)
+    for column in system.driven:
+        d_residual = d_residual + evaluation.jacobian[:, column] * columns[column]
     if not geometry_rests:
         of_geometry = jax.jvp(lambda own: closure(system, own, safe).residual, (geometry,), (d_geometry,))[1]
         d_residual = d_residual + of_geometry
