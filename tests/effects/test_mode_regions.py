@@ -42,7 +42,7 @@ def pieces(ranges) -> list[set[float]]:
     inside = np.all([(own >= low) & (own <= high) for own, (low, high) in lengths], axis=0)
     found: dict[tuple[int, int], set[float]] = {}
     for sign in (1, -1):
-        labels, count = label(inside & (sign * determinant > 0))
+        labels, count = label(inside & (sign * determinant > 0))  # pyright: ignore[reportGeneralTypeIssues]
         # pieces go on across the ends of both angles
         joined = np.concatenate([np.stack([labels[0], labels[-1]], 1), np.stack([labels[:, 0], labels[:, -1]], 1)])
         joined = joined[np.all(joined > 0, axis=1)]
@@ -139,4 +139,4 @@ def test_what_has_no_regions_is_refused():
         (jk.assembly_modes(rods, {"A": 0.0, "T": 0.0}), {"A": grid, "T": grid}, "1 idle freedom, such as the spin"),
     ):
         with pytest.raises(ValueError, match=message):
-            jk.mode_regions(given, ranges)
+            jk.mode_regions(given, ranges)  # pyright: ignore[reportArgumentType]
