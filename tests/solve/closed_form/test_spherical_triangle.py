@@ -53,7 +53,7 @@ def test_beside_a_limit_the_error_is_rounding_over_the_root_of_the_discriminant(
         closes, open_ = 0.0, np.arccos(axes[0] @ axes[2])  # there the first and the third axis are one
         while True:
             middle = 0.5 * (closes + open_)
-            between = [np.eye(3), np.eye(3), rotation(about, middle)]
+            between = [np.eye(3), np.eye(3), rotation(about, float(middle))]
             found = solve(axes, between, 1.0)
             q, discriminant = found.coordinates, found.discriminant
             if wanted / 4 < discriminant < 4 * wanted:
