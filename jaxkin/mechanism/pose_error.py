@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._traced import traced
-from jaxkin.solve.status import SEVERITY
+from jaxkin.solve.status import SEVERITY, Status
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
@@ -28,7 +28,8 @@ def check(motion: Motion) -> None:
             "throw=True and check() look at numbers, which JAX traces here: inside jit, vmap and grad read "
             "motion.status, and write check() outside"
         )
-    if not np.all(motion.on_branch):
+    # numbers of the host: the first comparison of arrays of JAX compiles a program
+    if not np.isin(np.asarray(motion.status), (Status.CLOSED, Status.MISFIT)).all():
         raise PoseError(motion)
 
 

@@ -14,7 +14,8 @@ from jaxkin.solve.status import Status
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-MAX_TOLD_INPUTS = 3  # driven displacements that are told; there may be many, and no place for them
+MAX_TOLD_INPUTS = 3
+"""Driven displacements that are told; there may be many, and no place for them."""
 
 
 @dataclass(frozen=True, eq=False)
