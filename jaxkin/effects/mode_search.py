@@ -209,8 +209,9 @@ def _formula_poses(
     """Compute displacements and residual norms by formulas, for inputs in radians and lengths of the mechanism."""
     axes = assembled_axes(system, joints)
     lengths = jnp.where(jnp.array([system.is_length[column] for column in system.driven]), axes.length, 1.0)
-    x = jnp.asarray(solve_groups(system, axes, list(signs), inputs / lengths[:, None]).x)
-    return joint_displacements(system, joints, axes, x), jnp.asarray(residual_norm(system, axes, x))
+    solved = solve_groups(system, axes, list(signs), inputs / lengths[:, None])
+    residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
+    return joint_displacements(system, joints, axes, jnp.asarray(solved.x)), residual
 
 
 def _from_starts(

@@ -56,10 +56,11 @@ def collect(
     """Collect inputs, displacements, status and closure residual of each pose. All are NaN where an input is not
     `finite`."""
     poses, dtype = values[0].shape[0], values[0].dtype
+    given = dict(zip(layout.driven, values, strict=True))
     resting = {freedoms: jnp.zeros((poses, freedoms), dtype) for freedoms in sorted(set(layout.freedoms))}
     moved: dict[int, Array] = {}
-    for (joint, coordinate), given in zip(layout.driven, values, strict=True):
-        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(given)
+    for (joint, coordinate), value in given.items():
+        moved[joint] = moved.get(joint, resting[layout.freedoms[joint]]).at[:, coordinate].set(value)
     rank = jnp.array([SEVERITY.index(status) for status in Status], jnp.int32)
     worst = jnp.zeros(poses, jnp.int32)
     if finite is not None:
@@ -68,7 +69,11 @@ def collect(
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
         for joint in dict.fromkeys(joint for joint, _ in columns):
             own = [(joint, k) for k in range(layout.freedoms[joint])]
-            rows = [coordinates[columns.index(each), :poses] if each in columns else 0.0 for each in own]
+            # inputs as they were given
+            rows = [
+                given[each] if each in given else coordinates[columns.index(each), :poses] if each in columns else 0.0
+                for each in own
+            ]
             rows = [jnp.broadcast_to(row, (poses,)) for row in rows]
             moved[joint] = rows[0][:, None] if len(rows) == 1 else jnp.stack(rows, axis=1)
         worst = jnp.maximum(worst, rank[found.status[:poses]])

@@ -132,8 +132,8 @@ def _program(layout: DisplacementSources, systems: tuple[LoopSystem, ...], input
         solutions, proven = [], jnp.ones((), bool)
         for system, own, line, which in zip(systems, numbers, lines, inputs, strict=True):
             found = find_poses_by_formula(system, own.axes, line, values[which][None], tolerance)
-            displaced = joint_displacements(system, own.joints, own.axes, found.poses.state.x)
-            solutions.append((displaced, Outcome(found.poses.status, found.poses.residual_norm)))
+            displaced = joint_displacements(system, own.joints, own.axes, found.rows)
+            solutions.append((displaced, Outcome(found.status, found.residual_norm)))
             proven &= found.proven
         return collect(layout, tuple(values), finite, solutions), proven
 

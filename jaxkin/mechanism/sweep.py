@@ -161,7 +161,8 @@ def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     """Repeat the last pose up to one of few lengths, so that ranges of similar length share a compiled program.
 
     Lengths are powers of two from 32 to 256 poses, above that multiples of an eighth of one, above 32768 of a 32nd.
-    Traced inputs are left alone: their program is compiled for their length anyway. Without a drive: one pose for all.
+    Traced inputs, and all inside a function that is traced, are left alone: their program is compiled for their length
+    anyway. Without a drive: one pose for all.
     """
     if not rows:
         return jnp.zeros((0, 1), float)
@@ -170,6 +171,8 @@ def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:
     part = power if power <= 256 else power // (8 if power <= 2**15 else 32)
     length = -(-poses // part) * part
     if not traced(rows):
+        if traced(jax.device_put(np.zeros(0))):
+            return np.stack(rows)
         # on the host: there it costs a copy, not a program for every length
         padded = np.empty((len(rows), length), rows[0].dtype)
         for whole, row in zip(padded, rows, strict=True):

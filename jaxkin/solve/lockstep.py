@@ -7,14 +7,17 @@ that are done unchanged.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from contextvars import ContextVar
+from typing import Any, TypeVar
 
 import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
+Result = TypeVar("Result")
 _DESIGNS = "designs of jaxkin"
 """Name of the mapped axis of the designs in a batch, for collective operations."""
 _in_lockstep: ContextVar[bool] = ContextVar("_in_lockstep", default=False)
@@ -53,3 +56,19 @@ def _write_rows(size: int, batched, table: Array, row: Array, at: Array) -> tupl
         for array, is_batched in zip((table, row), batched, strict=False)
     )
     return lax.dynamic_update_slice(table, row[:, None], (0, at, 0)), True
+
+
+def computed_once(function: Callable[..., Result], *args: Any) -> Result:
+    """Call a function of arrays, so that what it returns is computed once, and kept.
+
+    XLA copies a chain of cheap operations into every operation that uses its result, and formulas are such chains. It
+    does not look into the branches of a condition that it cannot decide: here whether each array has a finite number.
+    Where one has none, what is returned is NaN. Nothing may be differentiated.
+    """
+    finite = [jnp.any(jnp.isfinite(leaf)) for leaf in jax.tree.leaves(args)]
+    shapes = jax.eval_shape(function, *args)
+
+    def nothing(*_: Any) -> Result:
+        return jax.tree.map(lambda leaf: jnp.full(leaf.shape, jnp.nan, leaf.dtype), shapes)
+
+    return lax.cond(any_in_lockstep(functools.reduce(jnp.logical_and, finite)), function, nothing, *args)

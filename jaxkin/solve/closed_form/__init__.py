@@ -2,6 +2,7 @@
 
 | module | loop | unknown coordinates |
 |---|---|---|
+| `complex_numbers`, `coordinate` | | turns as complex numbers; a coordinate known as a number or as a turn |
 | `equations` | A cos x + B sin x = C; (s + b)^2 = c | one angle; one displacement |
 | `planar_dyad` | planar, of turns R and slides P: RRR; RRP, RPR, PRR; RPP, PRP, PPR | three |
 | `spherical_triangle` | turns about axes through one point: RRR | three angles |
@@ -15,8 +16,9 @@ where the `U` are the elementary motions of unknown coordinates in order of trav
 them and is known. All `q` are displacements from the assembled pose, in which the `U` are 1. A product that is 1 stays
 1 when it is begun at another factor, so RRP, RPR and PRR are one case.
 
-Every formula takes the sign of the branch, that of its signed root in the assembled pose, and returns the coordinates
-(angles in (-pi, pi]) with the discriminant over its largest possible value. The discriminant is positive where two
-poses exist, zero at a limit, negative where the loop cannot close; there the root is taken as zero. Coordinates are
+Every formula takes the sign of the branch, that of its signed root in the assembled pose, and returns the motions of
+the unknowns (turns as complex numbers of absolute value 1, from which angles in (-pi, pi] are computed where they are
+asked for, and displacements) with the discriminant over its largest possible value. The discriminant is positive where
+two poses exist, zero at a limit, negative where the loop cannot close; there the root is taken as zero. Coordinates are
 right to some roundings over the root of the discriminant.
 """

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form.assembled_axes import Axes
-from jaxkin.solve.closed_form.equations import cos_sin
-from jaxkin.solve.closed_form.planar_dyad import Complex, PlanarDisplacement, about, compose, scale
-from jaxkin.solve.closed_form.spherical_triangle import Vector, cross, dot
+from jaxkin.solve.closed_form.complex_numbers import Complex, scale
+from jaxkin.solve.closed_form.coordinate import Coordinate, Coordinates
+from jaxkin.solve.closed_form.planar_dyad import PlanarDisplacement, about, compose
+from jaxkin.solve.closed_form.spherical_triangle import Vector, rotate
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
-
-Coordinates = Sequence[Float[Array | np.ndarray, " #poses"] | None]
-"""For each column of the system its coordinate; None where it is not known yet."""
 
 
 def moving_rows(system: LoopSystem, chain: int, begin: int = 0, end: int | None = None) -> list[int]:
@@ -39,12 +36,11 @@ def planar_product(
     product = None
     for row in rows:
         place = planar_place(system, axes, row, chain)
-        q = axes.sense[row, chain] * _known(x, int(table.column[row, chain]))
+        q = _known(x, int(table.column[row, chain])).times(axes.sense[row, chain])
         if table.turn[row, chain]:
-            cos, sin = cos_sin(q)
-            moved = about(place, Complex(cos, sin))
+            moved = about(place, q.turn)
         else:
-            moved = PlanarDisplacement(Complex(one, zero), scale(q, place))
+            moved = PlanarDisplacement(Complex(one, zero), scale(q.value, place))
         product = moved if product is None else compose(product, moved)
     return product or PlanarDisplacement(Complex(one, zero), Complex(zero, zero))
 
@@ -70,19 +66,18 @@ def carried(
     table = chain_tables(system)
     for row in rows if inverse else reversed(rows):
         axis, centre = axes.direction[row, chain, :, None], axes.centre[row, chain, :, None]
-        q = axes.sense[row, chain] * _known(x, int(table.column[row, chain])) * (-1.0 if inverse else 1.0)
+        q = _known(x, int(table.column[row, chain])).times(axes.sense[row, chain])
+        q = q.back() if inverse else q
         if table.turn[row, chain]:
             lever = vector if free else vector - centre
-            along = axis * dot(axis, lever)
-            cos, sin = cos_sin(q)
-            lever = along + cos * (lever - along) + sin * cross(axis, lever)
+            lever = rotate(axis, q.turn, lever)
             vector = lever if free else centre + lever
         if not free and (table.slide[row, chain] or table.screw[row, chain]):
-            vector = vector + axis * (axes.advance[row, chain] * q)
+            vector = vector + axis * (axes.advance[row, chain] * q.value)
     return vector
 
 
-def _known(x: Coordinates, column: int) -> Float[Array | np.ndarray, " #poses"]:
+def _known(x: Coordinates, column: int) -> Coordinate:
     found = x[column]
     if found is None:
         raise ValueError(f"column {column} is not known yet: the groups must be in the order of solution")

@@ -12,10 +12,11 @@ import numpy as np
 from jaxtyping import Array, Bool, Float
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes
-from jaxkin.solve.closed_form.equations import namespace
-from jaxkin.solve.closed_form.solve_groups import assembled_roots, solve_groups
-from jaxkin.solve.closed_form.way import LEAST_DISCRIMINANT, way
+from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
+from jaxkin.solve.closed_form.solve_groups import assembled_roots, solve_once
+from jaxkin.solve.closed_form.way import LEAST_DISCRIMINANT, Rows, is_steep, surely_passes, unwrapped, way
 from jaxkin.solve.system.loop_system import LoopSystem
 
 NODES = 129
@@ -42,46 +43,73 @@ class Line(NamedTuple):
     begins: Bool[Numbers, ""]
     """Whether the assembled pose is without doubt on a branch that can be followed."""
     passes: Bool[Numbers, ""]
-    """Whether the motion passes the whole line."""
-    limited: Bool[Numbers, ""]
-    """Whether there surely is a limit on the line."""
-    table: Float[Numbers, "rows intervals"]
-    """What `reach` reads of each interval."""
-    begun: Float[Numbers, "columns 1"]
-    """Full turns of the unknowns on the line at the assembled pose, radians."""
-    ended: Float[Numbers, "columns 1"]
+    """Whether the motion passes the whole line; where the geometry is traced, whether it does so by a wide margin."""
+    discriminants: Rows
+    """Of every group at every node."""
+    steep: Bool[Numbers, " intervals"]
+    """Intervals in which an angle turns too far to be unwrapped."""
+    angles: Rows
+    """Unknown angles at all nodes, radians, right to 0.08, unwrapped along the line."""
+    begun: Float[Numbers, " angles"]
+    """Full turns of the unknown angles on the line at the assembled pose, radians."""
+    ended: Float[Numbers, " angles"]
     """The same at the assembled pose a full turn of the input later."""
 
 
 def full_turn(system: LoopSystem, axes: Axes) -> Line:
     """Compute the line of an input that is an angle: from the assembled pose a full turn on."""
-    xp = namespace(axes.centre)
-    return _line(system, axes, xp.linspace(0.0, TURN, NODES), 0, NODES - 1)
+    return _line(system, axes, np.linspace(0.0, TURN, NODES))
 
 
 def to_either_side(system: LoopSystem, axes: Axes, farthest: Float[Numbers, ""] | float) -> Line:
     """Compute the line as far as the input `farthest` (radians or characteristic lengths) on either side."""
     xp = namespace(axes.centre, farthest)
     nodes = xp.maximum(farthest, np.finfo(float).tiny) * np.linspace(-1.0, 1.0, NODES)
-    return _line(system, axes, nodes, NODES // 2, NODES // 2)
+    return _line(system, axes, nodes)
 
 
-def unknown_angles(system: LoopSystem) -> Float[np.ndarray, "columns 1"]:
-    """Mark columns that are angles and not driven by 1, others by 0."""
-    is_angle = [not length and column not in system.driven for column, length in enumerate(system.is_length)]
-    return np.array(is_angle, float)[:, None]
+def ends(system: LoopSystem) -> tuple[int, int]:
+    """Return the nodes that are the assembled pose: from the first one lines lead upwards, from the last downwards."""
+    return (0, NODES - 1) if system.periodic else (NODES // 2, NODES // 2)
 
 
-def _line(system: LoopSystem, axes: Axes, nodes: Float[Numbers, " nodes"], first: int, last: int) -> Line:
-    xp, angles = namespace(axes.centre, nodes), unknown_angles(system)
+def unknown_angles(system: LoopSystem) -> list[int]:
+    """List the columns of the angles that are found by formulas."""
+    found = [formula for formula in group_formulas(system) if isinstance(formula, GroupFormula)]
+    return [
+        column
+        for formula in found
+        for column, letter in zip(formula.columns, formula.letters, strict=True)
+        if letter == "R"
+    ]
+
+
+def _line(system: LoopSystem, axes: Axes, nodes: Float[Numbers, " nodes"]) -> Line:
+    first, last = ends(system)
+    xp = namespace(axes.centre, nodes)
     roots = xp.stack([xp.ravel(root)[:1] for root in assembled_roots(system, axes)])
     signs = xp.sign(roots)
-    solved = solve_groups(system, axes, list(signs), nodes[None])
-    found = way(solved.x, solved.discriminant, angles, first, last)
-    start = solved.x[:, first]
+    solved = solve_once(system, axes, signs, nodes[None])
+    angles = unknown_angles(system)
+    turns = [solved.coordinates[column].turn for column in angles]
+    nearby, steep = unwrapped(turns), np.zeros(NODES - 1, bool)
+    for turn in turns:
+        steep = steep | is_steep(turn)
+    discriminants: Rows = solved.discriminants
+    if xp is np:
+        discriminants, nearby = np.stack(discriminants), np.array(nearby).reshape(-1, NODES)
+        passes = way(discriminants, steep, first, last).passes
+    else:
+        passes = surely_passes(discriminants, steep)
+    start = xp.stack([coordinate.at(first) for coordinate in solved.coordinates])
     is_open = xp.max(xp.abs(start)) > CLOSED_START
     clear = xp.min(xp.abs(roots)) > LEAST_ASSEMBLED_ROOT
-    begins = (xp.min(solved.discriminant[:, first]) > LEAST_DISCRIMINANT) & (clear | ~is_open)
+    movable = xp.min(xp.stack([each[first] for each in discriminants])) > LEAST_DISCRIMINANT
+    begins = movable & (clear | ~is_open)
     # the line is unwrapped from its first node on
-    begun, ended = (angles * TURN * xp.round((found.x[:, node] - start)[:, None] / TURN) for node in (first, last))
-    return Line(signs, nodes[0], nodes[1] - nodes[0], begins, found.passes, found.limited, found.table, begun, ended)
+    assembled = start[np.array(angles, int)]
+    begun, ended = (
+        TURN * xp.round((xp.array([row[node] for row in nearby], float) - assembled) / TURN) for node in (first, last)
+    )
+    spacing = nodes[1] - nodes[0]
+    return Line(signs, nodes[0], spacing, begins, passes, discriminants, steep, nearby, begun, ended)

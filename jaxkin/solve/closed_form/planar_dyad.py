@@ -15,14 +15,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from jaxkin.solve.closed_form.equations import Number, angle, namespace, ratio, root, solve_slide
-
-
-class Complex(NamedTuple):
-    """A vector or a rotation of the plane."""
-
-    real: Number
-    imag: Number
+from jaxkin.solve.closed_form.arithmetic import Number, namespace, ratio, root
+from jaxkin.solve.closed_form.complex_numbers import (
+    Complex,
+    add,
+    argument,
+    conj,
+    square,
+    times,
+    unit,
+)
+from jaxkin.solve.closed_form.equations import solve_slide
 
 
 class PlanarDisplacement(NamedTuple):
@@ -33,18 +36,23 @@ class PlanarDisplacement(NamedTuple):
     shift: Complex
 
 
-Three = tuple[Number, Number, Number]
-"""One number for each unknown."""
+Three = tuple[Complex | Number, Complex | Number, Complex | Number]
+"""One for each unknown: a turn as a complex number of absolute value 1, a slide as a length."""
 
 
 class Dyad(NamedTuple):
     """The pose of a dyad."""
 
-    coordinates: Three
-    """Of the unknowns in the order in which they were given: radians in (-pi, pi], or lengths."""
+    motions: Three
+    """Of the unknowns in the order in which they were given."""
     discriminant: Number
     """RRR: the squared sine of the angle between the two links. RRP: that of the angle between the link and the slide.
     RPP: that of the angle between the slides, of which there is one pose only."""
+
+    @property
+    def coordinates(self) -> tuple[Number, ...]:
+        """Compute the coordinates of the unknowns: radians in (-pi, pi], or lengths."""
+        return tuple(argument(each) if isinstance(each, Complex) else each for each in self.motions)
 
 
 class _Link(NamedTuple):
@@ -54,31 +62,6 @@ class _Link(NamedTuple):
     shift: Complex
     along: Complex
     """Direction of the slide before it."""
-
-
-def add(*vectors: Complex) -> Complex:
-    """Add vectors."""
-    return Complex(sum(v.real for v in vectors), sum(v.imag for v in vectors))
-
-
-def times(*factors: Complex) -> Complex:
-    """Multiply complex numbers."""
-    first, *rest = factors
-    for factor in rest:
-        first = Complex(
-            first.real * factor.real - first.imag * factor.imag, first.real * factor.imag + first.imag * factor.real
-        )
-    return first
-
-
-def scale(number: Number, vector: Complex) -> Complex:
-    """Multiply a vector by a real number."""
-    return Complex(number * vector.real, number * vector.imag)
-
-
-def conj(number: Complex) -> Complex:
-    """Conjugate a number: the rotation back, or the mirror image."""
-    return Complex(number.real, -number.imag)
 
 
 def compose(first: PlanarDisplacement, then: PlanarDisplacement) -> PlanarDisplacement:
@@ -115,10 +98,10 @@ def signed_root(kinds: str, places: Sequence[Complex], between: Sequence[PlanarD
     kinds = kinds[first:] + kinds[:first]
     one, two, three = _links(kinds, first, places, between)
     if kinds == "RRR":
-        lengths = root(_square(one.shift) * _square(two.shift))
+        lengths = root(square(one.shift) * square(two.shift))
         return ratio(times(conj(one.shift), one.turn, two.shift).imag, lengths)
     if kinds == "RRP":
-        return ratio(times(conj(three.along), _to_line(two, three)).real, root(_square(one.shift)))
+        return ratio(times(conj(three.along), _to_line(two, three)).real, root(square(one.shift)))
     return namespace(one.shift.real).ones_like(one.shift.real)
 
 
@@ -145,33 +128,35 @@ def _links(
 def _triangle(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
     """Solve RRR: w = conj(z_1) r_1 e_2 z_2 is known by its real part, by its size, and by the sign of the rest."""
     one, two, three = links
-    first, second, third = (_square(link.shift) for link in links)
+    first, second, third = (square(link.shift) for link in links)
     sides = first * second
     real = 0.5 * (third - first - second)
     size = root(sides)
     product = (size - real) * (size + real)
     w = Complex(real, sign * root(product))
-    e_1 = times(
-        conj(three.turn),
-        Complex(-three.shift.real, -three.shift.imag),
-        conj(one.shift),
-        Complex(first + real, -w.imag),
+    e_1 = unit(
+        times(
+            conj(three.turn),
+            Complex(-three.shift.real, -three.shift.imag),
+            conj(one.shift),
+            Complex(first + real, -w.imag),
+        )
     )
-    e_2 = times(w, one.shift, conj(two.shift), conj(one.turn))
+    e_2 = unit(times(w, one.shift, conj(two.shift), conj(one.turn)))
     e_3 = conj(times(e_1, e_2, one.turn, two.turn, three.turn))
-    return (_angle(e_1), _angle(e_2), _angle(e_3)), ratio(product, sides)
+    return (e_1, e_2, e_3), ratio(product, sides)
 
 
 def _circle_and_line(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
     """Solve RRP: u = conj(d) (z_3 + conj(r_2) z_2 + s d) is known by its imaginary part, size, and sign of the rest."""
     one, two, three = links
-    square = _square(one.shift)
+    whole = square(one.shift)
     begun = times(conj(three.along), _to_line(two, three))
-    radius = root(square)
-    slide = solve_slide(begun.real, (radius - begun.imag) * (radius + begun.imag), square, sign)
-    e_1 = times(conj(three.turn), three.along, Complex(-begun.real - slide.value, -begun.imag), conj(one.shift))
+    radius = root(whole)
+    slide = solve_slide(begun.real, (radius - begun.imag) * (radius + begun.imag), whole, sign)
+    e_1 = unit(times(conj(three.turn), three.along, Complex(-begun.real - slide.value, -begun.imag), conj(one.shift)))
     e_2 = conj(times(e_1, one.turn, two.turn, three.turn))
-    return (_angle(e_1), _angle(e_2), slide.value), slide.discriminant
+    return (e_1, e_2, slide.value), slide.discriminant
 
 
 def _two_lines(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, Number]:
@@ -185,7 +170,7 @@ def _two_lines(links: tuple[_Link, _Link, _Link], sign: Number) -> tuple[Three, 
     divisor = xp.where(parallel, 1.0, sine)
     e_1 = conj(times(one.turn, two.turn, three.turn))
     slides = [xp.where(parallel, 0.0, -part / divisor) for part in (_cross(left, along_3), _cross(along_2, left))]
-    return (_angle(e_1), slides[0], slides[1]), sine * sine
+    return (e_1, slides[0], slides[1]), sine * sine
 
 
 _FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
@@ -199,14 +184,6 @@ _FORMULAS: dict[str, Callable[..., tuple[Three, Number]]] = {
 def _to_line(two: _Link, three: _Link) -> Complex:
     """Compute z_3 + conj(r_2) z_2 of the slide in RRP."""
     return add(three.shift, times(conj(two.turn), two.shift))
-
-
-def _square(vector: Complex) -> Number:
-    return vector.real * vector.real + vector.imag * vector.imag
-
-
-def _angle(number: Complex) -> Number:
-    return angle(number.imag, number.real)
 
 
 def _cross(one: Complex, other: Complex) -> Number:

@@ -14,6 +14,7 @@ Angles are unwrapped along the nodes, too.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import NamedTuple
 
@@ -21,18 +22,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
-from jaxkin.solve.closed_form.equations import namespace
-from jaxkin.solve.closed_form.line import Line, full_turn, to_either_side, unknown_angles
-from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
-from jaxkin.solve.closed_form.way import reach
+from jaxkin.solve.closed_form.line import NODES, Line, ends, full_turn, to_either_side, unknown_angles
+from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups, solve_once
+from jaxkin.solve.closed_form.way import at_intervals, reach, way
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
-from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -40,9 +41,13 @@ from jaxkin.solve.system.state import State
 
 
 class FormulaPoses(NamedTuple):
-    """What the formulas say about a range."""
+    """What the formulas say about a range, without derivatives."""
 
-    poses: Poses
+    rows: tuple[Float[Array, " poses"], ...]
+    """The coordinates of every column, radians and characteristic lengths; zero for free balls."""
+    status: Int[Array, " poses"]
+    residual_norm: Float[Array, " poses"]
+    """Square root of Eq. 12, lengths over the characteristic length."""
     signs: Float[Array, "groups 1"]
     """The sign of the branch of every group."""
     proven: Bool[Array, ""]
@@ -69,19 +74,20 @@ def find_poses_by_formula(
     """
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = _scaled(system, axes, inputs)[0]
-    solved = solve_groups(system, axes, list(line.signs), values[None])
-    expected, passed, crossed = _reached(system, line, values, jnp.asarray(solved.discriminant))
-    x = jnp.asarray(solved.x) + unknown_angles(system) * TURN * jnp.round((expected - solved.x) / TURN)
+    solved = solve_once(system, axes, jnp.asarray(line.signs), values[None])
+    expected, passed, crossed = _reached(system, line, values, solved.discriminants)
+    rows = [jnp.asarray(coordinate.value) for coordinate in solved.coordinates]
+    for column, angle in zip(unknown_angles(system), expected, strict=True):
+        rows[column] = rows[column] + TURN * jnp.round((angle - rows[column]) / TURN)
 
-    residual = jnp.asarray(residual_norm(system, axes, x))
+    residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
     closes = residual <= tolerance.max_residual
     status = classify(residual, ~closes, passed & line.begins, tolerance.max_residual)
     in_doubt = closes & ~(line.begins & (passed | crossed))
     status = jnp.where(in_doubt, Status.STALLED.value, status)
-    poses = Poses(State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)), status, residual)
-    sharp = jnp.maximum(rounding_residual(x.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
+    sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
     proven = jnp.all((status == Status.CLOSED.value) & (residual <= sharp))
-    return FormulaPoses(poses, jnp.asarray(line.signs), proven)
+    return FormulaPoses(tuple(rows), status, residual, jnp.asarray(line.signs), proven)
 
 
 def displacements_by_formula(
@@ -94,77 +100,96 @@ def displacements_by_formula(
     """
     axes = assembled_axes(system, joints)
     found = lax.stop_gradient(found)
-    x = _with_derivative(system, axes, _scaled(system, axes, inputs), found.signs, found.poses)
-    return joint_displacements(system, joints, axes, x)
+    rows = _with_derivative(system, axes, _scaled(system, axes, inputs), found)
+    return joint_displacements(system, joints, axes, rows)
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
 def _with_derivative(
-    system: LoopSystem, axes: Axes, values: Float[Array, "1 poses"], signs: Float[Array, "groups 1"], poses: Poses
-) -> Float[Array, "columns poses"]:
+    system: LoopSystem, axes: Axes, values: Float[Array, "1 poses"], found: FormulaPoses
+) -> tuple[Float[Array, " poses"], ...]:
     """Return the coordinates of poses that were found, which cost nothing anew, with the derivatives of the formulas.
 
     `values` are the inputs in radians or characteristic lengths.
     """
-    return poses.state.x
+    return found.rows
 
 
 @_with_derivative.defjvp
 def _derivative_of_formulas(system: LoopSystem, primals, tangents):
-    axes, values, signs, poses = primals
-    closed = is_closed(poses.status)
+    axes, values, found = primals
+    closed = is_closed(found.status)
 
-    def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> Float[Array, "columns poses"]:
-        return jnp.asarray(solve_groups(system, axes, list(signs), jnp.where(closed, values, 0.0)).x)
+    def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> tuple[Float[Array, " poses"], ...]:
+        solved = solve_groups(system, axes, list(found.signs), jnp.where(closed, values, 0.0))
+        return tuple(jnp.asarray(coordinate.value) for coordinate in solved.coordinates)
 
-    slope = jax.jvp(formulas, (axes, values), tangents[:2])[1]
-    return _with_derivative(system, *primals), jnp.where(closed, slope, 0.0)
+    slopes = jax.jvp(formulas, (axes, values), tangents[:2])[1]
+    return _with_derivative(system, *primals), tuple(jnp.where(closed, slope, 0.0) for slope in slopes)
 
 
 def joint_displacements(
-    system: LoopSystem, joints: Joints | None, axes: Axes, x: Float[Array, "columns poses"]
+    system: LoopSystem, joints: Joints | None, axes: Axes, rows: Sequence[Float[Array, " poses"]] | Array
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints, balls included, from coordinates in radians and characteristic lengths.
 
-    Displacements are in radians and lengths of the mechanism. `joints` are needed for balls only.
+    `rows` are those of all columns. Displacements are in radians and lengths of the mechanism. `joints` are needed for
+    balls only.
     """
-    lengths = jnp.where(jnp.array(system.is_length, bool), axes.length, 1.0)[:, None]
+    # row by row: angles are left as they are, so that the compiler need not copy them
+    scaled = [axes.length * row if is_length else row for row, is_length in zip(rows, system.is_length, strict=True)]
+    displaced = jnp.stack(scaled)
     if not system.balls or joints is None:
-        return x * lengths
+        return displaced
     geometry, _ = scaled_geometry(system, joints)
+    x = jnp.stack(list(rows))
     turns = ball_turns(system, geometry, State(x, jnp.zeros((0, 4, x.shape[1]), x.dtype)))
-    found = joint_coordinates(system, joints.frames_1, joints.frames_2, x * lengths, turns)
+    found = joint_coordinates(system, joints.frames_1, joints.frames_2, displaced, turns)
     return unwrap_ball_angles(system, found)
 
 
 def _reached(
-    system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminant: Float[Array, "groups poses"]
-) -> tuple[Float[Array, "columns poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
+    system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
+) -> tuple[list[Float[Array, " poses"]], Bool[Array, " poses"], Bool[Array, " poses"]]:
     """Judge the ways from the assembled pose, upwards and downwards.
 
-    Returns coordinates nearby, angles with their full turns; to which poses the motion passes; and before which poses
-    there surely is a limit, whichever way they are approached.
+    Returns unknown angles nearby, with their full turns; to which poses the motion passes; and before which poses there
+    surely is a limit, whichever way they are approached.
     """
     turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
     position = (values - TURN * turns - line.begin) / line.spacing
-    expected, (from_below, from_above), (after_limit, before_limit) = reach(
-        line.table, system.columns, position, discriminant
-    )
-    rising = values >= 0
-    if not system.periodic:
-        passed, crossed = jnp.where(rising, from_below, from_above), jnp.where(rising, after_limit, before_limit)
-        return expected - line.begun, passed, crossed
+    interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
+    distance, interval = position - interval, interval.astype(jnp.int32)
+    nearby = [at_intervals(row, interval) for row in line.angles]
+    begun, ended = list(line.begun), list(line.ended)
+    every = [near - start + (end - start) * turns for near, start, end in zip(nearby, begun, ended, strict=True)]
 
-    # the assembled pose is the first node as well as the last
-    first_turn = (turns == 0) | (turns == -1)
-    direct = jnp.where(rising, from_below, from_above) & first_turn
-    limited = jnp.where(first_turn, jnp.where(rising, after_limit, before_limit), line.limited)
-    # behind a limit an input is reached if it is, a full turn less or more, on the near side
-    around = limited & (from_below | from_above)
-    of_turns = jnp.where(line.passes, (line.ended - line.begun) * turns, 0.0)
-    by_rising = jnp.where(direct & ~line.passes, rising, from_below)
-    expected = jnp.where(by_rising, expected - line.begun + of_turns, expected - line.ended)
-    return expected, direct | around | line.passes, after_limit & before_limit
+    def whole_line():
+        return every, jnp.ones(values.shape, bool), jnp.zeros(values.shape, bool)
+
+    def parts_of_it():
+        rising, judged = values >= 0, way(line.discriminants, jnp.asarray(line.steep), *ends(system))
+        reached = reach(judged.table, interval, distance, discriminants)
+        (from_below, from_above), (after_limit, before_limit) = reached.passed, reached.crossed
+        if not system.periodic:
+            passed, crossed = jnp.where(rising, from_below, from_above), jnp.where(rising, after_limit, before_limit)
+            return every, passed | judged.passes, crossed
+        # the assembled pose is the first node as well as the last
+        first_turn = (turns == 0) | (turns == -1)
+        direct = jnp.where(rising, from_below, from_above) & first_turn
+        limited = jnp.where(first_turn, jnp.where(rising, after_limit, before_limit), judged.limited)
+        # behind a limit an input is reached if it is, a full turn less or more, on the near side
+        around = limited & (from_below | from_above)
+        by_rising = jnp.where(direct, rising, from_below)
+        passed = direct | around | judged.passes
+        expected = [
+            jnp.where(judged.passes, each, near - jnp.where(by_rising, start, end))
+            for each, near, start, end in zip(every, nearby, begun, ended, strict=True)
+        ]
+        return expected, passed, after_limit & before_limit
+
+    # most designs pass the whole line, and whole groups of them do
+    return lax.cond(any_in_lockstep(~jnp.asarray(line.passes)), parts_of_it, whole_line)
 
 
 def _scaled(

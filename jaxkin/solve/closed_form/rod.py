@@ -6,11 +6,12 @@ A cos x + B sin x = C for a turn, and a quadratic for a slide. The turns of the 
 
 from __future__ import annotations
 
-from jaxkin.solve.closed_form.equations import Number, Root, ratio, root, solve_slide, solve_turn
+from jaxkin.solve.closed_form.arithmetic import Number, ratio, root
+from jaxkin.solve.closed_form.equations import SlideRoot, TurnRoot, solve_slide, solve_turn
 from jaxkin.solve.closed_form.spherical_triangle import Vector, cross, dot
 
 
-def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> Root:
+def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> TurnRoot:
     """Solve |U far - near| = length for the angle of U about a unit axis through `centre`, radians in (-pi, pi].
 
     `sign` is that of `signed_root_of_turn` in the assembled pose.
@@ -21,7 +22,7 @@ def rod_turn(axis: Vector, centre: Vector, near: Vector, far: Vector, length: Nu
     return solve_turn(dot(one, other) - along, dot(one, cross(axis, other)), c, sign)
 
 
-def rod_slide(axis: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> Root:
+def rod_slide(axis: Vector, near: Vector, far: Vector, length: Number, sign: Number) -> SlideRoot:
     """Solve |far + s axis - near| = length for the displacement s along a unit axis.
 
     The discriminant is the squared cosine of the angle between rod and slide. `sign` is that of `signed_root_of_slide`

@@ -5,31 +5,40 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.closed_form import planar_dyad, rod, spherical_triangle
+from jaxkin.solve.closed_form.arithmetic import Number, namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.chain_motions import (
-    Coordinates,
     carried,
     moving_rows,
     planar_place,
     planar_product,
     planar_rest,
 )
-from jaxkin.solve.closed_form.equations import Number, namespace
+from jaxkin.solve.closed_form.coordinate import REST, Coordinate, Coordinates, found, given
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
+from jaxkin.solve.lockstep import computed_once
 from jaxkin.solve.system.loop_system import LoopSystem
 
 
 class Solved(NamedTuple):
     """Poses by formulas."""
 
-    x: Float[Array | np.ndarray, "columns poses"]
-    """Radians, those of unknowns in (-pi, pi], and characteristic lengths; zero for balls."""
-    discriminant: Float[Array | np.ndarray, "groups poses"]
+    coordinates: tuple[Coordinate, ...]
+    """Of every column, one for each pose; zero for balls."""
+    discriminants: tuple[Float[Array | np.ndarray, " poses"], ...]
     """Of every group, over its largest possible value."""
+
+    @property
+    def x(self) -> Float[Array | np.ndarray, "columns poses"]:
+        """Radians, those of unknowns in (-pi, pi], and characteristic lengths."""
+        rows = [coordinate.value for coordinate in self.coordinates]
+        return namespace(*rows).stack(rows)
 
 
 def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
@@ -37,7 +46,7 @@ def assembled_roots(system: LoopSystem, axes: Axes) -> list[Number]:
 
     All coordinates are taken as zero there.
     """
-    rest: Coordinates = [np.zeros(1)] * system.columns
+    rest: Coordinates = [REST] * system.columns
     return [_signed_root(system, axes, formula, rest) for formula in _formulas(system)]
 
 
@@ -46,17 +55,33 @@ def solve_groups(
 ) -> Solved:
     """Compute all coordinates for inputs in radians and characteristic lengths, on the branches of these signs."""
     xp = namespace(inputs, axes.centre)
-    x: list[Array | np.ndarray | None] = [None] * system.columns
+    x: list[Coordinate | None] = [None] * system.columns
     for column, row in zip(system.driven, inputs, strict=True):
-        x[column] = row
+        x[column] = given(row, is_length=system.is_length[column])
     discriminants = []
     for formula, sign in zip(_formulas(system), signs, strict=True):
         coordinates, discriminant = _solve(system, axes, formula, x, sign)
-        for column, found in zip(formula.columns, coordinates, strict=True):
-            x[column] = xp.broadcast_to(found, inputs.shape[1:])
+        for column, coordinate in zip(formula.columns, coordinates, strict=True):
+            x[column] = jax.tree.map(lambda row: xp.broadcast_to(row, inputs.shape[1:]), coordinate)
         discriminants.append(xp.broadcast_to(discriminant, inputs.shape[1:]))
-    zero = xp.zeros_like(inputs[0])
-    return Solved(xp.stack([zero if row is None else row for row in x]), xp.stack(discriminants))
+    rest = Coordinate(xp.zeros_like(inputs[0]), REST.turn)
+    return Solved(tuple(rest if each is None else each for each in x), tuple(discriminants))
+
+
+def solve_once(
+    system: LoopSystem,
+    axes: Axes,
+    signs: Float[Array | np.ndarray, "groups 1"],
+    inputs: Float[Array | np.ndarray, "driven poses"],
+) -> Solved:
+    """Compute the same as `solve_groups`, in a program so that it is computed once: see `computed_once`."""
+    if namespace(inputs, axes.centre) is np:
+        return solve_groups(system, axes, list(signs), inputs)
+
+    def solved(axes: Axes, signs: Array, inputs: Array) -> Solved:
+        return jax.tree.map(jnp.asarray, solve_groups(system, axes, list(signs), inputs))
+
+    return computed_once(solved, axes, signs, inputs)
 
 
 def _formulas(system: LoopSystem) -> list[GroupFormula]:
@@ -68,20 +93,21 @@ def _formulas(system: LoopSystem) -> list[GroupFormula]:
 
 def _solve(
     system: LoopSystem, axes: Axes, formula: GroupFormula, x: Coordinates, sign: Number
-) -> tuple[list[Number], Number]:
+) -> tuple[list[Coordinate], Number]:
     """Compute the coordinates of a group, and its discriminant."""
     if formula.name == "planar dyad":
-        found, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, formula, x), sign)
+        motions, discriminant = planar_dyad.planar_dyad(formula.letters, *_planar(system, axes, formula, x), sign)
     elif formula.name == "spherical triangle":
-        found, discriminant = spherical_triangle.spherical_triangle(*_spherical(system, axes, formula, x), sign)
+        motions, discriminant = spherical_triangle.spherical_triangle(*_spherical(system, axes, formula, x), sign)
     else:
         near, far, length = _rod(system, axes, formula, x)
         axis, centre = _axis(axes, formula)
         if formula.letters == "R":
-            *found, discriminant = rod.rod_turn(axis, centre, near, far, length, sign)
+            *motions, discriminant = rod.rod_turn(axis, centre, near, far, length, sign)
         else:
-            *found, discriminant = rod.rod_slide(axis, near, far, length, sign)
-    return [axes.sense[row, formula.chain] * each for row, each in zip(formula.rows, found, strict=True)], discriminant
+            *motions, discriminant = rod.rod_slide(axis, near, far, length, sign)
+    senses = [axes.sense[row, formula.chain] for row in formula.rows]
+    return [found(motion).times(sense) for motion, sense in zip(motions, senses, strict=True)], discriminant
 
 
 def _signed_root(system: LoopSystem, axes: Axes, formula: GroupFormula, rest: Coordinates) -> Number:
@@ -155,11 +181,12 @@ def _axis(axes: Axes, formula: GroupFormula):
     return axes.direction[here][:, None], axes.centre[here][:, None]
 
 
-def residual_norm(
-    system: LoopSystem, axes: Axes, x: Float[Array | np.ndarray, "columns poses"]
-) -> Float[Array | np.ndarray, " poses"]:
-    """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas."""
-    xp, rows = namespace(x, axes.centre), list(x)
+def residual_norm(system: LoopSystem, axes: Axes, rows: Coordinates) -> Float[Array | np.ndarray, " poses"]:
+    """Compute the square root of Eq. 12 over all loops, as `closure` does, of systems whose groups are formulas.
+
+    `rows` are the coordinates of all columns.
+    """
+    xp = namespace(*jax.tree.leaves(rows), axes.centre)
     if system.planar:
         square = axes.off_plane
         for chain in range(len(system.loops)):

@@ -16,7 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.solve.closed_form.equations import Number, angle, cos_sin, namespace, ratio, root, solve_turn
+from jaxkin.solve.closed_form.arithmetic import Number, namespace, ratio, root
+from jaxkin.solve.closed_form.complex_numbers import Complex, argument, conj, unit
+from jaxkin.solve.closed_form.equations import solve_turn
 
 Vector = Float[Array | np.ndarray, "3 *#poses"]
 Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
@@ -26,10 +28,15 @@ Rotation = Float[Array | np.ndarray, "3 3 *#poses"]
 class Triangle(NamedTuple):
     """The pose of a spherical triangle."""
 
-    coordinates: tuple[Number, Number, Number]
-    """Radians in (-pi, pi], in order of travel."""
+    motions: tuple[Complex, Complex, Complex]
+    """The turns in order of travel, complex numbers of absolute value 1."""
     discriminant: Number
     """The squared sine of the angle at the second axis, between the arcs to the first and to the third."""
+
+    @property
+    def coordinates(self) -> tuple[Number, ...]:
+        """Compute the angles of the turns, radians in (-pi, pi]."""
+        return tuple(argument(turn) for turn in self.motions)
 
 
 def spherical_triangle(axes: Sequence[Vector], between: Sequence[Rotation], sign: Number) -> Triangle:
@@ -46,10 +53,11 @@ def spherical_triangle(axes: Sequence[Vector], between: Sequence[Rotation], sign
     found = solve_turn(
         dot(before, behind) - carried, dot(before, cross(two, behind)), dot(one, turned_back) - carried, sign
     )
-    arrived = carry(first, rotate(two, found.value, behind))
-    other = back(second, rotate(two, -found.value, before))
-    angles = angle_about(one, arrived, turned_back), found.value, angle_about(three, carry(third, one), other)
-    return Triangle(angles, found.discriminant)
+    turn = found.turn
+    arrived = carry(first, rotate(two, turn, behind))
+    other = back(second, rotate(two, conj(turn), before))
+    turns = turn_about(one, arrived, turned_back), turn, turn_about(three, carry(third, one), other)
+    return Triangle(turns, found.discriminant)
 
 
 def signed_root(axes: Sequence[Vector], between: Sequence[Rotation]) -> Number:
@@ -87,13 +95,13 @@ def back(rotation: Rotation, vector: Vector) -> Vector:
     return (rotation * vector[:, None]).sum(axis=0)
 
 
-def rotate(axis: Vector, angle: Number, vector: Vector) -> Vector:
+def rotate(axis: Vector, turn: Complex, vector: Vector) -> Vector:
     """Rotate a vector about a unit axis (Rodrigues)."""
     along = axis * dot(axis, vector)
-    cos, sin = cos_sin(angle)
-    return along + cos * (vector - along) + sin * cross(axis, vector)
+    return along + turn.real * (vector - along) + turn.imag * cross(axis, vector)
 
 
-def angle_about(axis: Vector, begun: Vector, wanted: Vector) -> Number:
-    """Compute the angle about a unit axis that turns one vector as near to another as it can."""
-    return angle(dot(axis, cross(begun, wanted)), dot(begun, wanted) - dot(axis, begun) * dot(axis, wanted))
+def turn_about(axis: Vector, begun: Vector, wanted: Vector) -> Complex:
+    """Compute the turn about a unit axis that brings one vector as near to another as it can."""
+    along = dot(begun, wanted) - dot(axis, begun) * dot(axis, wanted)
+    return unit(Complex(along, dot(axis, cross(begun, wanted))))

@@ -8,13 +8,17 @@ the first node as well as the last, a full turn later, and both ways lead to eve
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
+import jax.numpy as jnp
 import numpy as np
-from jaxtyping import Array, Bool, Float
+from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
-from jaxkin.solve.closed_form.equations import namespace, ratio
+from jaxkin.solve.closed_form.arithmetic import namespace, ratio
+from jaxkin.solve.closed_form.complex_numbers import Complex, rough_argument
 
 LEAST_DISCRIMINANT = 1e-6
 """Discriminant over its largest value below which an interval is not passed: a change point, where it is zero, is
@@ -28,82 +32,118 @@ PARABOLA_ERROR = 0.064
 t (t - 1) (t + 1) / 6 for t from 0 to 1."""
 
 Numbers = Array | np.ndarray
+Rows = Sequence[Float[Numbers, " _"]] | Float[Numbers, "_ _"]
+"""One row after another; of a known line one array, so that a program that is given the line has few arguments."""
 
 
 class Way(NamedTuple):
-    """What is known of a line of nodes, and of the intervals between neighbouring ones."""
+    """What is known of the intervals between neighbouring nodes of a line."""
 
-    x: Float[Numbers, "columns nodes"]
-    """Coordinates, angles unwrapped along the line."""
     passes: Bool[Numbers, ""]
     """Whether the motion passes all intervals."""
     limited: Bool[Numbers, ""]
     """Whether there surely is a limit."""
-    table: Float[Numbers, "rows intervals"]
+    table: list[Float[Numbers, " intervals"]]
     """What `reach` reads of the interval of a pose, in the order of its lines."""
 
 
-def way(
-    x: Float[Numbers, "columns nodes"],
-    discriminant: Float[Numbers, "groups nodes"],
-    angles: Float[np.ndarray, "_ 1"],
-    first: int,
-    last: int,
-) -> Way:
+def surely_passes(discriminants: Rows, steep: Bool[Numbers, " intervals"]) -> Bool[Array, ""]:
+    """Tell whether the motion passes a line by a wide margin, by the largest differences of the whole line.
+
+    It costs less than `way`, which may find that the motion passes where this does not.
+    """
+    passes = ~jnp.any(steep)
+    for f in discriminants:
+        change = f[1:] - f[:-1]
+        second = change[1:] - change[:-1]
+        third = second[1:] - second[:-1]
+        curvature = jnp.max(jnp.abs(second)) + 2 * jnp.max(jnp.abs(third))
+        passes &= jnp.min(f) - 0.125 * curvature > LEAST_DISCRIMINANT
+    return passes
+
+
+def way(discriminants: Rows, steep: Bool[Numbers, " intervals"], first: int, last: int) -> Way:
     """Judge a line of nodes, travelled upwards from the node `first` and downwards from the node `last`.
 
-    `angles` is 1 for coordinates that are angles up to full turns, else 0.
+    `discriminants` are those of all groups at all nodes; `steep` are intervals in which a turn is too large to unwrap.
     """
-    xp = namespace(x)
-    turns = angles * xp.round(xp.diff(x, axis=1) / TURN)
-    # sums of blocks, then of blocks before them: products of small matrices, which XLA does faster than sums one by one
-    blocks = turns.reshape(len(x), -1, BLOCK)
-    within = blocks @ np.tri(BLOCK).T
-    before = within[:, :, -1] @ np.tri(blocks.shape[1], k=-1).T
-    sums = (within + before[:, :, None]).reshape(turns.shape)
-    x = x - TURN * xp.pad(sums, ((0, 0), (1, 0)))
-    steep = xp.max(xp.abs(angles * xp.diff(x, axis=1)), axis=0) > MAX_TURN
+    xp = namespace(steep, *discriminants)
+    blocked, beyond, rows = steep, np.zeros(len(steep) + 1, bool), []
+    for f in discriminants:
+        found = _bounds(f)
+        blocked = blocked | (found.least <= LEAST_DISCRIMINANT)
+        beyond = beyond | (f < -LEAST_DISCRIMINANT)
+        rows += [f[:-1], f[1:], found.curvature, found.monotone]
 
-    # h^2 |f"| of each interval is at most `curvature`
-    one, other, change = discriminant[:, :-1], discriminant[:, 1:], xp.diff(discriminant, axis=1)
-    second = xp.diff(discriminant, n=2, axis=1)
-    third = xp.pad(xp.abs(xp.diff(second, axis=1)), ((0, 0), (2, 2)), mode="edge")  # of intervals -1 ... n
-    third = xp.maximum(xp.maximum(third[:, :-2], third[:, 1:-1]), third[:, 2:])
-    second = xp.pad(second, ((0, 0), (1, 1)), mode="edge")  # of all nodes
-    curvature = xp.maximum(xp.abs(second[:, :-1]), xp.abs(second[:, 1:])) + 2 * third
-    # the slope differs from the mean one by at most half of h |f"|
-    monotone = xp.abs(change) > 0.5 * curvature
-    bend = xp.maximum(second[:, :-1], second[:, 1:])
-    dip = ratio((0.5 * bend - change) ** 2, 2 * bend)
-    least = xp.where(xp.abs(change) < 0.5 * bend, one - dip, xp.minimum(one, other))
-    least = least - xp.where(monotone, 0.0, 2 * PARABOLA_ERROR * third)
-    blocked = xp.any(least <= LEAST_DISCRIMINANT, axis=0) | steep
-    beyond = xp.any(discriminant < -LEAST_DISCRIMINANT, axis=0)
-
-    count = blocked.shape[0]
+    count = len(steep)
     number = np.arange(count)
     block_above = xp.min(xp.where(blocked & (number >= first), number, count))
     block_below = xp.max(xp.where(blocked & (number < last), number, -1))
     limit_above = xp.min(xp.where(beyond[1:] & (number >= first), number, count))
     limit_below = xp.max(xp.where(beyond[:-1] & (number < last), number, -1))
-    facts = xp.stack(
-        [
-            (first <= number) & (number <= block_above) & ~steep,
-            (number < last) & (number >= block_below) & ~steep,
-            number > limit_above,
-            number < limit_below,
-        ]
-    )
-    rows = x[:, :-1], one, other, curvature, monotone, facts
-    table = xp.concatenate([row.astype(x.dtype) for row in rows])
-    return Way(x, ~xp.any(blocked), xp.any(beyond), table)
+    facts = [
+        (first <= number) & (number <= block_above) & ~steep,
+        (number < last) & (number >= block_below) & ~steep,
+        number > limit_above,
+        number < limit_below,
+    ]
+    return Way(~xp.any(blocked), xp.any(beyond), [row.astype(float) for row in (*facts, *rows)])
+
+
+def unwrapped(turns: Sequence[Complex]) -> list[Float[Numbers, " nodes"]]:
+    """Compute the angles of turns at all nodes, radians, right to 0.08, each the nearest to the one before."""
+    if not turns:
+        return []
+    xp = namespace(*turns[0])
+    angles = [xp.asarray(rough_argument(turn)) for turn in turns]
+    changed = xp.stack([xp.round((angle[1:] - angle[:-1]) / TURN) for angle in angles])
+    # sums of blocks, then of blocks before them: products of small matrices, which XLA does faster than sums one by one
+    blocks = changed.reshape(len(turns), -1, BLOCK)
+    within = blocks @ np.tri(BLOCK).T
+    before = within[:, :, -1] @ np.tri(blocks.shape[1], k=-1).T
+    sums = (within + before[:, :, None]).reshape(changed.shape)
+    return [angle - TURN * xp.concatenate([np.zeros(1), row]) for angle, row in zip(angles, sums, strict=True)]
+
+
+def is_steep(turn: Complex) -> Bool[Numbers, " intervals"]:
+    """Tell in which intervals an angle changes by more than `MAX_TURN`: by the cosine of its change."""
+    xp = namespace(*turn)
+    real, imag = map(xp.asarray, turn)
+    return real[1:] * real[:-1] + imag[1:] * imag[:-1] < math.cos(MAX_TURN)
+
+
+class _Bounds(NamedTuple):
+    """What is known of a discriminant f between neighbouring nodes, h apart."""
+
+    least: Float[Numbers, " intervals"]
+    """f is not below it."""
+    curvature: Float[Numbers, " intervals"]
+    """h^2 |f"| is at most so much."""
+    monotone: Bool[Numbers, " intervals"]
+    """Whether f only rises or only falls."""
+
+
+def _bounds(f: Float[Numbers, " nodes"]) -> _Bounds:
+    xp = namespace(f)
+    one, other, change = f[:-1], f[1:], f[1:] - f[:-1]
+    second = change[1:] - change[:-1]
+    third = xp.abs(second[1:] - second[:-1])
+    # at both ends those of the nearest nodes
+    third = xp.concatenate([third[:1], third[:1], third, third[-1:], third[-1:]])
+    third = xp.maximum(xp.maximum(third[:-2], third[1:-1]), third[2:])
+    second = xp.concatenate([second[:1], second, second[-1:]])  # of all nodes
+    curvature = xp.maximum(xp.abs(second[:-1]), xp.abs(second[1:])) + 2 * third
+    # the slope differs from the mean one by at most half of h |f"|
+    monotone = xp.abs(change) > 0.5 * curvature
+    bend = xp.maximum(second[:-1], second[1:])
+    dip = ratio((0.5 * bend - change) ** 2, 2 * bend)
+    least = xp.where(xp.abs(change) < 0.5 * bend, one - dip, xp.minimum(one, other))
+    return _Bounds(least - xp.where(monotone, 0.0, 2 * PARABOLA_ERROR * third), curvature, monotone)
 
 
 class Reach(NamedTuple):
     """What a way says of poses, upwards and downwards."""
 
-    x: Float[Array, "columns poses"]
-    """Coordinates of the node below each pose."""
     passed: tuple[Bool[Array, " poses"], Bool[Array, " poses"]]
     """To which poses the motion passes, upwards and downwards, if the loops close there."""
     crossed: tuple[Bool[Array, " poses"], Bool[Array, " poses"]]
@@ -111,27 +151,32 @@ class Reach(NamedTuple):
 
 
 def reach(
-    table: Float[Numbers, "rows intervals"],
-    columns: int,
-    position: Float[Array, " poses"],
-    discriminant: Float[Array, "groups poses"],
+    table: Rows,
+    interval: Int[Array, " poses"],
+    distance: Float[Array, " poses"],
+    discriminants: Sequence[Array | np.ndarray],
 ) -> Reach:
-    """Tell to which poses the motion passes, by the table of a way of so many `columns`.
+    """Tell to which poses the motion passes, by the table of a way.
 
-    `position` of a pose is counted in nodes. Between a node and a pose in the next interval, f is not below the lesser
-    of its values there by more than (distance^2 / 8) |f"|. Where it is monotone, it is not below its value at the pose,
-    which may be as near to a limit as it likes, since the loops close there.
+    A pose is in an `interval`, at a `distance` from its lower node, counted in nodes. Between a node and a pose in the
+    next interval, f is not below the lesser of its values there by more than (distance^2 / 8) |f"|. Where it is
+    monotone, it is not below its value at the pose, which may be as near to a limit as it likes, since the loops close
+    there.
     """
-    xp, groups = namespace(position), len(discriminant)
-    interval = xp.clip(xp.floor(position), 0, table.shape[1] - 1)
-    chosen = xp.asarray(table)[:, interval.astype(np.int32)]  # gathered once
-    x, below, above, curvature, monotone, facts = xp.split(chosen, np.cumsum([columns, *[groups] * 4]))
+    chosen = [at_intervals(row, interval) for row in table]
+    from_below, from_above, after_limit, before_limit = (row > 0 for row in chosen[:4])
+    for number, f in enumerate(discriminants):
+        below, above, curvature, monotone = chosen[4 + 4 * number : 8 + 4 * number]
 
-    def bounded(at_node: Numbers, distance: Numbers) -> Bool[Numbers, " poses"]:
-        bound = xp.minimum(at_node, discriminant) - 0.125 * distance * distance * curvature
-        return xp.all(xp.where(monotone > 0, at_node, bound) > LEAST_DISCRIMINANT, axis=0)
+        def bounded(at_node: Array, far: Array, f=f, curvature=curvature, monotone=monotone) -> Bool[Array, " poses"]:
+            bound = jnp.minimum(at_node, f) - 0.125 * far * far * curvature
+            return jnp.where(monotone > 0, at_node, bound) > LEAST_DISCRIMINANT
 
-    from_below, from_above, after_limit, before_limit = facts > 0
-    distance = position - interval
-    passed = from_below & bounded(below, distance), from_above & bounded(above, 1 - distance)
-    return Reach(x, passed, (after_limit, before_limit))
+        from_below &= bounded(below, distance)
+        from_above &= bounded(above, 1 - distance)
+    return Reach((from_below, from_above), (after_limit, before_limit))
+
+
+def at_intervals(row: Float[Numbers, " intervals"], interval: Int[Array, " poses"]) -> Float[Array, " poses"]:
+    """Look up the entry of the interval of each pose."""
+    return jnp.asarray(row).at[interval].get(mode="clip")

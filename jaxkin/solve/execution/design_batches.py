@@ -136,7 +136,10 @@ def by_formulas_in_groups(function: Callable[..., Result]) -> Callable[..., Resu
     def batch(size: int, batched, *args):
         leaves, tree = jax.tree.flatten(args)
         mapped = jax.tree.leaves(tuple(batched))
-        groups = -(-size // DESIGN_GROUP)
+        groups = next(
+            (count for count in range(-(-size // DESIGN_GROUP), 2 * size // DESIGN_GROUP + 1) if size % count == 0),
+            -(-size // DESIGN_GROUP),
+        )
         length = -(-size // groups)
 
         def grouped(array: Array) -> Array:
@@ -145,10 +148,14 @@ def by_formulas_in_groups(function: Callable[..., Result]) -> Callable[..., Resu
 
         every = [grouped(leaf) for leaf, each in zip(leaves, mapped, strict=True) if each]
 
+        def one(*leaves):
+            return function(*tree.unflatten(leaves))
+
+        in_group = in_lockstep(one, tuple(0 if each else None for each in mapped))
+
         def of_group(rows: list[Array]):
             own = iter(rows)
-            group = tree.unflatten([next(own) if each else leaf for leaf, each in zip(leaves, mapped, strict=True)])
-            return jax.vmap(function, tree.unflatten([0 if each else None for each in mapped]))(*group)
+            return in_group(*[next(own) if each else leaf for leaf, each in zip(leaves, mapped, strict=True)])
 
         found = lax.map(of_group, every)
         found = jax.tree.map(lambda rows: rows.reshape(groups * length, *rows.shape[2:])[:size], found)

@@ -89,7 +89,7 @@ def solve(
     if by_formula:
         found = _formula_poses_program()(system, *numbers)
         if inside or found.proven:
-            return _formula_displacements_program(system, joints, inputs, found), _outcome(found.poses)
+            return _formula_displacements_program(system, joints, inputs, found), _outcome(found)
     # compiler options apply to whole programs only: inside a traced function, the search is part of its program
     poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
     return _displacements_program(system, joints, inputs, poses), _outcome(poses)
@@ -136,7 +136,7 @@ def _formulas_suffice(
     return axes is None or (line is not None and bool(line.passes & line.begins))
 
 
-def _outcome(poses: Poses) -> Outcome:
+def _outcome(poses: Poses | FormulaPoses) -> Outcome:
     return Outcome(poses.status, poses.residual_norm)
 
 
@@ -150,8 +150,8 @@ def _by_formula(
 ) -> tuple[Float[Array, "columns poses"], Outcome, Bool[Array, ""]]:
     count_trace()
     found = find_poses_by_formula(system, axes, line, inputs, tolerance)
-    displaced = joint_displacements(system, joints, axes, found.poses.state.x)
-    return displaced, _outcome(found.poses), found.proven
+    displaced = joint_displacements(system, joints, axes, found.rows)
+    return displaced, _outcome(found), found.proven
 
 
 def _poses_by_formula(

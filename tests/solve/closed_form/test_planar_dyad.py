@@ -65,7 +65,8 @@ def test_the_loop_closes_on_both_branches_and_is_at_rest_in_the_assembled_pose(k
         )
         np.testing.assert_allclose(rest.coordinates, 0.0, atol=200 * EPS / abs(begun))
         for sign in (1.0, -1.0):
-            q, discriminant = solved(kinds, places, moved, sign)
+            found = solved(kinds, places, moved, sign)
+            q, discriminant = found.coordinates, found.discriminant
             if discriminant <= 1e-3:
                 continue
             reached += 1
@@ -127,7 +128,8 @@ def test_beside_a_limit_the_error_is_rounding_over_the_root_of_the_discriminant(
     for seed in range(4):
         places, between = near_limit(kinds, seed, wanted)
         for sign in (1.0, -1.0):
-            q, discriminant = solved(kinds, places, between, sign)
+            found = solved(kinds, places, between, sign)
+            q, discriminant = found.coordinates, found.discriminant
             with mpmath.workdps(50):
                 error = max(
                     abs(float(float(each) - true))

@@ -28,10 +28,10 @@ def test_a_rod_that_turns_keeps_its_length():
         np.testing.assert_allclose(rest.discriminant, begun**2, atol=1e-12)
         np.testing.assert_allclose(rest.value, 0.0, atol=200 * EPS / abs(begun))
         for sign in (1.0, -1.0):
-            x, discriminant = turn(axis, centre, near + 0.2, far, length, sign)
-            if discriminant > 1e-3:
+            found = turn(axis, centre, near + 0.2, far, length, sign)
+            if found.discriminant > 1e-3:
                 reached += 1
-                there = centre + rotation(axis, float(x)) @ (far - centre)
+                there = centre + rotation(axis, float(found.value)) @ (far - centre)
                 np.testing.assert_allclose(np.linalg.norm(there - near - 0.2), length, atol=1e-13)
     assert reached > 20
 
@@ -55,9 +55,9 @@ def test_beside_a_limit_the_error_of_the_angle_is_rounding_over_the_root_of_the_
     for a, b in rng.normal(size=(20, 2)):
         c = np.hypot(a, b) * (1 - wanted / 2)
         for sign in (1.0, -1.0):
-            x, discriminant = solve_turn(a, b, c, sign)
+            found = solve_turn(a, b, c, sign)
             with mpmath.workdps(50):
                 radius = mpmath.hypot(a, b)
                 true = mpmath.atan2(b, a) - sign * mpmath.acos(c / radius)
-                error = abs(float(mpmath.sin((float(x) - true) / 2))) * 2
-            assert error < 100 * EPS / np.sqrt(discriminant)
+                error = abs(float(mpmath.sin((float(found.value) - true) / 2))) * 2
+            assert error < 100 * EPS / np.sqrt(found.discriminant)

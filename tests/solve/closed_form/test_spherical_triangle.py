@@ -37,10 +37,10 @@ def test_the_loop_closes_on_both_branches_and_is_at_rest_in_the_assembled_pose()
         np.testing.assert_allclose(begun**2, rest.discriminant, atol=1e-13)
         np.testing.assert_allclose(rest.coordinates, 0.0, atol=200 * EPS / abs(begun))
         for sign in (1.0, -1.0):
-            q, discriminant = solve(axes, moved, sign)
-            if discriminant > 1e-3:
+            found = solve(axes, moved, sign)
+            if found.discriminant > 1e-3:
                 reached += 1
-                assert misfit(axes, moved, q) < 1e-13
+                assert misfit(axes, moved, found.coordinates) < 1e-13
     assert reached > 20
 
 
@@ -53,8 +53,9 @@ def test_beside_a_limit_the_error_is_rounding_over_the_root_of_the_discriminant(
         closes, open_ = 0.0, np.arccos(axes[0] @ axes[2])  # there the first and the third axis are one
         while True:
             middle = 0.5 * (closes + open_)
-            between = [np.eye(3), np.eye(3), rotation(about, middle)]
-            q, discriminant = solve(axes, between, 1.0)
+            between = [np.eye(3), np.eye(3), rotation(about, float(middle))]
+            found = solve(axes, between, 1.0)
+            q, discriminant = found.coordinates, found.discriminant
             if wanted / 4 < discriminant < 4 * wanted:
                 break
             closes, open_ = (middle, open_) if discriminant > wanted else (closes, middle)
