@@ -157,8 +157,8 @@ def combinations(
 
 
 def _has_formulas(mechanism: Mechanism, drive: Mapping[str, object], options: SolverOptions) -> bool:
-    elements = plan_drive(mechanism.linkage, named(drive)).elements
-    return options.formulas and bool(elements) and all(element.axes is not None for element in elements)
+    loop_groups = plan_drive(mechanism.linkage, named(drive)).loop_groups
+    return options.formulas and bool(loop_groups) and all(loop_group.axes is not None for loop_group in loop_groups)
 
 
 def _measured(mechanism: Mechanism, drive, options: SolverOptions, precision: str, exact: _ExactPoses) -> Point:

@@ -21,7 +21,7 @@ from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_mo
 from jaxkin.effects.pose_plot import save_rows
 from jaxkin.linkage.coordinates import coordinate, resolve
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.drive_plan import DrivenElement, plan_drive
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup, plan_drive
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_MODES = 4096
-"""Most modes that are listed: structure elements that do not depend on each other multiply theirs."""
+"""Most modes that are listed: loop groups that do not depend on each other multiply theirs."""
 MAX_ROWS = 40
 """Modes that a printed result lists at most: as many as a general hexapod has."""
 
@@ -217,18 +217,18 @@ def assembly_modes(
     is_reached = reached is None or bool(reached.closed[0])
     max_residual = options.tolerance or default_tolerance(dtypes.canonicalize_dtype(float))
     starts, searched = Starts(int(tries), int(seed), options), []
-    for element in plan.elements:
-        number = linkage.structure.loop_groups.index(element.loop_group)
-        loops = ClosedLoops(linkage.joints, linkage.structure, element.loop_group, linkage.couplings)
-        features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(element.inputs))
+    for loop_group in plan.loop_groups:
+        number = linkage.structure.loop_groups.index(loop_group.members)
+        loops = ClosedLoops(linkage.joints, linkage.structure, loop_group.members, linkage.couplings)
+        features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(loop_group.inputs))
         if reached is None:
-            home = np.zeros(len(element.columns)), loops.travel(np.zeros(len(loops.columns))).gap
+            home = np.zeros(len(loop_group.columns)), loops.travel(np.zeros(len(loops.columns))).gap
         else:
-            there = [float(reached.displacements[joint][0, k]) for joint, k in element.columns]
+            there = [float(reached.displacements[joint][0, k]) for joint, k in loop_group.columns]
             home = np.array(there), float(reached.residual[0])
-        inputs = np.array([list(given.values())[k] for k in element.inputs])
-        searched.append(find_modes(element, features, inputs, home if is_reached else None, starts, max_residual))
-    return _combined(mechanism, given, plan.elements, searched, starts, is_reached)
+        inputs = np.array([list(given.values())[k] for k in loop_group.inputs])
+        searched.append(find_modes(loop_group, features, inputs, home if is_reached else None, starts, max_residual))
+    return _combined(mechanism, given, plan.loop_groups, searched, starts, is_reached)
 
 
 def _ranges(drive: Mapping[str, float]) -> dict[str, np.ndarray]:
@@ -244,12 +244,12 @@ def _ranges(drive: Mapping[str, float]) -> dict[str, np.ndarray]:
 def _combined(
     mechanism: Mechanism,
     given: Mapping[str, float],
-    elements: Sequence[DrivenElement],
+    loop_groups: Sequence[DrivenLoopGroup],
     searched: Sequence[FoundPoses],
     starts: Starts,
     assembled: bool,
 ) -> AssemblyModes:
-    """Combine the poses of all structure elements, which do not depend on each other, each with each.
+    """Combine the poses of all loop groups, which do not depend on each other, each with each.
 
     The first is on the branch of the assembled pose if `assembled`.
     """
@@ -263,9 +263,9 @@ def _combined(
         joint, k = coordinate(mechanism.linkage, name)
         rows[joint][:, k] = value
     residual, signs = np.zeros(len(which)), [""] * len(which)
-    for number, (element, found) in enumerate(zip(elements, searched, strict=True)):
+    for number, (loop_group, found) in enumerate(zip(loop_groups, searched, strict=True)):
         chosen = [choice[number] for choice in which]
-        for column, (joint, k) in enumerate(element.columns):
+        for column, (joint, k) in enumerate(loop_group.columns):
             rows[joint][:, k] = found.displacements[chosen, column]
         residual = np.hypot(residual, found.residual[chosen])
         signs = [one + found.signs[k] for one, k in zip(signs, chosen, strict=True)]

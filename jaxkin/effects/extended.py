@@ -37,7 +37,7 @@ Row = Float[np.ndarray, " columns"]
 
 
 class Extended:
-    """The loops of a structure element in fifty digits. Raises ImportError where mpmath is not installed."""
+    """The loops of a loop group in fifty digits. Raises ImportError where mpmath is not installed."""
 
     def __init__(self, mechanism: Mechanism, loop_group: LoopGroup, free: Sequence[int]) -> None:
         try:

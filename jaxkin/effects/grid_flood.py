@@ -17,7 +17,7 @@ from jaxtyping import Float, Int
 from jaxkin.effects.grid_steps import SHORT_STEPS, GridSteps, Inputs, Steps, neighbours
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
-from jaxkin.mechanism.drive_plan import DrivenElement
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify
 from jaxkin.solve.system.state import State, assembled
@@ -27,13 +27,13 @@ class Flooded(NamedTuple):
     """The poses of all nodes."""
 
     states: tuple[State, ...]
-    """Of each structure element, with the nodes as the last axis."""
+    """Of each loop group, with the nodes as the last axis."""
     status: Int[np.ndarray, " nodes"]
     residual: Float[np.ndarray, " nodes"]
 
 
 def flood(
-    elements: Sequence[DrivenElement],
+    loop_groups: Sequence[DrivenLoopGroup],
     options: SolverOptions,
     inputs: Inputs,
     shape: tuple[int, int],
@@ -43,10 +43,10 @@ def flood(
 
     It begins at the node that is nearest to the assembled pose, which is reached in a straight line.
     """
-    if not elements:  # nothing is to be closed
+    if not loop_groups:  # nothing is to be closed
         count = inputs.shape[1]
         return Flooded((), np.full(count, Status.CLOSED.value, np.int32), np.zeros(count))
-    front = _Front(elements, options, inputs, shape, max_residual)
+    front = _Front(loop_groups, options, inputs, shape, max_residual)
     start = int(np.argmin(np.linalg.norm(inputs, axis=0)))
     front.known[start] = True
     if front.begin(start):
@@ -72,8 +72,10 @@ class _Wanted(Enum):
 class _Front:
     """The nodes that are known so far, and their states."""
 
-    def __init__(self, elements: Sequence[DrivenElement], options: SolverOptions, inputs, shape, max_residual) -> None:
-        self.steps, self.inputs, self.shape = GridSteps(elements, options, max_residual), inputs, shape
+    def __init__(
+        self, loop_groups: Sequence[DrivenLoopGroup], options: SolverOptions, inputs, shape, max_residual
+    ) -> None:
+        self.steps, self.inputs, self.shape = GridSteps(loop_groups, options, max_residual), inputs, shape
         count = inputs.shape[1]
         rest = [assembled(system, count, inputs.dtype) for system in self.steps.systems]
         self.states = [[np.array(part) for part in state] for state in rest]

@@ -17,7 +17,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.mechanism.drive_plan import DrivenElement
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.closure.closure import closure, scaled_geometry
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL, input_slopes
@@ -67,12 +67,12 @@ def neighbours(
 
 
 class GridSteps:
-    """Steps between closed poses of the elements that the inputs move."""
+    """Steps between closed poses of the loop_groups that the inputs move."""
 
-    def __init__(self, elements: Sequence[DrivenElement], options: SolverOptions, max_residual: float) -> None:
-        self.elements, self.options, self.max_residual = elements, options, max_residual
-        self.systems = tuple(element.system for element in elements)
-        self.joints = tuple(element.joints for element in elements)
+    def __init__(self, loop_groups: Sequence[DrivenLoopGroup], options: SolverOptions, max_residual: float) -> None:
+        self.loop_groups, self.options, self.max_residual = loop_groups, options, max_residual
+        self.systems = tuple(loop_group.system for loop_group in loop_groups)
+        self.joints = tuple(loop_group.joints for loop_group in loop_groups)
 
     def follow(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs) -> Steps:
         """Step from poses to others, once more in shorter steps where the first is not taken."""
@@ -91,7 +91,8 @@ class GridSteps:
             which = np.minimum(np.arange(first, first + BATCH), size - 1)
             chosen = tuple(State(*(jnp.asarray(part[..., which]) for part in state)) for state in states)
             rows = [
-                tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.elements) for each in (begin, end)
+                tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.loop_groups)
+                for each in (begin, end)
             ]
             found = _walk(self.systems, self.options.of_program, self.joints, chosen, *rows, count, self.max_residual)
             parts.append(jax.tree.map(np.asarray, found))
@@ -120,7 +121,7 @@ def _walk(
     count: int | Array,
     max_residual: float | Array,
 ) -> Steps:
-    """Move the inputs of closed poses from `begin` to `end` in so many steps; all structure elements have to follow."""
+    """Move the inputs of closed poses from `begin` to `end` in so many steps; all loop groups have to follow."""
     size = states[0].x.shape[-1]
     yes, zero = jnp.ones(size, bool), jnp.zeros(size)
     taken, square, stationary, found = yes, zero, yes, []

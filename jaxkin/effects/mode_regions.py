@@ -123,8 +123,8 @@ def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np
         raise ValueError("there are no modes: the loops do not close for these inputs")
     mechanism = modes.motion.mechanism
     grid = _grid(modes, ranges)
-    elements = plan_drive(mechanism.linkage, tuple(modes.inputs)).elements
-    _check_idle(mechanism, elements)
+    loop_groups = plan_drive(mechanism.linkage, tuple(modes.inputs)).loop_groups
+    _check_idle(mechanism, loop_groups)
     first, second = grid.values()
     every = dict(zip(grid, map(np.ravel, np.meshgrid(first, second, indexing="ij")), strict=True))
     rest = np.ones(len(first) * len(second))
@@ -132,7 +132,7 @@ def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np
     nodes = nodes.astype(dtypes.canonicalize_dtype(float))
     options = options_with(modes.motion.options)
     max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
-    steps = GridSteps(elements, options, max_residual)
+    steps = GridSteps(loop_groups, options, max_residual)
     home = [int(np.searchsorted(values, modes.inputs[name])) for name, values in grid.items()]
     shape = len(first), len(second)
     sheets = Sheets(steps, nodes, shape)
@@ -168,12 +168,12 @@ def _grid(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np.ndarra
     return found
 
 
-def _check_idle(mechanism: Mechanism, elements: Sequence) -> None:
+def _check_idle(mechanism: Mechanism, loop_groups: Sequence) -> None:
     """Raise ValueError for loops with freedoms that no input drives."""
     groups = mechanism.linkage.structure.loop_groups
     freedoms = loop_freedoms(mechanism.linkage)
-    for element in elements:
-        idle = len(freedoms[groups.index(element.loop_group)].motions) - len(element.inputs)
+    for loop_group in loop_groups:
+        idle = len(freedoms[groups.index(loop_group.members)].motions) - len(loop_group.inputs)
         if idle:
             raise ValueError(
                 f"the loops have {idle} idle freedom{'' if idle == 1 else 's'}, such as the spin of a rod between two "

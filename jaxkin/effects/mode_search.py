@@ -1,4 +1,4 @@
-"""Search the closed poses of the loops of one structure element for given inputs: by formulas, or from many starts.
+"""Search the closed poses of the loops of one loop group for given inputs: by formulas, or from many starts.
 
 Where each group of loops has a formula (`jaxkin.solve.closed_form`), its two signs are tried in all combinations: these
 are all poses. Elsewhere damped least-norm steps (`levenberg_marquardt`) go from random coordinates to closed poses.
@@ -17,7 +17,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin.geometry.movements import MOVEMENTS
-from jaxkin.mechanism.drive_plan import DrivenElement
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.mobility.host_closure import ClosedLoops, Row
 from jaxkin.solve.closed_form.assembled_axes import assembled_axes
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
@@ -54,7 +54,7 @@ _SPIN = 1e-4
 
 
 class FoundPoses(NamedTuple):
-    """Closed poses of the loops of a structure element, each once: that of the assembled branch first, nearest next."""
+    """Closed poses of the loops of a loop group, each once: that of the assembled branch first, nearest next."""
 
     displacements: Float[np.ndarray, "poses columns"]
     """Radians and lengths of the mechanism."""
@@ -112,24 +112,24 @@ class PoseFeatures:
 
 
 def find_modes(
-    element: DrivenElement,
+    loop_group: DrivenLoopGroup,
     features: PoseFeatures,
     inputs: Float[np.ndarray, " driven"],
     reached: tuple[Row, float] | None,
     starts: Starts,
     max_residual: float,
 ) -> FoundPoses:
-    """Find the closed poses of a structure element for one displacement of each of its driven columns.
+    """Find the closed poses of a loop group for one displacement of each of its driven columns.
 
     Complete where all groups of loops have formulas; elsewhere from random starts. `reached` is the pose to which the
     motion leads from the assembled pose, with its residual: None where it does not close.
     """
-    system, loops = element.system, features.loops
+    system, loops = loop_group.system, features.loops
     by_formulas = _has_formulas(system)
     if by_formulas:
-        poses, residual, names = _by_formulas(element, inputs)
+        poses, residual, names = _by_formulas(loop_group, inputs)
     else:
-        poses, residual = _from_starts(element, inputs, starts)
+        poses, residual = _from_starts(loop_group, inputs, starts)
         names = [""] * len(poses)
     (closed,) = np.nonzero(np.isfinite(residual) & (residual <= max_residual))
     poses, residual, names = poses[closed], residual[closed], [names[k] for k in closed]
@@ -141,10 +141,10 @@ def find_modes(
         return FoundPoses(poses, residual, (), weights, by_formulas)
 
     same = SAME if poses.dtype == np.float64 else SAME_SINGLE
-    labels = group_rows(_unwrapped(element, loops, poses), same)
-    rows = _scaled_rows(element, loops, poses[_first_of(labels)])
+    labels = group_rows(_unwrapped(loop_group, loops, poses), same)
+    rows = _scaled_rows(loop_group, loops, poses[_first_of(labels)])
     home = rows[:1] if reached is not None else np.zeros((1, rows.shape[1]))
-    free = [loops.columns.index(element.columns[column]) for column in system.free]
+    free = [loops.columns.index(loop_group.columns[column]) for column in system.free]
     entries = features.of(np.vstack([home, rows]), free)
     labels = group_rows(entries[1:], same)[labels]
     order = np.argsort([np.linalg.norm(entries[1:][k] - entries[0]) for k in _first_of(group_rows(entries[1:], same))])
@@ -175,11 +175,11 @@ def _first_of(labels: Int[np.ndarray, " rows"]) -> Int[np.ndarray, " found"]:
 
 
 def _scaled_rows(
-    element: DrivenElement, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
+    loop_group: DrivenLoopGroup, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
 ) -> Float[np.ndarray, "poses every"]:
-    """Put displacements of the columns of an element among all coordinates of its loops, scaled; others rest."""
+    """Put displacements of the columns of a loop group among all coordinates of its loops, scaled; others rest."""
     rows = np.zeros((len(poses), len(loops.columns)))
-    rows[:, [loops.columns.index(place) for place in element.columns]] = poses
+    rows[:, [loops.columns.index(place) for place in loop_group.columns]] = poses
     return rows / loops.units
 
 
@@ -190,14 +190,14 @@ def _has_formulas(system: LoopSystem) -> bool:
 
 
 def _by_formulas(
-    element: DrivenElement, inputs: Float[np.ndarray, " driven"]
+    loop_group: DrivenLoopGroup, inputs: Float[np.ndarray, " driven"]
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"], list[str]]:
     """Solve the groups in order with all combinations of signs; a group of two slides has one pose and no sign."""
-    found = [formula for formula in group_formulas(element.system) if isinstance(formula, GroupFormula)]
+    found = [formula for formula in group_formulas(loop_group.system) if isinstance(formula, GroupFormula)]
     choices = list(product(*[(1.0,) if formula.letters.count("P") == 2 else (1.0, -1.0) for formula in found]))
     signs = jnp.asarray(choices, float).T
     given = jnp.asarray(np.repeat(inputs[:, None], len(choices), axis=1), float)
-    rows, residual = _formula_poses(element.system, element.joints, signs, given)
+    rows, residual = _formula_poses(loop_group.system, loop_group.joints, signs, given)
     names = ["".join("+" if sign > 0 else "-" for sign in choice) for choice in choices]
     return np.asarray(rows).T, np.broadcast_to(residual, len(choices)), names
 
@@ -215,10 +215,10 @@ def _formula_poses(
 
 
 def _from_starts(
-    element: DrivenElement, inputs: Float[np.ndarray, " driven"], starts: Starts
+    loop_group: DrivenLoopGroup, inputs: Float[np.ndarray, " driven"], starts: Starts
 ) -> tuple[Float[np.ndarray, "poses columns"], Float[np.ndarray, " poses"]]:
     """Close the loops from random starts."""
-    system, rows, residuals, rng = element.system, [], [], np.random.default_rng(starts.seed)
+    system, rows, residuals, rng = loop_group.system, [], [], np.random.default_rng(starts.seed)
     size = min(starts.tries, STARTS_AT_ONCE)
     for _ in range(-(-starts.tries // size)):
         angles, slides = rng.uniform(-1.0, 1.0, (2, system.columns, size))
@@ -227,7 +227,7 @@ def _from_starts(
         turns /= np.linalg.norm(turns, axis=1, keepdims=True)
         begun = State(jnp.asarray(x, float), jnp.asarray(turns, float))
         given = jnp.asarray(np.repeat(inputs[:, None], size, axis=1), float)
-        found = _closed(system, starts.options.of_program, element.joints, begun, given)
+        found = _closed(system, starts.options.of_program, loop_group.joints, begun, given)
         rows.append(np.asarray(found[0]).T)
         residuals.append(np.asarray(found[1]))
     return np.concatenate(rows)[: starts.tries], np.concatenate(residuals)[: starts.tries]
@@ -250,11 +250,11 @@ def _closed(
 
 
 def _unwrapped(
-    element: DrivenElement, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
+    loop_group: DrivenLoopGroup, loops: ClosedLoops, poses: Float[np.ndarray, "poses columns"]
 ) -> Float[np.ndarray, "poses entries"]:
     """Cosines and sines of angles, and scaled lengths: equal where coordinates are, up to full turns."""
-    lengths = np.array(element.system.is_length)
-    units = loops.units[[loops.columns.index(place) for place in element.columns]]
+    lengths = np.array(loop_group.system.is_length)
+    units = loops.units[[loops.columns.index(place) for place in loop_group.columns]]
     return np.concatenate(
         [np.cos(poses[:, ~lengths]), np.sin(poses[:, ~lengths]), poses[:, lengths] / units[lengths]], axis=1
     )

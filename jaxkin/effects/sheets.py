@@ -29,7 +29,7 @@ class Sheets:
         self.pairs: list[tuple[int, int]] = []
         """Poses that a step connects."""
         self._states: list[list[np.ndarray]] = []
-        """For each pose the arrays of its states, element after element."""
+        """For each pose the arrays of its states, loop group after loop group."""
         self._at: dict[int, list[int]] = defaultdict(list)
         """The poses of each node."""
         self._features: list[np.ndarray] = []
@@ -39,10 +39,10 @@ class Sheets:
     def begin(self, node: int, modes: Motion) -> None:
         """Put the modes at a node: poses 0, 1 and so on. Raises ValueError for modes that are one pose."""
         every = []
-        for element in self.steps.elements:
-            rows = jnp.stack([modes.displacements[joint][:, k] for joint, k in element.columns])
-            _, lengths = scaled_geometry(element.system, element.joints)
-            state = as_state(element.system, element.joints.frames_1, element.joints.frames_2, rows)
+        for loop_group in self.steps.loop_groups:
+            rows = jnp.stack([modes.displacements[joint][:, k] for joint, k in loop_group.columns])
+            _, lengths = scaled_geometry(loop_group.system, loop_group.joints)
+            state = as_state(loop_group.system, loop_group.joints.frames_1, loop_group.joints.frames_2, rows)
             every += [np.asarray(state.x / lengths), np.asarray(state.turns)]
         for mode in range(len(modes)):
             if self._add(node, [part[..., mode] for part in every]) != mode:

@@ -156,17 +156,17 @@ def workspace(
     nodes = np.stack([np.ravel(each) for each in np.meshgrid(first, second, indexing="ij")])
     nodes = np.concatenate([nodes, np.zeros((len(keys) - 2, nodes.shape[1]))]).astype(dtypes.canonicalize_dtype(float))
     max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
-    found = flood(plan.elements, options, nodes, shape, max_residual)
+    found = flood(plan.loop_groups, options, nodes, shape, max_residual)
     layout = _Layout(
         plan.freedoms,
         tuple(driven.values()),
-        tuple(element.system for element in plan.elements),
-        tuple(element.columns for element in plan.elements),
-        tuple(element.inputs for element in plan.elements),
+        tuple(loop_group.system for loop_group in plan.loop_groups),
+        tuple(loop_group.columns for loop_group in plan.loop_groups),
+        tuple(loop_group.inputs for loop_group in plan.loop_groups),
         mechanism.parts.index(part),
     )
     poses = tuple(Poses(state, jnp.asarray(found.status), jnp.asarray(found.residual)) for state in found.states)
-    joints = tuple(element.joints for element in plan.elements)
+    joints = tuple(loop_group.joints for loop_group in plan.loop_groups)
     rows, points, rates = _read(layout, linkage, joints, jnp.asarray(nodes), poses, where)
     inputs = {name: jnp.asarray(row) for name, row in zip(driven, nodes, strict=True)}
     motion = Motion(mechanism, inputs, rows, jnp.asarray(found.status), jnp.asarray(found.residual), options=options)

@@ -1,4 +1,4 @@
-"""Collect what was found for each structure element into the displacements, statuses and residuals of a mechanism."""
+"""Collect what was found for each loop group into the displacements, statuses and residuals of a mechanism."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from jaxkin.solve.status import SEVERITY, Status
 from jaxkin.solve.system.from_linkage import Columns
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
-"""Displacements of the columns of a structure element, and what became of the poses."""
+"""Displacements of the columns of a loop group, and what became of the poses."""
 
 
 class DisplacementSources(NamedTuple):
@@ -26,7 +26,7 @@ class DisplacementSources(NamedTuple):
     driven: tuple[tuple[int, int], ...]
     """Joint and coordinate of every input."""
     columns: tuple[Columns, ...]
-    """Of every structure element that was solved."""
+    """Of every loop group that was solved."""
 
 
 class Collected(NamedTuple):
@@ -37,7 +37,7 @@ class Collected(NamedTuple):
     resting: dict[int, Float[Array, "poses _"]]
     """One array of zeros for each number of freedoms, which joints that nothing moves share."""
     status: Int[Array, " poses"]
-    """The worst of all structure elements."""
+    """The worst of all loop groups."""
     residual: Float[Array, " poses"]
 
     def displacements(self, freedoms: tuple[int, ...]) -> tuple[Float[Array, "poses _"], ...]:

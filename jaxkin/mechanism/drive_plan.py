@@ -41,11 +41,11 @@ class GivenLoops(NamedTuple):
     joints: Joints
 
 
-class DrivenElement(NamedTuple):
-    """A structure element that is to be solved."""
+class DrivenLoopGroup(NamedTuple):
+    """A loop group that is to be solved."""
 
-    loop_group: LoopGroup
-    """Its joints and loops in the structure."""
+    members: LoopGroup
+    """Its loops, couplings and joints in the structure."""
     system: LoopSystem
     """What is solved; the groups of its `order` are the steps of the plan."""
     columns: Columns
@@ -74,12 +74,12 @@ class DrivePlan(NamedTuple):
     """(joint, coordinate) by full names, in the order given."""
     freedoms: tuple[int, ...]
     """Number of freedoms of every joint."""
-    elements: tuple[DrivenElement, ...]
-    """Structure elements that are solved; they do not depend on each other."""
+    loop_groups: tuple[DrivenLoopGroup, ...]
+    """Loop groups that are solved; they do not depend on each other."""
     infeasible: InfeasibleDrive | None
     """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
     by_formula: FormulaSweep | None = None
-    """The sweep of all elements by one program; None where one of them has no formula, or numbers are traced."""
+    """The sweep of all loop groups by one program; None where one of them has no formula, or numbers are traced."""
 
 
 def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
@@ -93,11 +93,13 @@ def plan_drive(linkage: Linkage, keys: tuple[str, ...]) -> DrivePlan:
     if traced(linkage):
         return _plan_drive(linkage, keys)
     plan = _plan_drive(linkage, keys)
-    on_device = jax.device_put([element.joints for element in plan.elements])
+    on_device = jax.device_put([loop_group.joints for loop_group in plan.loop_groups])
     if traced(on_device):
         return plan
-    elements = tuple(element._replace(joints=joints) for element, joints in zip(plan.elements, on_device, strict=True))
-    kept[key] = plan._replace(elements=elements, by_formula=_formula_sweep(plan))
+    loop_groups = tuple(
+        loop_group._replace(joints=joints) for loop_group, joints in zip(plan.loop_groups, on_device, strict=True)
+    )
+    kept[key] = plan._replace(loop_groups=loop_groups, by_formula=_formula_sweep(plan))
     return kept[key]
 
 
@@ -113,7 +115,7 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
     places = list(driven.values())
     on_host = linkage if not traced(linkage) else lax.stop_gradient(linkage)  # by `grad` alone they are there
     judged = not traced(on_host) and all(np.isfinite(leaf).all() for leaf in jax.tree.leaves(on_host))
-    elements = []
+    loop_groups = []
     for number, loop_group in enumerate(linkage.structure.loop_groups):
         inside = sorted(
             (loop_group.joints.index(joint), k, i) for i, (joint, k) in enumerate(places) if joint in loop_group.joints
@@ -121,18 +123,18 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
         if not inside and not _edited(linkage, loop_group):
             continue
         inputs = tuple(i for _, _, i in inside)
-        elements.append(
+        loop_groups.append(
             _element(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
         )
     freedoms = tuple(joint.freedoms for joint in linkage.joints)
     infeasible = infeasible_drive(linkage, places) if judged and not traced(linkage) else None
-    return DrivePlan(driven, freedoms, tuple(elements), infeasible)
+    return DrivePlan(driven, freedoms, tuple(loop_groups), infeasible)
 
 
 def _element(
     linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
-) -> DrivenElement:
-    """Plan a structure element, its loops in the order in which they are solved; `on_host` where numbers are known."""
+) -> DrivenLoopGroup:
+    """Plan a loop group, its loops in the order in which they are solved; `on_host` where numbers are known."""
     loop_group, loop_class = linkage.structure.loop_groups[number], linkage.classes[number]
     # of a single loop there is one order only, and the freedoms take a millisecond to find
     several = len(loop_group.loops) + len(loop_group.couplings) > 1
@@ -153,26 +155,26 @@ def _element(
     if on_host is not None and why_not_all(system) is None:
         axes = assembled_axes(system, group_joints(on_host, on_host.solved_joints, loop_group))
         line = full_turn(system, axes) if system.periodic else None
-    return DrivenElement(loop_group, system, columns, groups, by_counting, inputs, joints, axes, line, given)
+    return DrivenLoopGroup(loop_group, system, columns, groups, by_counting, inputs, joints, axes, line, given)
 
 
 def _formula_sweep(plan: DrivePlan) -> FormulaSweep | None:
-    """Make the sweep of all elements by formulas; None where one has no formula, or joints that disagree."""
-    elements = [
-        (element.columns, element.system, element.inputs[0], element.axes, element.line, element.joints)
-        for element in plan.elements
-        if element.axes is not None and element.given is None
+    """Make the sweep of all loop groups by formulas; None where one has no formula, or joints that disagree."""
+    loop_groups = [
+        (each.columns, each.system, each.inputs[0], each.axes, each.line, each.joints)
+        for each in plan.loop_groups
+        if each.axes is not None and each.given is None
     ]
-    if not elements or len(elements) < len(plan.elements):
+    if not loop_groups or len(loop_groups) < len(plan.loop_groups):
         return None
-    columns, *rest = map(tuple, zip(*elements, strict=True))
+    columns, *rest = map(tuple, zip(*loop_groups, strict=True))
     return FormulaSweep(DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns), *rest)
 
 
 def ranked_groups(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass, freedoms: LoopFreedoms
 ) -> tuple[Group, ...]:
-    """Find the groups of loops of a structure element by ranks of the closure Jacobian beside the assembled pose."""
+    """Find the groups of loops of a loop group by ranks of the closure Jacobian beside the assembled pose."""
     columns = solved_coordinates(linkage, loop_group, driven, loop_class).columns
     screws = freedoms.screws[:, [freedoms.columns.index(place) for place in columns]]
     looped = {joint for loop in loop_group.loops for joint, _ in loop}
@@ -189,7 +191,7 @@ def ranked_groups(
 def _counted_groups(
     linkage: Linkage, loop_group: LoopGroup, driven: Columns, loop_class: LoopClass
 ) -> tuple[Group, ...]:
-    """Find the groups of loops of a structure element by counting, from the class of the loops alone."""
+    """Find the groups of loops of a loop group by counting, from the class of the loops alone."""
     solved = solved_coordinates(linkage, loop_group, driven, loop_class)
     about_point = loop_class.spherical
     equations = [IN_SUBGROUP if solved.planar or k in about_point else None for k in range(len(loop_group.loops))]

@@ -1,4 +1,4 @@
-"""The sweep of a drive whose structure elements all have formulas: one program from the inputs to all displacements.
+"""The sweep of a drive whose loop groups all have formulas: one program from the inputs to all displacements.
 
 The program is compiled for a single pose and for `CHUNK` of them, and serves ranges of any length: short ones are
 padded, long ones cut into chunks, and the results are cut to length and joined on the host.
@@ -37,7 +37,7 @@ the host takes 0.1 ms longer, to compile that program some 40."""
 
 
 class ElementNumbers(NamedTuple):
-    """The numbers of a structure element."""
+    """The numbers of a loop group."""
 
     axes: Axes
     joints: Joints | None
@@ -56,7 +56,7 @@ class FormulaSweep:
         turns: Sequence[Line | None],
         joints: Sequence[Joints],
     ):
-        """`inputs` has for each structure element the number of its input, `turns` the line of one that turns."""
+        """`inputs` has for each loop group the number of its input, `turns` the line of one that turns."""
         self.layout, self.systems, self.inputs, self.axes = layout, systems, inputs, tuple(axes)
         needed = [given if system.balls else None for system, given in zip(systems, joints, strict=True)]
         self.numbers = jax.device_put([ElementNumbers(*both) for both in zip(axes, needed, strict=True)])

@@ -30,8 +30,8 @@ Inputs = dict[str, Float[Array | np.ndarray, " poses"]]
 Follow = Callable[[Inputs], tuple[Float[Array, "poses _"], ...]]
 
 
-class KnownElement(NamedTuple):
-    """A structure element that the drive moves (static)."""
+class KnownLoopGroup(NamedTuple):
+    """A loop group that the drive moves (static)."""
 
     system: LoopSystem
     columns: Columns
@@ -48,14 +48,14 @@ class KnownDrive(NamedTuple):
     """Of every joint."""
     driven: tuple[tuple[str, int, int], ...]
     """Name, joint and coordinate of every input."""
-    elements: tuple[KnownElement, ...]
+    loop_groups: tuple[KnownLoopGroup, ...]
 
 
 class KnownMotion(NamedTuple):
     """The numbers of a motion that its derivatives follow from."""
 
     joints: tuple[Joints, ...]
-    """Of every structure element of the `KnownDrive`."""
+    """Of every loop group of the `KnownDrive`."""
     displacements: tuple[Float[Array, "poses _"], ...]
     status: Int[Array, " poses"]
 
@@ -64,13 +64,13 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
     """Collect what the derivatives of a motion follow from."""
     plan = plan_drive(motion.mechanism.linkage, tuple(motion.inputs))
     names = list(plan.driven)
-    elements = tuple(
-        KnownElement(each.system, each.columns, tuple(names[i] for i in each.inputs), each.given is not None)
-        for each in (plan.elements if len(motion) else ())
+    loop_groups = tuple(
+        KnownLoopGroup(each.system, each.columns, tuple(names[i] for i in each.inputs), each.given is not None)
+        for each in (plan.loop_groups if len(motion) else ())
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
-    joints = tuple(each.joints for each in plan.elements)[: len(elements)]
-    return KnownDrive(plan.freedoms, driven, elements), KnownMotion(joints, motion.displacements, motion.status)
+    joints = tuple(each.joints for each in plan.loop_groups)[: len(loop_groups)]
+    return KnownDrive(plan.freedoms, driven, loop_groups), KnownMotion(joints, motion.displacements, motion.status)
 
 
 def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
@@ -89,12 +89,12 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
         for name, joint, k in drive.driven:
             given = inputs[name]
             columns[joint, k] = at[joint][:, k] + jnp.where(finite, given - lax.stop_gradient(given), 0.0)
-        for element, joints in zip(drive.elements, known.joints, strict=True):
-            rows = jnp.stack([at[joint][:, k] for joint, k in element.columns])
-            given = [jnp.where(finite, inputs[name], 0.0) for name in element.inputs]
+        for loop_group, joints in zip(drive.loop_groups, known.joints, strict=True):
+            rows = jnp.stack([at[joint][:, k] for joint, k in loop_group.columns])
+            given = [jnp.where(finite, inputs[name], 0.0) for name in loop_group.inputs]
             given = jnp.stack(given) if given else jnp.zeros((0, len(finite)), rows.dtype)
-            found = known_displacements(element.system, joints, given, rows, status, element.refined)
-            columns |= dict(zip(element.columns, found, strict=True))
+            found = known_displacements(loop_group.system, joints, given, rows, status, loop_group.refined)
+            columns |= dict(zip(loop_group.columns, found, strict=True))
         return tuple(
             jnp.stack([columns.get((joint, k), rows[:, k]) for k in range(rows.shape[1])], axis=1)
             if rows.shape[1]

@@ -12,7 +12,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
-from jaxkin.mechanism.plan_steps import Step, element_steps
+from jaxkin.mechanism.plan_steps import Step, loop_group_steps
 from jaxkin.mechanism.targets import Key, names_with_targets
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
@@ -66,8 +66,8 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     check_closed(linkage, mechanism.unit, "the plan of a drive", f"plan({[str(key) for key in keys.values()]})")
     found = plan_drive(linkage, tuple(keys.values()))
     steps: list[Step] = []
-    for element in found.elements:
-        steps += element_steps(linkage, element, len(steps))
+    for loop_group in found.loop_groups:
+        steps += loop_group_steps(linkage, loop_group, len(steps))
     dead = [f"infeasible drive: {why_infeasible(mechanism, found.infeasible)}"] if found.infeasible else []
     skipped = (*_skipped(linkage, keys, found), *_at_rest(linkage, found))
     return Plan(tuple(found.driven), tuple(steps), skipped, (*dead, *_notes(linkage, keys, found, steps)))
@@ -81,10 +81,10 @@ def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps:
         notes.append(f"undetermined: {listed(free)} could be driven as well; without, all move as little as they can")
     elif not found.infeasible and any(step.free for step in steps):
         notes.append("what is undetermined is idle: it moves as little as it can")
-    for element in found.elements:
-        if element.by_counting and len(element.loop_group.loops) > 1:
+    for loop_group in found.loop_groups:
+        if loop_group.by_counting and len(loop_group.members.loops) > 1:
             why = "its joint frames are traced" if traced(linkage) else "its loops do not close"
-            parts = _parts(linkage, element.loop_group.joints)
+            parts = _parts(linkage, loop_group.members.joints)
             notes.append(f"the loops of {listed(parts)} are put in order by counting unknowns, since {why}")
     return notes
 
@@ -94,7 +94,7 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}
-    solved = {joint for element in found.elements for joint in element.loop_group.joints}
+    solved = {joint for loop_group in found.loop_groups for joint in loop_group.members.joints}
     texts = []
     for element in structure.elements:
         if element.loops and structure.loops[element.loops[0]].joints[0].joint not in solved:
@@ -121,20 +121,20 @@ def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> l
 def _at_rest(linkage: Linkage, found: DrivePlan) -> list[str]:
     """Tell of coordinates along the normals of planar elements, and of loops in which all coordinates are given."""
     texts = []
-    for element in found.elements:
-        own = set(element.columns)
+    for loop_group in found.loop_groups:
+        own = set(loop_group.columns)
         resting = [
             f"{joint.name}.{name}"
-            for index, joint in ((index, linkage.joints[index]) for index in element.loop_group.joints)
+            for index, joint in ((index, linkage.joints[index]) for index in loop_group.members.joints)
             for k, name in enumerate(joint.coordinates)
             if (index, k) not in own
         ]
         if resting:
             texts.append(f"{listed(resting)}: along the normal of the plane of the loops, at rest")
-        checked = sum(len(group.loops) for group in element.groups if not group.unknowns)
+        checked = sum(len(group.loops) for group in loop_group.groups if not group.unknowns)
         if checked:
             what = "the loop" if checked == 1 else f"{checked} loops"
-            parts = listed(_parts(linkage, element.loop_group.joints))
+            parts = listed(_parts(linkage, loop_group.members.joints))
             texts.append(f"{what} of {parts} in which all coordinates are given: the status says whether it closes")
     return texts
 

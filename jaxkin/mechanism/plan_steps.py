@@ -12,7 +12,7 @@ from jaxkin.joints.subgroups import Subgroup, subgroup
 from jaxkin.linkage.joint_pattern import letter, loop_name
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.linkage.solve_order import Group
-from jaxkin.mechanism.drive_plan import DrivenElement, ranked_groups
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup, ranked_groups
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.group_formulas import group_formulas, why_not_all
 from jaxkin.solve.system.equation_blocks import EquationBlock, blocks_of_groups
@@ -75,32 +75,32 @@ class Step:
         return f"{after}{what}: {equations}{redundant}{free}{follow}{merged}; {self.method} ({self.why})"
 
 
-def element_steps(linkage: Linkage, element: DrivenElement, first: int) -> list[Step]:
-    """List the steps of a structure element, numbered from `first` on: one for each group that has unknowns."""
-    freedoms = None if traced(linkage) else _freedoms(linkage, element)
-    groups = _ranked(linkage, element, freedoms)
-    blocks = blocks_of_groups(element.system)
+def loop_group_steps(linkage: Linkage, loop_group: DrivenLoopGroup, first: int) -> list[Step]:
+    """List the steps of a loop group, numbered from `first` on: one for each group that has unknowns."""
+    freedoms = None if traced(linkage) else _freedoms(linkage, loop_group)
+    groups = _ranked(linkage, loop_group, freedoms)
+    blocks = blocks_of_groups(loop_group.system)
     solved = [k for k, block in enumerate(blocks) if block.columns]
     number = {k: first + place for place, k in enumerate(solved)}
     steps = []
     for k in solved:
         after = tuple(sorted(number[other] for other in _solved_before(groups, k, solved)))
-        steps.append(_step(linkage, element, k, groups[k], freedoms, after))
+        steps.append(_step(linkage, loop_group, k, groups[k], freedoms, after))
     return steps
 
 
-def _freedoms(linkage: Linkage, element: DrivenElement) -> LoopFreedoms:
-    return loop_freedoms(linkage)[linkage.structure.loop_groups.index(element.loop_group)]
+def _freedoms(linkage: Linkage, loop_group: DrivenLoopGroup) -> LoopFreedoms:
+    return loop_freedoms(linkage)[linkage.structure.loop_groups.index(loop_group.members)]
 
 
-def _ranked(linkage: Linkage, element: DrivenElement, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
-    """Find the groups of an element with their ranks, which `plan_drive` does not find for a single loop."""
-    several = len(element.loop_group.loops) + len(element.loop_group.couplings) > 1
+def _ranked(linkage: Linkage, loop_group: DrivenLoopGroup, freedoms: LoopFreedoms | None) -> tuple[Group, ...]:
+    """Find the groups of a loop group with their ranks, which `plan_drive` does not find for a single loop."""
+    several = len(loop_group.members.loops) + len(loop_group.members.couplings) > 1
     if freedoms is None or not freedoms.closes or several:
-        return element.groups
-    driven = tuple(element.columns[column] for column in element.system.driven)
-    loop_class = linkage.classes[linkage.structure.loop_groups.index(element.loop_group)]
-    return ranked_groups(linkage, element.loop_group, driven, loop_class, freedoms) or element.groups
+        return loop_group.groups
+    driven = tuple(loop_group.columns[column] for column in loop_group.system.driven)
+    loop_class = linkage.classes[linkage.structure.loop_groups.index(loop_group.members)]
+    return ranked_groups(linkage, loop_group.members, driven, loop_class, freedoms) or loop_group.groups
 
 
 def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]) -> set[int]:
@@ -114,18 +114,18 @@ def _solved_before(groups: tuple[Group, ...], number: int, solved: Sequence[int]
 
 def _step(
     linkage: Linkage,
-    element: DrivenElement,
+    loop_group: DrivenLoopGroup,
     number: int,
     group: Group,
     freedoms: LoopFreedoms | None,
     after: tuple[int, ...],
 ) -> Step:
-    system, block = element.system, blocks_of_groups(element.system)[number]
-    joints, loops = linkage.joints, _loops(element, number)
+    system, block = loop_group.system, blocks_of_groups(loop_group.system)[number]
+    joints, loops = linkage.joints, _loops(loop_group, number)
     cuts = [system.cuts[loop] for loop in loops]
     rank = group.rank - sum(RANK_OF_CUT[len(cut)] for cut in cuts)
     cut = {ball for balls in cuts for ball in balls}
-    method, why = _method(element, number)
+    method, why = _method(loop_group, number)
     joint_of_ball = {ball: joint for (joint, _), (ball, _) in system.places.items()}
     rows = linkage.structure.row_of
     ends = {rows[part] for joint in group.joints for part in joints[joint].parts}
@@ -134,13 +134,13 @@ def _step(
         parts=tuple(part for part in linkage.structure.parts if part in ends),
         loops=len(loops),
         couplings=tuple(linkage.couplings[coupling].name for coupling in group.couplings),
-        loop_class=_loop_class(element, number, group),
-        subgroup=None if freedoms is None or not loops else _subgroup(element, group, freedoms),
-        unknowns=_names(linkage, element, block),
+        loop_class=_loop_class(loop_group, number, group),
+        subgroup=None if freedoms is None or not loops else _subgroup(loop_group, group, freedoms),
+        unknowns=_names(linkage, loop_group, block),
         equations=len(block.rows),
         redundant=len(block.rows) - rank,
         free=len(block.columns) - rank,
-        follow=tuple(joints[element.loop_group.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
+        follow=tuple(joints[loop_group.members.joints[joint_of_ball[ball]]].name for ball in sorted(cut)),
         after=after,
         merged=group.merged,
         method=method,
@@ -148,48 +148,48 @@ def _step(
     )
 
 
-def _method(element: DrivenElement, number: int) -> tuple[str, str]:
+def _method(loop_group: DrivenLoopGroup, number: int) -> tuple[str, str]:
     """Tell how a group is solved, "formula" or "Newton", and why."""
-    blocks = blocks_of_groups(element.system)
-    found = group_formulas(element.system)[sum(bool(block.columns) for block in blocks[:number])]
+    blocks = blocks_of_groups(loop_group.system)
+    found = group_formulas(loop_group.system)[sum(bool(block.columns) for block in blocks[:number])]
     if isinstance(found, str):
         return "Newton", found
-    if (missing := why_not_all(element.system)) is not None:
+    if (missing := why_not_all(loop_group.system)) is not None:
         return "Newton", f"the {found.name} {found.letters} has a formula, but {missing}"
     return "formula", f"{found.name} {found.letters}"
 
 
-def _names(linkage: Linkage, element: DrivenElement, block: EquationBlock) -> tuple[str, ...]:
-    places = (element.columns[column] for column in block.columns)
+def _names(linkage: Linkage, loop_group: DrivenLoopGroup, block: EquationBlock) -> tuple[str, ...]:
+    places = (loop_group.columns[column] for column in block.columns)
     joints = linkage.joints
     return tuple(f"{joints[joint].name}.{joints[joint].coordinates[k]}" for joint, k in places)
 
 
-def _subgroup(element: DrivenElement, group: Group, freedoms: LoopFreedoms) -> Subgroup:
+def _subgroup(loop_group: DrivenLoopGroup, group: Group, freedoms: LoopFreedoms) -> Subgroup:
     """Find the smallest subgroup that holds the moving coordinates of the loops of a group."""
     held = {joint for loop in group.loops for joint, _ in loop}
-    columns = [freedoms.columns.index(place) for place in element.columns if place[0] in held]
+    columns = [freedoms.columns.index(place) for place in loop_group.columns if place[0] in held]
     return subgroup(freedoms.assembled[:, columns], 10 * freedoms.thresholds.rank)
 
 
-def _loop_class(element: DrivenElement, number: int, group: Group) -> str:
+def _loop_class(loop_group: DrivenLoopGroup, number: int, group: Group) -> str:
     """Name what the loops of a group are to the solver, and for a single loop the pattern of its joints."""
-    loops = _loops(element, number)
-    kinds = [_kind(element.system, loop) for loop in loops]
+    loops = _loops(loop_group, number)
+    kinds = [_kind(loop_group.system, loop) for loop in loops]
     if len(loops) != 1:
         return " and ".join(_count(times, f"{kind} loop") for kind, times in Counter(kinds).items())
     letters = {}
-    for place, movements in enumerate(element.system.movements):
-        unknown = set(element.system.span(place)) - set(element.system.driven)
-        columns = unknown or set(element.system.span(place))
-        first = element.system.span(place).start
-        letters[element.loop_group.joints[place]] = letter(movements, {column - first for column in columns})
+    for place, movements in enumerate(loop_group.system.movements):
+        unknown = set(loop_group.system.span(place)) - set(loop_group.system.driven)
+        columns = unknown or set(loop_group.system.span(place))
+        first = loop_group.system.span(place).start
+        letters[loop_group.members.joints[place]] = letter(movements, {column - first for column in columns})
     return loop_name(group, letters, kinds[0])
 
 
-def _loops(element: DrivenElement, number: int) -> tuple[int, ...]:
+def _loops(loop_group: DrivenLoopGroup, number: int) -> tuple[int, ...]:
     """List the numbers of the loops of a group, without its couplings."""
-    return tuple(each for each in element.system.order[number] if each < len(element.system.loops))
+    return tuple(each for each in loop_group.system.order[number] if each < len(loop_group.system.loops))
 
 
 def _kind(system: LoopSystem, loop: int) -> str:

@@ -18,7 +18,7 @@ from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
-from jaxkin.mechanism.drive_plan import DrivenElement, DrivePlan, plan_drive
+from jaxkin.mechanism.drive_plan import DrivenLoopGroup, DrivePlan, plan_drive
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
@@ -85,28 +85,28 @@ def follow_drive(
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
     known = tolerance is None or not traced(tolerance)
     asked = closure_tolerance(options.tolerance if known else tolerance)
-    elements = plan.elements if values[0].shape[0] else ()
+    loop_groups = plan.loop_groups if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
-    if elements and plan.by_formula is not None and known and by_formulas(options, followed[0]):
+    if loop_groups and plan.by_formula is not None and known and by_formulas(options, followed[0]):
         found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options)
     solutions = [
         solve(
-            element.system,
+            loop_group.system,
             options,
-            element.joints,
-            padded([followed[i] for i in element.inputs]),
+            loop_group.joints,
+            padded([followed[i] for i in loop_group.inputs]),
             asked,
-            element.axes,
-            element.line,
+            loop_group.axes,
+            loop_group.line,
         )
-        for element in elements
+        for loop_group in loop_groups
     ]
-    elements, solutions = _of_least_residual(elements, solutions, asked)
-    columns = tuple(element.columns for element in elements)
+    loop_groups, solutions = _of_least_residual(loop_groups, solutions, asked)
+    columns = tuple(loop_group.columns for loop_group in loop_groups)
     layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
     return _motion(mechanism, plan, _collect(layout, values, finite, solutions), options)
 
@@ -120,20 +120,20 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
 
 
 def _of_least_residual(
-    elements: Sequence[DrivenElement], solutions: Sequence[Solution], asked: ClosureTolerance
-) -> tuple[list[DrivenElement], list[Solution]]:
+    loop_groups: Sequence[DrivenLoopGroup], solutions: Sequence[Solution], asked: ClosureTolerance
+) -> tuple[list[DrivenLoopGroup], list[Solution]]:
     """Replace solutions of ideal joints by the poses of least residual of the joints that were given."""
-    every, found = list(elements), list(solutions)
-    for number, (element, (rows, outcome)) in enumerate(zip(elements, solutions, strict=True)):
-        if element.given is None:
+    every, found = list(loop_groups), list(solutions)
+    for number, (loop_group, (rows, outcome)) in enumerate(zip(loop_groups, solutions, strict=True)):
+        if loop_group.given is None:
             continue
-        system, columns, joints = element.given
+        system, columns, joints = loop_group.given
         zeros = jnp.zeros_like(rows[:1])
-        begun = [rows[element.columns.index(each)] if each in element.columns else zeros[0] for each in columns]
+        begun = [rows[loop_group.columns.index(each)] if each in loop_group.columns else zeros[0] for each in columns]
         poses, status, residual_norm = least_residual(
-            system, joints, element.joints, jnp.stack(begun), outcome.status, asked.max_residual
+            system, joints, loop_group.joints, jnp.stack(begun), outcome.status, asked.max_residual
         )
-        every[number], found[number] = element._replace(columns=columns), (poses, Outcome(status, residual_norm))
+        every[number], found[number] = loop_group._replace(columns=columns), (poses, Outcome(status, residual_norm))
     return every, found
 
 

@@ -32,7 +32,7 @@ def general(monkeypatch):
 
 def both_ways(mechanism, drive, values):
     """Displacements and status by formula and by the general program."""
-    (element,) = plan_drive(mechanism.linkage, (drive,)).elements
+    (element,) = plan_drive(mechanism.linkage, (drive,)).loop_groups
     given = element.system, SolverOptions(), element.joints, np.asarray(values)[None], closure_tolerance(None)
     return programs.solve(*given, element.axes), programs.solve(*given)
 

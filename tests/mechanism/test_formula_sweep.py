@@ -81,7 +81,7 @@ def test_nan_among_known_inputs_spoils_no_other_pose():
 def test_numpy_and_jax_compute_the_same_poses_and_the_same_line(make, drive):
     """The line of a known mechanism comes from NumPy, that of traced geometry from the program: one formula, two
     routes through other cosines and arc tangents."""
-    (element,) = plan_drive(make().linkage, (drive,)).elements
+    (element,) = plan_drive(make().linkage, (drive,)).loop_groups
     system, axes, line = element.system, element.axes, element.line
     values = np.linspace(-1.0, 2.0, 9)[None]
 

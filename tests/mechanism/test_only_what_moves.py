@@ -28,7 +28,7 @@ RANGE = np.linspace(0.0, 1.0, 20)
 def solved(mechanism, joint):
     """Arguments of each solve that a sweep over the range asks for, by the plan of its drive."""
     tolerance = ClosureTolerance(np.asarray(1e-12), np.asarray(0.0))
-    elements = plan_drive(mechanism.linkage, (joint,)).elements
+    elements = plan_drive(mechanism.linkage, (joint,)).loop_groups
     return [(element.system, SolverOptions(), element.joints, RANGE[None], tolerance) for element in elements]
 
 

@@ -85,7 +85,7 @@ def test_where_a_slope_says_nothing_the_secant_is_taken():
 @pytest.fixture(scope="module")
 def traced_rocker():
     """Samples of a double rocker 100, 95, 60, 80 that is assembled at 1 rad, over a full turn."""
-    (element,) = plan_drive(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar(1.0, crank=95.0, coupler=60.0).linkage, ("A",)).loop_groups
     geometry, _ = scaled_geometry(element.system, element.joints)
 
     @partial(jax.jit, **jit_options())

@@ -82,6 +82,6 @@ def test_settings_of_a_thread_hold_in_those_of_its_shards():
 
 
 def test_how_many_shards():
-    (element,) = plan_drive(planar_fourbar().linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar().linkage, ("A",)).loop_groups
     options = SolverOptions(cores=8, min_shard_poses=1000)
     assert [shard_count(element.system, poses, options) for poses in (999, 3000, 100_000)] == [1, 3, 8]

@@ -29,7 +29,7 @@ CASES = {
 
 def system_and_joints(mechanism, drive):
     """The loop system of a drive of one joint, and the frames of its joints."""
-    (element,) = plan_drive(mechanism.linkage, (drive,)).elements
+    (element,) = plan_drive(mechanism.linkage, (drive,)).loop_groups
     return element.system, element.joints
 
 
@@ -66,7 +66,7 @@ def test_where_all_is_driven_there_is_nothing_to_solve():
     """A wrist: three driven hinges, and a ball at which the loop is cut."""
     mechanism = wrist()
     hinges = [f"{joint.name}.phi" for joint in mechanism.all_joints if joint.freedoms == 1]
-    (element,) = plan_drive(mechanism.linkage, tuple(hinges)).elements
+    (element,) = plan_drive(mechanism.linkage, tuple(hinges)).loop_groups
     assert equation_blocks(element.system) == ()
 
 

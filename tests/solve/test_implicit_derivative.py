@@ -26,7 +26,7 @@ CRANK, COUPLER, ROCKER = 40.0, 120.0, 80.0
 @pytest.fixture(scope="module")
 def closed():
     """The one structure element of the four-bar, its joints, and its states by the closed form."""
-    (element,) = plan_drive(planar_fourbar(START).linkage, ("A",)).elements
+    (element,) = plan_drive(planar_fourbar(START).linkage, ("A",)).loop_groups
     theta = START + np.concatenate([[0.0], TURN])
     at = planar.fourbar(theta)
     angles = {0: theta, 1: at.coupler - theta, 2: at.rocker - at.coupler, 3: at.rocker}
