@@ -39,19 +39,44 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     seats of faces leave a slide of no use are one body. Where the inferences lock it, the weakest one without which it
     moves is dropped, and that is said.
     """
-    mechanism, found, levels = _with_seats(assembly, contacts, said)
-    if not found and not any(levels):
-        return mechanism
-    useful = useful_freedoms(mechanism)
+    source = told_by(assembly, contacts)
+    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
+    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+
+    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference]]:
+        rigid = [*said.rigid, *(each.parts for each in seats)]
+        found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        return _stopped(assembly, contacts, said, [*seats, *found], levels)
+
+    mechanism, found = made(())
+    if seats := _seats(mechanism):
+        other, more = made(seats)
+        if useful_freedoms(other) == useful_freedoms(mechanism):
+            mechanism, found = other, more
+    unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
+    return unlocked or _counted(mechanism, found)
+
+
+def _stopped(
+    assembly: Assembly,
+    contacts: Sequence[Contact],
+    said: Said,
+    found: list[Inference],
+    levels: Sequence[Sequence[Inference]],
+) -> tuple[Mechanism, list[Inference]]:
+    """Find the mechanism, and its inferences: with as many levels of what would stop slides as leave it freedoms, if
+    these are fewer then, idle ones included."""
+    mechanism = from_words(assembly, contacts, said, found)
+    useful = useful_freedoms(mechanism) if any(levels) else 0
     for count in range(len(levels), 0, -1) if useful else ():
         if not levels[count - 1]:
             continue
         more = [*found, *(each for level in levels[:count] for each in level)]
         other = from_words(assembly, contacts, said, more)
-        if 0 < useful_freedoms(other) < useful:
-            return _counted(other, more)
-    unlocked = None if useful else _unlocked(assembly, contacts, said, found)
-    return unlocked or _counted(mechanism, found)
+        fewer = useful_freedoms(other)
+        if 0 < fewer < useful or (fewer == useful and other.mobility().freedoms < mechanism.mobility().freedoms):
+            return other, more
+    return mechanism, found
 
 
 def _unlocked(
@@ -97,30 +122,9 @@ def useful_freedoms(mechanism: Mechanism) -> int:
     return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
 
 
-def _with_seats(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said
-) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
-    """Find the mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
-    source = told_by(assembly, contacts)
-    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
-    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
-
-    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
-        rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
-        found = [*seats, *found]
-        return from_words(assembly, contacts, said, found), found, stopped
-
-    first = made(())
-    if not (seats := _seats(first[0])):
-        return first
-    then = made(seats)
-    return then if useful_freedoms(then[0]) == useful_freedoms(first[0]) else first
-
-
 def _seats(mechanism: Mechanism) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
-    cheeks.
+    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
@@ -130,16 +134,23 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
         return []
     idle = {*mechanism.mobility().idle}
     owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
+    carried = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
     useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:
-        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
-        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle or is_guide(mechanism, joint):
+        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
+        screwed = joint.kind is JointKind.REVOLUTE and min(carried[owner[part]] for part in joint.parts) > 1
+        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts:
+            result.append(Inference(joint.parts, joint.evidence))
+            continue
+        moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
+        if joint.name not in mechanism.contacts or not (flat or screwed) or moved or is_guide(mechanism, joint):
             continue
         one, other = (owner[part] for part in joint.parts)
         joined = {part: one if body == other else body for part, body in owner.items()}
         if all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful):
-            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a slide that moves nothing else"
+            rest = "turn, as of a thread," if screwed else "slide"
+            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
             owner = joined
     return result

@@ -36,7 +36,7 @@ class Hinge(NamedTuple):
 
 
 class Stop(IntEnum):
-    """What stops a slide along a common axis that exact contacts allow, the surest first."""
+    """What stops motions that exact contacts allow, along a common axis or over a plane, the surest first."""
 
     NONE = 0
     """The joint is not one of exact contacts."""
@@ -48,6 +48,8 @@ class Stop(IntEnum):
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
     SHORT = 4
     """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
+    WALLS = 5
+    """Walls on both sides of what lies on a plane."""
 
 
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
@@ -128,6 +130,7 @@ def _hinge(
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
     ends = [end for each in found for end in each.other.reach(pair.one.axis)]
+    middles = float(hole.point @ pair.one.axis), (min(ends) + max(ends)) / 2  # of one hole, of two bushes
     short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * hole.radius
     between = None if pair.virtual else _between(known, pair, found)
     if between is not None and between <= MAX_PLAY * hole.radius:
@@ -137,7 +140,7 @@ def _hinge(
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
-        elif abs(float((pair.one.point - hole.point) @ hole.axis)) <= CENTRED * hole.radius:
+        elif min(abs(pair.one.point @ pair.one.axis - middle) for middle in middles) <= CENTRED * hole.radius:
             free, stop = 0.0, Stop.CENTRED
         elif short and room is not None:
             free, stop = 0.0, Stop.SHORT

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
+from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
@@ -13,13 +14,14 @@ from jaxkin.assembly.inference.held import (
     butting_pins,
     embedded_pins,
     pressed_rings,
+    rollers,
     standing_rods,
     with_hosts,
 )
-from jaxkin.assembly.inference.hinges import Stop, hinges
+from jaxkin.assembly.inference.hinges import Hinge, Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
-from jaxkin.assembly.inference.keyed import keyed_hubs
+from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
@@ -52,15 +54,21 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
-    known.add(keyed_hubs(known))
+    known.add([*keyed_hubs(known), *flatted_hubs(known)])
+    known.add(bolted_balls(known))
     set_in = sleeves(known)
     known.add(seated_sleeves(known, set_in))
+    known.add(clamped_hubs(known))
     known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
     fastening -= sliding_rods(known, set_in) | hollow_axles(known)
+    fastening -= rollers(known, fastening)
+    known.add(locked_threads(known, fastening))
+    body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
-    fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
+    apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
+    fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
@@ -82,6 +90,7 @@ def infer(
     known.add([each for each in far if each.joint is None])
     known.found += [each for each in far if each.joint]
     known.add(tied_to_nothing(known))
+    joined += [Hinge(each, Stop.WALLS) for each in loose_slides(known, lying=True)]
     body = known.body
     stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
     levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]

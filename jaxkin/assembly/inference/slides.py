@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -23,31 +24,57 @@ TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
 
-def loose_slides(known: Known) -> list[Inference]:
-    """Infer prismatic joints of parts that are between faces of another one, with play, and have no contact with it."""
+def loose_slides(known: Known, lying: bool = False) -> list[Inference]:
+    """Infer prismatic joints of parts that are between faces of another body, with play, and have no contact with it;
+    or, where `lying` is asked for, of those that lie on one plane of it and are between its walls."""
     body, result = known.body, []
+    beds = _beds(known, body) if lying else {}
     tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
     tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     for part in known.parts:
+        around: dict[str, list[Part]] = {}
         for other in known.measured.beside(part):
-            owners = frozenset((body[part.name], body[other.name]))
-            if known.order[part.name] > known.order[other.name] or len(owners) < 2 or owners in tied:
+            around.setdefault(body[other.name], []).append(other)
+        for owner, others in around.items():
+            owners = frozenset((body[part.name], owner))
+            if len(owners) < 2 or (owners not in beds if lying else owners in tied):
                 continue
-            found = _slide(part, other)
+            found = _slide(part, others, beds.get(owners))
             if found is not None:
                 axis, play = found
-                parts = (part.name, other.name)
-                text = f"faces on both sides in two directions, with a play of {play:.2g}"
+                parts = tuple(sorted((part.name, others[0].name), key=known.order.__getitem__))
+                where = "lies on a plane between walls" if lying else "faces on both sides in two directions"
+                text = f"{where}, with a play of {play:.2g}"
                 evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
                 joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
                 result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
                 tied.add(owners)
+                beds.pop(owners, None)
     return result
 
 
-def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
-    """Find the direction in which one of two parts slides between faces of the other, and its largest play."""
-    held = between_faces(one, other)
+def _beds(known: Known, body: Mapping[str, str]) -> dict[Pair, Vector]:
+    """Find the bodies that lie on each other with plane faces of one direction only, and that direction."""
+    found: dict[Pair, list[Vector]] = {}
+    other = {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    for contact in known.contacts:
+        owners, plane = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
+        if contact.contact_state.is_flat and isinstance(plane, Plane):
+            found.setdefault(owners, []).append(plane.normal)
+        else:
+            other.add(owners)
+    return {
+        owners: normals[0]
+        for owners, normals in found.items()
+        if owners not in other and all(np.linalg.norm(np.cross(each, normals[0])) < ACROSS for each in normals)
+    }
+
+
+def _slide(one: Part, others: Sequence[Part], bed: Vector | None = None) -> tuple[Vector, float] | None:
+    """Find the direction in which a part slides between faces of others, which are one body, and its largest play."""
+    held = between_faces(one, *others)
+    if bed is not None:
+        held = [(bed, 0.0), *(each for each in held if abs(each[0] @ bed) < ACROSS)]
     for normal, play in held:
         for across, other_play in held:
             axis = np.cross(normal, across)
@@ -58,13 +85,14 @@ def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
     return None
 
 
-def between_faces(one: Part, other: Part) -> list[tuple[Vector, float]]:
-    """Find the directions in which a part is between two faces of another one: unit normals, and the play along
-    them."""
+def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
+    """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
+    normals, and the play along them."""
     facing = [
         (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
         for a in one.faces
         if isinstance(a.surface, Plane)
+        for other in others
         for b in other.faces
         if (gap := _gap(a, b)) is not None
     ]
