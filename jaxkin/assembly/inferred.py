@@ -27,6 +27,8 @@ _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 plates that are bolted together do not move."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
+_ROUNDS = 3
+"""Times that seats are looked for: what is one body by some may be seated on others."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -49,10 +51,13 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         return _stopped(assembly, contacts, said, [*seats, *found], levels)
 
     mechanism, found = made(())
-    if seats := _seats(mechanism):
-        other, more = made(seats)
-        if useful_freedoms(other) == useful_freedoms(mechanism):
-            mechanism, found = other, more
+    seats: list[Inference] = []
+    for _ in range(_ROUNDS):
+        seats += (new := _seats(mechanism))
+        other, more = made(seats) if new else (mechanism, found)
+        if not new or useful_freedoms(other) != useful_freedoms(mechanism):
+            break
+        mechanism, found = other, more
     unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
     return unlocked or _counted(mechanism, found)
 

@@ -128,13 +128,16 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
     fits: dict[str, float] = {}
+    bushed: set[str] = set()
     traps: set[str] = set()
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
             if pin.part in stack.fasteners and hole.part in stack.held:
                 owner = body[hole.part]
                 reach.setdefault(owner, []).append((*hole.reach(along), hole.part))
-                fits[owner] = min(fits.get(owner, np.inf), max(pair.clearance, 0.0))
+                if (fit := max(pair.clearance, 0.0)) < fits.get(owner, np.inf):
+                    fits[owner] = fit
+                    (bushed.add if hole.part in known.sleeves else bushed.discard)(owner)
                 if slides and _is_trapped(known, pin.part, hole):
                     traps.add(owner)
     if not reach:
@@ -142,7 +145,7 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     ends = {
         owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
     }
-    widest = max(_keepers(known, stack, reach), key=lambda owner: ends[owner][1] - ends[owner][0])
+    widest = max(_keepers(known, stack, reach, fits), key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len({body[each] for each in stack.held}) == 1:
         # as a shaft in bushes, also where its collars touch what these are in
@@ -156,22 +159,28 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
     looser = [fit for owner, fit in fits.items() if owner != tightest]
-    if traps - {tightest}:
+    if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
     if looser and min(looser) - fits[tightest] > SAME_FIT * stack.axis.radius:
         return ends[tightest][2], "more tightly than by others"
     return None, ""
 
 
-def _keepers(known: Known, stack: Stack, reach: Mapping[str, Sequence[tuple[float, float, str]]]) -> list[str]:
-    """Find the bodies that may hold a stack: not those that are round about it, or on it with sleeves only, if there
-    are others."""
+def _keepers(
+    known: Known, stack: Stack, reach: Mapping[str, Sequence[tuple[float, float, str]]], fits: Mapping[str, float]
+) -> list[str]:
+    """Find the bodies that may hold a stack: not those that are round about it, but for one that fits more tightly than
+    all others, nor those that are on it with sleeves only, if there are others."""
 
     def turns(parts: Sequence[str]) -> bool:
         round_ones = all(_is_round_about(known, part, stack.axis) for part in parts)
         return round_ones or all(part in known.sleeves for part in parts)
 
-    return [owner for owner, some in reach.items() if not turns([part for *_, part in some])] or list(reach)
+    keeping = [owner for owner, some in reach.items() if not turns([part for *_, part in some])] or list(reach)
+    tightest = min(fits, key=fits.__getitem__)
+    looser = min((fits[owner] for owner in keeping if owner != tightest), default=0.0) - fits[tightest]
+    pressed = tightest not in keeping and looser > SAME_FIT * stack.axis.radius
+    return [tightest] if pressed and not all(part in known.sleeves for *_, part in reach[tightest]) else keeping
 
 
 def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:

@@ -36,7 +36,7 @@ class Hinge(NamedTuple):
 
 
 class Stop(IntEnum):
-    """What stops motions that exact contacts allow, along a common axis or over a plane, the surest first."""
+    """What stops a slide along a common axis that exact contacts allow, the surest first."""
 
     NONE = 0
     """The joint is not one of exact contacts."""
@@ -48,8 +48,6 @@ class Stop(IntEnum):
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
     SHORT = 4
     """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
-    WALLS = 5
-    """Walls on both sides of what lies on a plane."""
 
 
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:

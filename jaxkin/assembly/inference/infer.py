@@ -18,14 +18,14 @@ from jaxkin.assembly.inference.held import (
     standing_rods,
     with_hosts,
 )
-from jaxkin.assembly.inference.hinges import Hinge, Stop, hinges
+from jaxkin.assembly.inference.hinges import Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
-from jaxkin.assembly.inference.sleeves import hollow_axles, seated_sleeves, sleeves, sliding_rods
+from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.undrawn import screwed_flat
@@ -57,12 +57,14 @@ def infer(
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
     set_in = sleeves(known)
+    driven = driven_sleeves(known, set_in)
+    set_in = [each for each in set_in if each.part not in driven]
     known.add(seated_sleeves(known, set_in))
     known.add(clamped_hubs(known))
     known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
-    fastening -= sliding_rods(known, set_in) | hollow_axles(known)
+    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
     fastening -= rollers(known, fastening)
     known.add(locked_threads(known, fastening))
     body = known.body
@@ -90,7 +92,6 @@ def infer(
     known.add([each for each in far if each.joint is None])
     known.found += [each for each in far if each.joint]
     known.add(tied_to_nothing(known))
-    joined += [Hinge(each, Stop.WALLS) for each in loose_slides(known, lying=True)]
     body = known.body
     stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
     levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]

@@ -8,7 +8,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bearings import ROUND
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS, play
@@ -20,6 +20,8 @@ MAX_LOOSE = 0.1
 opening, is no bush of that hole."""
 SAME_FIT = 0.002
 """Clearances that differ by less, over the radius, are one fit: the loosest press fit of a tolerance table."""
+MIN_HOLLOW = 0.8
+"""Share of the length of a sleeve that its holes have, at least: the rest is chamfers."""
 FLUSH = 0.1
 """A sleeve that ends where its hole does, within so much over its radius, is set into the hole from there."""
 
@@ -45,10 +47,23 @@ def sleeves(known: Known) -> list[Sleeve]:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
-        if any(bore.hole for bore in own) and is_round(known, name, own) and not _drives(known, name, housing):
+        if any(bore.hole for bore in own) and is_round(known, name, own) and _is_hollow(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
+    return result
+
+
+def driven_sleeves(known: Known, found: list[Sleeve]) -> set[str]:
+    """Find the sleeves with plane faces along their axis in contact with another part than their housing, such as the
+    square of a hollow shaft in its wheel: these turn in their hole."""
+    flat = [each for each in known.contacts if each.contact_state.is_flat]
+    result = set()
+    for sleeve in found:
+        housing, axis = sleeve.housing.other.part, sleeve.housing.one.axis
+        planes = [each.surfaces[0] for each in flat if sleeve.part in each.parts and housing not in each.parts]
+        if any(isinstance(each, Plane) and abs(float(each.normal @ axis)) < ACROSS for each in planes):
+            result.add(sleeve.part)
     return result
 
 
@@ -121,12 +136,13 @@ def is_round(known: Known, name: str, own: list[Bore]) -> bool:
     return bool(away.max() <= ROUND * widest.radius)
 
 
-def _drives(known: Known, name: str, housing: CommonAxis) -> bool:
-    """Tell whether a part has plane faces along its axis in contact with another part than its housing, as a hollow
-    shaft with a square for its wheel has."""
-    flat = [each for each in known.contacts if name in each.parts and each.contact_state.is_flat]
-    planes = [each.surfaces[0] for each in flat if housing.other.part not in each.parts]
-    return any(isinstance(each, Plane) and abs(float(each.normal @ housing.one.axis)) < ACROSS for each in planes)
+def _is_hollow(known: Known, name: str, own: list[Bore]) -> bool:
+    """Tell whether holes go through a part along the axis that they have in common; a shaft with a hole for a screw in
+    its end is no sleeve."""
+    along = own[0].axis
+    heights = known.solids[name].outermost @ along
+    through = merged(span for bore in own if bore.hole for span in bore.spans_along(along))
+    return sum(high - low for low, high in through) >= MIN_HOLLOW * float(np.ptp(heights))
 
 
 def _is_flange(known: Known, sleeve: Sleeve) -> bool:

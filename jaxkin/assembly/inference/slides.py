@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -24,11 +24,10 @@ TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
 
-def loose_slides(known: Known, lying: bool = False) -> list[Inference]:
-    """Infer prismatic joints of parts that are between faces of another body, with play, and have no contact with it;
-    or, where `lying` is asked for, of those that lie on one plane of it and are between its walls."""
+def loose_slides(known: Known) -> list[Inference]:
+    """Infer prismatic joints of parts that are between faces of another body, with play, and have no contact with
+    it."""
     body, result = known.body, []
-    beds = _beds(known, body) if lying else {}
     tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
     tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     for part in known.parts:
@@ -37,44 +36,23 @@ def loose_slides(known: Known, lying: bool = False) -> list[Inference]:
             around.setdefault(body[other.name], []).append(other)
         for owner, others in around.items():
             owners = frozenset((body[part.name], owner))
-            if len(owners) < 2 or (owners not in beds if lying else owners in tied):
+            if len(owners) < 2 or owners in tied:
                 continue
-            found = _slide(part, others, beds.get(owners))
+            found = _slide(part, others)
             if found is not None:
                 axis, play = found
                 parts = tuple(sorted((part.name, others[0].name), key=known.order.__getitem__))
-                where = "lies on a plane between walls" if lying else "faces on both sides in two directions"
-                text = f"{where}, with a play of {play:.2g}"
+                text = f"faces on both sides in two directions, with a play of {play:.2g}"
                 evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
                 joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
                 result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
                 tied.add(owners)
-                beds.pop(owners, None)
     return result
 
 
-def _beds(known: Known, body: Mapping[str, str]) -> dict[Pair, Vector]:
-    """Find the bodies that lie on each other with plane faces of one direction only, and that direction."""
-    found: dict[Pair, list[Vector]] = {}
-    other = {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
-    for contact in known.contacts:
-        owners, plane = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
-        if contact.contact_state.is_flat and isinstance(plane, Plane):
-            found.setdefault(owners, []).append(plane.normal)
-        else:
-            other.add(owners)
-    return {
-        owners: normals[0]
-        for owners, normals in found.items()
-        if owners not in other and all(np.linalg.norm(np.cross(each, normals[0])) < ACROSS for each in normals)
-    }
-
-
-def _slide(one: Part, others: Sequence[Part], bed: Vector | None = None) -> tuple[Vector, float] | None:
+def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     """Find the direction in which a part slides between faces of others, which are one body, and its largest play."""
     held = between_faces(one, *others)
-    if bed is not None:
-        held = [(bed, 0.0), *(each for each in held if abs(each[0] @ bed) < ACROSS)]
     for normal, play in held:
         for across, other_play in held:
             axis = np.cross(normal, across)
