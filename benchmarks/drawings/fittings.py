@@ -170,7 +170,7 @@ def gate_valve(random):
     drawing.add("yoke sleeve", union(sleeve, square))
     drawing.add("sleeve washer", tube((0, 0, 178), Z, 8.1, 13, 1))
     wheel = union(
-        torus((0, 0, 190), Z, 45, 5),
+        tube((0, 0, 186), Z, 40, 50, 8),
         cyl((0, 0, 179), Z, 13, 17),
         *(cyl((0, 0, 190), at(np.cos(a), np.sin(a), 0), 4, 44) for a in np.arange(3) * 2.1),
     )

@@ -5,9 +5,11 @@ Each is drawn with a known truth, at a place, a size and in an order at random: 
 
 import numpy as np
 import pytest
+import trimesh
 
 from jaxkin.geometry.part import moved
-from reference.round_parts import anywhere, assembly, block, owners, part, pin, ring
+from jaxkin.geometry.surfaces import Sphere
+from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -140), (60, 60, -130))
 TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
@@ -130,3 +132,21 @@ def test_a_flange_with_a_pattern_is_screwed_on_and_not_seated_on_its_screw(seed)
     screw = part("screw", pin(4.0, -120, 100), pin(9.0, -88, -80))
     body, _ = of(assembly(base, screw, nut, plate), seed)
     assert body["nut"] == body["plate"] != body["screw"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("bolted", [True, False])
+def test_a_bolt_through_the_ball_of_a_rod_end_holds_it_to_the_lever(seed, bolted):
+    """The lever is then on the rod end by its ball; a ball that is only near the lever is not."""
+    sphere, low = trimesh.creation.icosphere(3, 8.0).triangles, 5.0 if bolted else 5.5
+    kept = sphere[np.abs(sphere[:, :, 2]).max(axis=1) < 5.0]
+    ball = part("ball", [(Sphere(np.zeros(3), 8.0, 1), kept)], ring(3.0, 6.2, -5, 5)[:-1])
+    race = sphere[np.abs(sphere[:, :, 2]).max(axis=1) < 3.5][:, ::-1]
+    eye = ring(7.2, 12.0, -3.5, 3.5)
+    base = part("base", [(Sphere(np.zeros(3), 8.0, -1), race)], eye[:2] + eye[3:], block((-5, 11, -3), (5, 60, 3)))
+    lever = part("lever", ring(3.0, 9.0, low, low + 5), block((8, -3, low), (60, 3, low + 5)))
+    bolt = part("bolt", pin(3.0, -5, 14), pin(5.0, -9, -5))
+    body, mechanism = of(assembly(base, ball, lever, bolt), seed)
+    assert any("of the rod end 'base'" in note for note in mechanism.notes)
+    assert (body["lever"] == body["ball"]) == bolted
+    assert "spherical" in [joint.kind for joint in moving(mechanism)]
