@@ -4,16 +4,17 @@
     python benchmarks/baseline.py --compare     # hold against baseline.json; exit code 1 where something got slower
     python benchmarks/baseline.py --update      # measure, and write baseline.json
 
-Every figure is a time over another one that is measured in the same seconds of the same run, so that it says something
-on another machine, too: sweeps over the closed form of the four-bar at as many poses, a gradient over its sweep, a
-first call in a new process over `import jax`. Reference and case take turns; a figure is the median of their quotients,
-its noise the distance between the quartiles. Something got slower if its quotient grew by more than both noises
-together and a tenth.
+Every figure is a processor time over another one that is measured in the same seconds of the same run, so that it says
+something on another machine, and beside other work, too: sweeps over the closed form of the four-bar at as many poses,
+a gradient over its sweep, a first call in a new process over `import jax`. Reference and case take turns in blocks of
+calls; a figure is the median of their quotients, its noise the distance between the quartiles. Something got slower if
+its quotient grew by more than both noises together and a tenth.
 """
 
 from __future__ import annotations
 
 import json
+import resource
 import subprocess
 import sys
 import time
@@ -32,6 +33,8 @@ from reference import mechanisms  # on the path by `timing`
 FILE = Path(__file__).with_name("baseline.json")
 TURNS = 15
 """Quotients of a figure: reference and case take so many turns."""
+BLOCK = 0.02
+"""Seconds of a block of calls: single calls of 50 us differ by half."""
 COLD_TURNS = 3
 """The same of new processes, which take seconds."""
 LEAST = 0.1
@@ -47,18 +50,28 @@ class Figure(NamedTuple):
 
 
 def quotients(case: Callable[[], object], reference: Callable[[], object], turns: int = TURNS) -> Figure:
-    """The time of one call over that of another, in turns; first calls are not counted."""
+    """The time of one call over that of another, each in blocks of calls, in turns; first calls are not counted."""
+    jax.block_until_ready((reference(), case()))
+    counts = [max(1, round(BLOCK / seconds(call, 1))) for call in (reference, case)]
     found = []
-    for turn in range(turns + 1):
-        times = []
-        for call in (reference, case):
-            begin = time.perf_counter()
-            jax.block_until_ready(call())
-            times.append(time.perf_counter() - begin)
-        if turn:
-            found.append(times[1] / times[0])
+    for _ in range(turns):
+        below, above = (seconds(call, count) for call, count in zip((reference, case), counts, strict=True))
+        found.append(above / below)
     low, middle, high = np.quantile(found, [0.25, 0.5, 0.75])
     return Figure(float(middle), float(high - low))
+
+
+def seconds(call: Callable[[], object], count: int) -> float:
+    """Mean processor time of one of so many calls in a row, that of processes which the calls start included."""
+    begin = processor_seconds()
+    for _ in range(count):
+        jax.block_until_ready(call())
+    return (processor_seconds() - begin) / count
+
+
+def processor_seconds() -> float:
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
 
 
 def sweeps() -> Iterator[tuple[str, Figure]]:

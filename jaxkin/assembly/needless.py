@@ -36,7 +36,7 @@ Parts = list[str]
 
 
 class Found(NamedTuple):
-    """The parts of a mechanism that only spin, and those that would if others were not counted as such."""
+    """The parts of a mechanism that only spin, and those that would by themselves, but not together with these."""
 
     spins: dict[str, Spin]
     """Motion and carrier of each part that constrains no other part: parts with a single neighbour, and needless sets

@@ -15,13 +15,16 @@ Files = Annotated[
         metavar="FILE...",
         help="The assembled mechanism: a STEP file or a mesh (.stl, .obj, .ply, .3mf, .glb) of all parts, or several "
         "files of one part each, called as the files. Or what a CAD system exports for Simscape Multibody: an XML file "
-        "with joints and mates, beside the files of its parts. Or a study: a TOML file that names the geometry and "
-        "says what is fixed, rigid, ignored and driven. Options add to what a study says; --drive replaces its drive.",
+        "with joints and mates, beside the files of its parts. Or a robot (URDF, MJCF, SDF), or an assembly of FreeCAD "
+        "(.FCStd, .asmt). Or a study: a TOML file that names the geometry and says what is fixed, rigid, "
+        "ignored and driven. Options add to what a study says; --drive replaces its drive.",
     ),
 ]
 Unit = Annotated[
     str | None,
-    typer.Option("--unit", metavar="UNIT", help="Of lengths, for STL, OBJ and PLY, which have none: mm, m, in, ..."),
+    typer.Option(
+        "--unit", metavar="UNIT", help="Unit of lengths of STL, OBJ and PLY files, which have none: mm, m, ..."
+    ),
 ]
 Seconds = Annotated[
     float | None,
@@ -36,7 +39,7 @@ Fixed = Annotated[
     typer.Option(
         "--fixed",
         metavar="PART",
-        help='A part that does not move, or "Base*" for all such; may be given several times.',
+        help='A part that does not move, or "Base*" for all parts whose names match; may be given several times.',
     ),
 ]
 Rigid = Annotated[
@@ -101,7 +104,7 @@ Verbose = Annotated[
 
 
 def _ending(suffix: str, what: str) -> Callable[[Path | None], Path | None]:
-    """Make a check of the name of a file to write: it is refused before hours of work that would end in no file."""
+    """Make a check of the name of a file to write: a wrong one is refused before anything is computed."""
 
     def check(path: Path | None) -> Path | None:
         if path is not None and path.suffix.lower() != suffix:

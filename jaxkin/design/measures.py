@@ -1,4 +1,4 @@
-"""Numbers that judge a motion: transmission angle, stroke."""
+"""Numbers that judge a motion: transmission angle, stroke; and look-ups of lengths and joints by name."""
 
 from __future__ import annotations
 

@@ -47,16 +47,12 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
     sweep to their softness. A coordinate of a joint that has several is a joint of its own there, "joint_phi".
 
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, and for a coupling that MuJoCo cannot say: a polynomial in several coordinates, or of a power above four.
+    pose, for a joint along a curve, and for a coupling that MuJoCo cannot say: a polynomial in several coordinates, or
+    of a power above four.
     """
     target = Path(path)
     if target.suffix.lower() != ".xml":
         raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")
-    if along := [joint for joint in mechanism.all_joints if joint.curves]:
-        raise ValueError(
-            f"MuJoCo has no joints along curves, as {along[0].name!r} ({along[0].kind}) is one: leave it out, and "
-            "drive the follower by what jaxkin computes"
-        )
     root = _Writer(mechanism, target.stem).root
     ElementTree.indent(root)
     with whole(target) as draft:

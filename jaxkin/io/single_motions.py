@@ -41,8 +41,13 @@ def single_motions(joint: Joint, names: Sequence[str], metres: float, sign: int 
 
     `names` are those of its coordinates (`coordinate_names`), `metres` the length of the unit of the mechanism. A
     motion that repeats the displacement of another one, as the advance of a screw does, follows it. Raises ValueError
-    for a movement that is no product of turns and slides.
+    for a joint along a curve, which is no product of turns and slides.
     """
+    if joint.curves:
+        raise ValueError(
+            f"the format has no joints along curves, as {joint.name!r} ({joint.kind}) is one: leave it out, and drive "
+            "what follows the curve by what jaxkin computes"
+        )
     made: list[SingleMotion] = []
     first = 0
     for frame, key in zip(np.asarray(joint.frames_1, float), joint.movements, strict=True):
@@ -52,11 +57,6 @@ def single_motions(joint: Joint, names: Sequence[str], metres: float, sign: int 
         if movement.ball:
             made.append(SingleMotion(names[first], BALL, point, sign * frame[:3, 2], free))
         for motion in () if movement.ball else movement.elements:
-            if motion.kind not in ("rotate", "translate", "screw"):
-                raise ValueError(
-                    f"joint {joint.name!r} ({joint.kind}) cannot be written: its {motion.kind} is no turn about an "
-                    "axis and no slide along one, and the format has no other joints"
-                )
             column = first + motion.coordinate
             name, axis, follows = names[column], sign * frame[:3, motion.axis], None
             limits = joint.limits[column] if joint.limits else free

@@ -26,8 +26,18 @@ def _arguments(kind: str) -> dict[str, Parameter]:
     return {name: each for name, each in signature(COUPLINGS[kind]).parameters.items() if name != "name"}
 
 
+def _value(kind: str, argument: Parameter) -> Any:
+    """Return what a study may say for an argument; TypeError for an annotation that has no row in `_VALUES`."""
+    if argument.annotation not in _VALUES:
+        raise TypeError(
+            f"the argument {argument.name!r} of the coupling {kind!r} is annotated {argument.annotation!r}: give it "
+            f"one of {', '.join(map(repr, _VALUES))}, or {__name__}._VALUES a row"
+        )
+    return _VALUES[argument.annotation] | None
+
+
 _KEYS: dict[str, Any] = {
-    name: (_VALUES[each.annotation] | None, None) for kind in COUPLINGS for name, each in _arguments(kind).items()
+    name: (_value(kind, each), None) for kind in COUPLINGS for name, each in _arguments(kind).items()
 }
 """Keys of a coupling, of whichever kind, and what each may hold."""
 

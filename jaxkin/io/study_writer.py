@@ -32,11 +32,11 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
 _BESIDE = (INFERRED, TOLD)
-"""How notes begin that need not stand at the top: each inference stands beside its joint or its body."""
+"""Prefixes of notes that are written beside their joint or body, and not at the top."""
 _SAME = 1e-12
-"""Poses that differ by no more say the same: rounding of a frame that is made anew from its axis."""
+"""Largest difference of the entries of two poses that count as equal: rounding of a frame made anew from its axis."""
 _AS_CONTACT = {JointKind.PLANAR: "a", JointKind.SPHERICAL: "o"}
-"""Contact states that say the same as pairs whose coordinates depend on all axes of their frame."""
+"""Pairs whose coordinates depend on all axes of their frame -> the contact state that is written with whole frames."""
 
 
 def write_study(
@@ -96,7 +96,10 @@ def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assump
 def _bodies(mechanism: Mechanism, bodies: Bodies, exclude: Sequence[str], choices: Choices) -> list[str]:
     lines = ["", f"fixed = {toml(bodies.fixed)}"]
     if choices.instead:
-        lines += ["# Or instead of these, or of the drive at the end of this file, one of:", *choices.instead]
+        lines += [
+            "# Alternatives to these fixed parts, or to the drive at the end of this file; choose one:",
+            *choices.instead,
+        ]
     if exclude or choices.exclude:
         lines += ["", "exclude = [  # parts to leave out", *(f"  {toml(part)}," for part in exclude)]
         lines += [*choices.exclude, "]"]

@@ -21,7 +21,7 @@ Displacements = tuple[Float[Array | np.ndarray, "poses _"], ...]
 """For each joint of `Linkage.joints` its coordinates: radians, and lengths in the unit of the mechanism."""
 
 MAX_PADDED_POSES = 8192
-"""Poses of a range that is padded at most: of longer ones a copy takes as long as what is computed."""
+"""Most poses of a range that is padded: copying a longer one takes as long as computing it."""
 
 
 def part_transforms(linkage: Linkage, displacements: Displacements) -> tuple[Float[Array, "poses 4 4"], ...]:
@@ -65,7 +65,7 @@ def moving_parts(
     for part, parent, joint, sign in structure.tree:
         moved = joint_motion(joints[joint], displacements[joint])
         moved = moved if sign > 0 else inverse(moved)
-        # found once: fused into each child, XLA would find the whole chain anew for every part, rounded otherwise
+        # without this barrier XLA computes the whole chain anew for every child part, and rounds it otherwise
         found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
     return found
 
@@ -79,11 +79,11 @@ def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 
     found, first = None, 0
     for frame, movement in enumerate(joint.movements):
         count = len(MOVEMENTS[movement].coordinates)
-        before, after = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.frames_1, joint.frames_2))
-        begin = before if found is None else product(found, before)
+        frame_1, frame_2 = (as_rigid(jnp.asarray(side[frame], q.dtype)) for side in (joint.frames_1, joint.frames_2))
+        begin = frame_1 if found is None else product(found, frame_1)
         curve = joint.curves[frame] if joint.curves else None
         moved = displaced(begin, movement, q[:, first : first + count].T, jnp.asarray(joint.pitch, q.dtype), curve)
-        found = product(moved, inverse(after))
+        found = product(moved, inverse(frame_2))
         first += count
     still = jnp.eye(4, dtype=q.dtype)[:3, :, None] if found is None else found
     return jnp.broadcast_to(still, (3, 4, q.shape[0]))

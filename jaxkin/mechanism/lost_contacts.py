@@ -2,8 +2,8 @@
 
 A joint keeps infinite surfaces in contact, as the paper's contacts do (assumption 4: they last). Faces end. Where the
 faces of a contact are apart along the freedoms of their joint, the contact is lost there, and the joint is what it was
-only if the contacts that are left amount to the same lower pair. Told from the extents of the faces, which are cheap
-and larger than the faces: what is told is surely lost, and not all that is lost is told.
+only if the contacts that are left amount to the same lower pair. Losses are judged by the extents of the faces, which
+are cheap and contain the faces: each loss that is told is certain, and some losses are missed.
 """
 
 from __future__ import annotations
@@ -45,7 +45,8 @@ class LostContact:
     loose: Bool[np.ndarray, " poses"]
     """Poses at which this and other contacts of the joint are lost, and those that are left do not make the joint."""
     left: str
-    """The kind of joint that they amount to where the faces are farthest apart; empty where they are no lower pair."""
+    """The kind of joint to which the remaining contacts amount where the faces are farthest apart; empty if that is no
+    lower pair."""
 
     @property
     def lost(self) -> Bool[np.ndarray, " poses"]:
@@ -89,7 +90,7 @@ class FaceSetting:
         """By part and name."""
         for part in mechanism.solids:
             self.faces |= {(part.name, face.name): face for face in part.faces}
-        # gaps below what counts as touching in the assembled pose are none, nor are those below rounding of the corners
+        # smaller gaps count as zero: what counts as touching in the assembled pose, and rounding of the corners
         self.length = default_length(mechanism.solids) + 2 * max(part.vertex_resolution for part in mechanism.solids)
         self._flush: dict[tuple[str, str], list[Face]] = {}
 
@@ -164,7 +165,10 @@ def moved_second(joint: Joint, contact: Contact, moved: Displacements, setting: 
 
 
 def gaps_of(joint: Joint, contact: Contact, moved: Displacements, setting: FaceSetting) -> Gaps:
-    """Measure how far the faces of a contact, and all that continue them, are apart; -inf where nobody looks."""
+    """Measure how far the faces of a contact, and all that continue them, are apart.
+
+    -inf where the contact state has no measure of a gap, or where the joint moves other bodies than those in contact.
+    """
     of_faces = contact.contact_state.gaps
     relative = moved_second(joint, contact, moved, setting)
     if of_faces is None or relative is None:

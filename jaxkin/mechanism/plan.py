@@ -68,19 +68,19 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     steps: list[Step] = []
     for element in found.elements:
         steps += element_steps(linkage, element, len(steps))
-    dead = [f"dead end: {why_infeasible(mechanism, found.infeasible)}"] if found.infeasible else []
+    dead = [f"infeasible drive: {why_infeasible(mechanism, found.infeasible)}"] if found.infeasible else []
     skipped = (*_skipped(linkage, keys, found), *_at_rest(linkage, found))
     return Plan(tuple(found.driven), tuple(steps), skipped, (*dead, *_notes(linkage, keys, found, steps)))
 
 
 def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps: Collection[Step]) -> list[str]:
-    """Tell what the drive leaves free, and where the order is found by counting and not by ranks."""
+    """Tell what the drive leaves undetermined, and where the order is found by counting and not by ranks."""
     notes = []
     free = () if traced(linkage) else undriven_freedoms(linkage, list(driven))
     if free:
-        notes.append(f"left free: {listed(free)} could be driven as well; without, all move as little as they can")
+        notes.append(f"undetermined: {listed(free)} could be driven as well; without, all move as little as they can")
     elif not found.infeasible and any(step.free for step in steps):
-        notes.append("what is left free is idle: it moves as little as it can")
+        notes.append("what is undetermined is idle: it moves as little as it can")
     for element in found.elements:
         if element.by_counting and len(element.loop_group.loops) > 1:
             why = "its joint frames are traced" if traced(linkage) else "its loops do not close"
@@ -90,7 +90,7 @@ def _notes(linkage: Linkage, driven: Collection[Place], found: DrivePlan, steps:
 
 
 def _skipped(linkage: Linkage, driven: Collection[Place], found: DrivePlan) -> list[str]:
-    """Tell of the structure elements without a driven joint, and of coordinates outside of loops."""
+    """Tell of the structure elements without a driven joint, whose loops rest, and of coordinates outside of loops."""
     structure = linkage.structure
     given = {linkage.joints[joint].name for joint, _ in driven}
     rows = {structure.row_of[part] for part in moving(structure, given).parts}

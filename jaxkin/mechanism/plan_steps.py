@@ -54,7 +54,7 @@ class Step:
     after: tuple[int, ...]
     """Numbers of the steps that must be solved before."""
     merged: int
-    """Number of groups of loops that are one step because they share what is left free; 1 where nothing is shared."""
+    """Number of groups of loops that are one step because they share what is undetermined; 1 where none is."""
 
     method: str
     """"formula" or "Newton". See `SolverOptions.formulas` for sweeps that are left to Newton's method all the same."""
@@ -65,9 +65,9 @@ class Step:
         after = f"after {listed([str(other + 1) for other in self.after])}: " if self.after else ""
         of_joints = ", ".join(joint for joint in self.joints if joint not in self.follow)
         redundant = f", {self.redundant} of them redundant" if self.redundant else ""
-        free = f"; {self.free} left free" if self.free else ""
+        free = f"; {self.free} undetermined" if self.free else ""
         follow = f"; the turns of {', '.join(self.follow)} follow" if self.follow else ""
-        merged = f"; {self.merged} groups in one step: they share what is left free" if self.merged > 1 else ""
+        merged = f"; {self.merged} groups in one step: they share what is undetermined" if self.merged > 1 else ""
         count = "1 " if self.loops == 1 else ""
         coupled = f"{' with ' if self.loops else ''}{listed(self.couplings)}" if self.couplings else ""
         what = f"{count}{self.loop_class}{coupled} over {', '.join(self.parts)}"

@@ -16,12 +16,17 @@
   (`closed_form.range_by_formula`). Where JAX traces nothing, the continuation solves the range instead.
 - MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and
   the residual of the given joints is above the tolerance (`correctors.least_residual`).
-- The worst of several structure elements: see `SEVERITY`.
-- NONFINITE: an input of the pose is NaN or infinite (`mechanism.sweep`, which solves for a finite input in its place).
+- The worst of several loop groups: see `SEVERITY`.
+- JUMPED in place of CLOSED: an earlier chunk of a stream left the branch (`mechanism.stream`).
+- NONFINITE: an input of the pose is NaN or infinite (`linkage.coordinates.without_gaps` puts a finite input
+  in its place, `mechanism.collect` sets the status).
 
 The reference methods (`reference_methods.minimise`: DFP, BFGS and others) do not use the table. They report CLOSED,
 STALLED and NONFINITE only: no JUMPED, because they trace no branch, so that a CLOSED pose may be on another branch; and
 no UNREACHABLE, because they do not test whether the residual is stationary.
+
+Results that are no sweep say of their poses in their own docstrings what a status means there: projections, inverse
+problems, assembly modes and workspaces.
 """
 
 from __future__ import annotations

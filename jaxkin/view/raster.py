@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-BATCH = 1 << 20  # pixels filled at once: bounds the memory, some tens of bytes each
-ON_EDGE = 1e-6  # sine of the angle to the line of sight below which a triangle shows no surface
+BATCH = 1 << 20
+"""Pixels that are filled at once: bounds the memory, some tens of bytes each."""
+ON_EDGE = 1e-6
+"""Sine of the angle to the line of sight below which a triangle is seen edge-on: rounding of float32 corners."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,13 +24,14 @@ class Raster:
     triangle: Int[np.ndarray, "height width"]
     """Index of the triangle, -1 where there is none."""
     depth: Float[np.ndarray, "height width"]
-    """Its coordinate towards the viewer at the centre of the pixel, -inf where there is none."""
+    """z of the front triangle at the centre of the pixel, pixels towards the viewer; -inf where there is none."""
 
 
 def rasterise(triangles: Float[np.ndarray, "triangles 3 3"], height: int, width: int) -> Raster:
     """Fill triangles given in pixels: x to the right, y downwards, z towards the viewer; the largest z is seen.
 
-    A pixel belongs to a triangle that holds its centre. Both sides of a triangle are seen; one on edge is not.
+    A pixel belongs to a triangle that holds its centre. Both sides of a triangle are seen; a triangle seen edge-on
+    is not drawn.
     """
     depth = np.full(height * width, -np.inf, np.float32)
     index = np.full(height * width, -1, np.int32)

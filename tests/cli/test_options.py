@@ -94,3 +94,11 @@ def test_units_of_the_other_kind_are_refused(name, unit, said):
     with pytest.raises(ValueError) as error:
         in_radians(replace(MECHANISM, unit="mm"), {name: Range(np.array([1.0]), unit)})
     assert said in str(error.value)
+
+
+def test_the_help_says_what_each_effect_is():
+    from jaxkin.cli.arguments import Effects
+    from jaxkin.io.named_effects import EFFECTS
+
+    (option,) = Effects.__metadata__
+    assert [name for name in EFFECTS if f"{name} (" not in option.help] == []

@@ -44,6 +44,8 @@ LONG = {
 }
 """Pages that compile several programs, each for seconds; the README and the other pages are in every run."""
 CONSOLE = ("sh", "console", "bash")
+COLUMNS = 104
+"""Columns of code that a page of the site shows without scrolling in a window of 1300 pixels (`docs/site.css`)."""
 WITH_CODE = [page for page in PAGES if any(block.language in ("python", "toml", *CONSOLE) for block in blocks(page))]
 
 
@@ -88,6 +90,17 @@ def test_the_blocks_of_a_page_run(page, files, tmp_path, monkeypatch):
         elif block.language in CONSOLE:
             for words in commands(block.text):
                 parse(words)
+
+
+def test_code_is_seen_without_scrolling():
+    wide = [
+        f"{name(page)}, line {block.line + number}: {len(line)} columns"
+        for page in PAGES
+        for block in blocks(page)
+        for number, line in enumerate(block.text.splitlines())
+        if len(line) > COLUMNS
+    ]
+    assert not wide, f"more than {COLUMNS} columns; shorten the comment, or write the call in several lines: {wide}"
 
 
 def commands(text: str) -> list[list[str]]:

@@ -239,6 +239,10 @@ def test_what_has_no_curve_has_no_curve_in_its_program():
     assert "tridiagonal" in str(jax.make_jaxpr(lambda u: roller().sweep({"shaft": u}).displacements)(TURN))
 
 
-def test_mujoco_has_no_curves(oval, tmp_path):
+@pytest.mark.parametrize(
+    "write, name", [(jk.write_mjcf, "cam.xml"), (jk.write_urdf, "cam.urdf"), (jk.write_asmt, "cam.asmt")]
+)
+def test_formats_without_curves_refuse_them(write, name, oval, tmp_path):
     with pytest.raises(ValueError, match="no joints along curves, as 'contact'"):
-        jk.write_mjcf(oval, tmp_path / "cam.xml")
+        write(oval, tmp_path / name)
+    assert not list(tmp_path.iterdir())

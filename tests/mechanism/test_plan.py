@@ -115,10 +115,10 @@ def test_what_rests_and_what_is_left_free_is_told():
         {"ground": "AE", "a": "AB", "b": "BC", "c": "CD", "d": "DE"},
     )
     assert five.plan(["A"]).notes == (
-        "left free: E.phi could be driven as well; without, all move as little as they can",
+        "undetermined: E.phi could be driven as well; without, all move as little as they can",
     )
     assert five.plan(["A", "E"]).notes == ()
-    assert five.plan(["A", "B", "C"]).notes[0].startswith("dead end: driven A.phi, B.phi, C.phi, but the mechanism")
+    assert five.plan(["A", "B", "C"]).notes[0].startswith("infeasible drive: driven A.phi, B.phi, C.phi, but")
 
 
 @pytest.mark.parametrize(

@@ -132,7 +132,7 @@ def test_groups_that_share_what_is_left_free_are_one_step():
     five = catalogue.pinned(points, bars)
     (step,) = five.plan(["A"]).steps
     assert (step.merged, step.loops, step.free) == (2, 2, 1)
-    assert "2 groups in one step: they share what is left free" in str(step)
+    assert "2 groups in one step: they share what is undetermined" in str(step)
     assert [step.merged for step in five.plan(["A", "E"]).steps] == [1, 1]
 
 

@@ -51,7 +51,7 @@ class PlacedMovement(NamedTuple):
     column: int
     """First column of its coordinates."""
     ball: int | None
-    """Number of the ball whose rotation it is; None if it is none."""
+    """Number of the ball that this movement rotates; None for other movements."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,8 @@ class LoopSystem:
 
     @cached_property
     def balls(self) -> tuple[tuple[int, ...], ...]:
-        """For each ball the columns of its rotation about the axes of its frame: three, or two for a line of centres.
+        """For each ball the columns of its rotation about the axes of its frame: three, or two
+        for the line between the centres of two balls (contact state p).
 
         Ball pairs come first, then the balls that replace pairs of movements whose angles would lock.
         """
@@ -114,7 +115,7 @@ class LoopSystem:
                     pairs[joint, frame] = (column, column + 1, column + 2)
                 lock = MOVEMENTS[name].lock
                 follows = lock is not None and movements[frame + 1 : frame + 2] == (lock.follower,)
-                if lock and follows and not given:  # the angles of a ball cannot be driven one by one
+                if lock and follows and not given:  # a pair with a driven coordinate keeps its angles
                     locking[joint, frame + lock.ball] = tuple(column + k for k in lock.columns)
                 column += len(MOVEMENTS[name].coordinates)
         return {place: (number, columns) for number, (place, columns) in enumerate((pairs | locking).items())}
