@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.inference.bores import NEAR_ANGLE
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.geometry.part import size
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.components import connected
@@ -27,6 +33,8 @@ _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 plates that are bolted together do not move."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
+_NEAR = 1e-4
+"""Distance of two axes that are one, over the size of the assembly."""
 _ROUNDS = 3
 """Times that seats are looked for: what is one body by some may be seated on others."""
 _TRIED = 12
@@ -55,11 +63,16 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     for _ in range(_ROUNDS):
         seats += (new := _seats(mechanism))
         other, more = made(seats) if new else (mechanism, found)
-        if not new or useful_freedoms(other) != useful_freedoms(mechanism):
+        if not new or _not_idle(other) != _not_idle(mechanism):
             break
         mechanism, found = other, more
     unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
     return unlocked or _counted(mechanism, found)
+
+
+def _not_idle(mechanism: Mechanism) -> int:
+    """Count the freedoms that are not idle, those of parts that only spin included; 0 where none is of use."""
+    return useful_freedoms(mechanism) and mechanism.mobility().useful + mechanism.mobility().spins
 
 
 def _stopped(
@@ -139,12 +152,11 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
         return []
     idle = {*mechanism.mobility().idle}
     owner = {part: body for body, parts in mechanism.bodies.items() for part in parts}
-    carried = Counter(owner[part] for joint in mechanism.all_joints if joint.freedoms for part in joint.parts)
     useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        screwed = joint.kind is JointKind.REVOLUTE and min(carried[owner[part]] for part in joint.parts) > 1
+        screwed = joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts:
             result.append(Inference(joint.parts, joint.evidence))
             continue
@@ -159,6 +171,32 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
             owner = joined
     return result
+
+
+def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) -> bool:
+    """Tell whether all other joints of one of two bodies are about the axis of a joint, as those of the rod of a
+    cylinder with an eye on its end are; a roller also touches its rail."""
+    point, axis = joint.frames_1[0][:3, 3], joint.frames_1[0][:3, 2]
+    near = _NEAR * size(mechanism.solids)
+    for body in {owner[part] for part in joint.parts}:
+        others = [
+            each
+            for each in mechanism.all_joints
+            if each is not joint and each.freedoms and body in {owner[part] for part in each.parts}
+        ]
+        if others and all(_is_about(each, point, axis, near) for each in others):
+            return True
+    return False
+
+
+def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
+    """Tell whether a joint is a turn about an axis, or along and about it, but for the distance `near`."""
+    frame = joint.frames_1[0]
+    offset = frame[:3, 3] - point
+    apart = float(np.linalg.norm(np.cross(offset, axis)))
+    along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
+    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL)
+    return turns and along and apart <= near
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:

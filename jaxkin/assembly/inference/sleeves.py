@@ -61,7 +61,8 @@ def driven_sleeves(known: Known, found: list[Sleeve]) -> set[str]:
     result = set()
     for sleeve in found:
         housing, axis = sleeve.housing.other.part, sleeve.housing.one.axis
-        planes = [each.surfaces[0] for each in flat if sleeve.part in each.parts and housing not in each.parts]
+        beside = {housing, *(each.part for each in found)} - {sleeve.part}  # half-shells touch where they are split
+        planes = [each.surfaces[0] for each in flat if sleeve.part in each.parts and not beside & {*each.parts}]
         if any(isinstance(each, Plane) and abs(float(each.normal @ axis)) < ACROSS for each in planes):
             result.add(sleeve.part)
     return result
