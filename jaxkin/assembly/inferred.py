@@ -157,7 +157,7 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
         screwed = joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
-        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts:
+        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue
         moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
@@ -176,7 +176,8 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
 def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) -> bool:
     """Tell whether all other joints of one of two bodies are about the axis of a joint, as those of the rod of a
     cylinder with an eye on its end are; a roller also touches its rail."""
-    point, axis = joint.frames_1[0][:3, 3], joint.frames_1[0][:3, 2]
+    pose = np.asarray(joint.frames_1, float)[0]
+    point, axis = pose[:3, 3], pose[:3, 2]
     near = _NEAR * size(mechanism.solids)
     for body in {owner[part] for part in joint.parts}:
         others = [
@@ -191,7 +192,7 @@ def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) ->
 
 def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
     """Tell whether a joint is a turn about an axis, or along and about it, but for the distance `near`."""
-    frame = joint.frames_1[0]
+    frame = np.asarray(joint.frames_1, float)[0]
     offset = frame[:3, 3] - point
     apart = float(np.linalg.norm(np.cross(offset, axis)))
     along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)

@@ -101,9 +101,10 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             after = float((on_nut.other.point - pair.other.point) @ pin.axis)
             others = [each.other for each in threads if each.other.part not in (nut, host)]
             beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
-            stops = [known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host)]
+            own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
             ahead = after * float(pin.axis @ pair.other.axis) > 0
-            if not beyond and gap(*(stops if ahead else stops[::-1]), pair.other.radius) is None:
+            one, other = (own, theirs) if ahead else (theirs, own)
+            if not beyond and gap(one, other, pair.other.radius) is None:
                 text = f"{pin.part!r} is screwed into {host!r} and locked by {nut!r}"
                 parts = tuple(sorted((pin.part, host, nut), key=known.order.__getitem__))
                 sizes = (("radius", pin.radius), ("clearance", pair.clearance))
