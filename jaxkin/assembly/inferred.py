@@ -83,7 +83,7 @@ def _stopped(
     levels: Sequence[Sequence[Inference]],
 ) -> tuple[Mechanism, list[Inference]]:
     """Find the mechanism, and its inferences: with as many levels of what would stop slides as leave it freedoms, if
-    these are fewer then, idle ones included."""
+    these are fewer then, or those of parts that only spin are."""
     mechanism = from_words(assembly, contacts, said, found)
     useful = useful_freedoms(mechanism) if any(levels) else 0
     for count in range(len(levels), 0, -1) if useful else ():
@@ -92,7 +92,7 @@ def _stopped(
         more = [*found, *(each for level in levels[:count] for each in level)]
         other = from_words(assembly, contacts, said, more)
         fewer = useful_freedoms(other)
-        if 0 < fewer < useful or (fewer == useful and other.mobility().freedoms < mechanism.mobility().freedoms):
+        if 0 < fewer < useful or (fewer == useful and other.mobility().spins < mechanism.mobility().spins):
             return other, more
     return mechanism, found
 
