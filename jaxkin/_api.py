@@ -56,6 +56,8 @@ from jaxkin.effects.limit_search import LimitKind as LimitKind
 from jaxkin.effects.limits import Limit as Limit
 from jaxkin.effects.limits import Limits as Limits
 from jaxkin.effects.limits import limits as limits
+from jaxkin.effects.mode_regions import ModeRegions as ModeRegions
+from jaxkin.effects.mode_regions import mode_regions as mode_regions
 from jaxkin.effects.motion_law import MotionLaw as MotionLaw
 from jaxkin.effects.motion_law import motion_law as motion_law
 from jaxkin.effects.rates import Rates as Rates

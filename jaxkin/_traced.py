@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import jax
+import numpy as np
 from jax.core import Tracer
 
 
 def traced(*trees: object) -> bool:
     """Tell whether JAX traces any of the arrays (inside `jit`, `vmap` or `grad`): their numbers cannot be looked at."""
     return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
+
+
+def inside_trace() -> bool:
+    """Tell whether JAX traces the function that calls, though all it is given may be numbers: what is computed there
+    from an array is traced."""
+    return isinstance(jax.device_put(_known_array()), Tracer)
+
+
+@cache
+def _known_array() -> jax.Array:
+    """An array that is never traced. It is kept: to make one takes six times as long as to ask what becomes of it."""
+    with jax.ensure_compile_time_eval():
+        return jax.device_put(np.zeros(0))

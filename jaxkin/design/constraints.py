@@ -14,7 +14,7 @@ import numpy as np
 from jaxkin.design.measures import joint_coordinate, length_now, transmission_angle
 from jaxkin.mechanism.motion import Motion
 
-Constraint = Callable[[Motion, Mapping[str, Any]], Any]
+Constraint = Callable[[Motion, Mapping[str, Any]], Any] | Callable[[Motion], Any]
 Key = tuple[str, ...]
 
 

@@ -66,7 +66,7 @@ class Problem:
         """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
         rows = self.of_motion(motion, extras)
-        lacking = [jnp.ravel(jnp.maximum(-constraint(motion, extras), 0.0)) for constraint in self.constraints]
+        lacking = [jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0)) for each in self.constraints]
         fits = [jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,)) for misfit in misfits.values()]
         return Judged(rows, jnp.concatenate([closure_gaps(motion), *fits, *lacking]))
 
@@ -90,7 +90,12 @@ class Problem:
         return value + weight * jnp.sum(judged.violations**2)
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
-        return self.loss(motion, extras) if takes_extras(self.loss) else self.loss(motion)
+        return _called(self.loss, motion, extras)
+
+
+def _called(function: Callable[..., Any], motion: Motion, extras: dict[str, Any]):
+    """Call a loss or a constraint of a motion, with the extras where it takes them."""
+    return function(motion, extras) if takes_extras(function) else function(motion)
 
 
 def takes_extras(loss: Callable[..., Any]) -> bool:

@@ -129,7 +129,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     if not isinstance(motion, Motion):
         raise ValueError(f"a curve is that of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     if traced(motion, point):
-        raise ValueError("cusps and crossings are found on the host: call jk.coupler_curve outside of jit and grad")
+        raise ValueError("cusps and crossings are found on the host: call coupler_curve outside of jit, vmap and grad")
     if len(motion.inputs) != 1:
         raise ValueError(f"a curve has one drive, and this motion has {listed(list(motion.inputs))}: hold the others")
     if part not in motion.mechanism.parts:

@@ -12,6 +12,8 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin.io.tables import poses_of, words_of
+from jaxkin.mechanism.joint_limits import Breach, breaches
+from jaxkin.mechanism.joint_limits import joined as limits_joined
 from jaxkin.mechanism.lost_contacts import LostContact, joined
 from jaxkin.mechanism.motion import largest_residuals, tally
 from jaxkin.solve.status import Status
@@ -28,6 +30,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
     """
     counts, largest = np.zeros(len(Status), int), np.zeros(len(Status))
     lost: list[tuple[tuple[LostContact, ...], int]] = []
+    beyond: list[tuple[tuple[Breach, ...], int]] = []
     with whole(path) as draft:
         columns: dict[str, Path] = {}
         with ExitStack() as stack:
@@ -48,6 +51,7 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
                 counts += np.bincount(np.asarray(motion.status), minlength=len(Status))
                 largest = np.maximum(largest, largest_residuals(motion))
                 lost.append((motion.lost_contacts, len(motion)))
+                beyond.append((breaches(motion), len(motion)))
                 step()
         with zipfile.ZipFile(draft, "w") as archive:
             for name, file in columns.items():
@@ -56,4 +60,4 @@ def write_stream(stream: Stream, path: Path, step: Callable[[], None] = lambda: 
             for name, words in words_of(stream.mechanism).items():
                 with archive.open(f"{name}.npy", "w") as file:
                     np.lib.format.write_array(file, words)
-    return tally(stream.mechanism, stream.inputs, counts, largest, joined(lost))
+    return tally(stream.mechanism, stream.inputs, counts, largest, joined(lost), limits_joined(beyond))

@@ -19,6 +19,8 @@ _FORMAT = "jaxkin mechanism"
 """What the file says that it is."""
 _VERSION = 1
 """Raised with every change of what is written; files of a later version are refused."""
+_LONGEST = 400
+"""Letters of what is said about a damaged file."""
 
 
 def save_mechanism(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
@@ -60,6 +62,7 @@ def read_mechanism(path: str | os.PathLike[str]) -> Mechanism:
             alignment=tuple(record["alignment"]),
             motors=tuple(record["motors"]),
         )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
         said = f"there is no {error}" if isinstance(error, KeyError) else str(error)
+        said = said if len(said) <= _LONGEST else f"{said[:_LONGEST]}..."  # of names without end
         raise ValueError(f"{target.name} is no mechanism that Mechanism.save wrote: {said}") from error

@@ -62,6 +62,8 @@ class Bodies:
     joints: list[RobotJoint] = field(default_factory=list)
     order: list[str] = field(default_factory=list)
     """Names of the joints in the order of `qpos`; "" for a free one."""
+    keys: dict[str, dict[str, str]] = field(default_factory=dict)
+    """Keyframes of attached models: by name, what they say of each of their joints."""
     sites: dict[str, tuple[str, Pose]] = field(default_factory=dict)
     """Bodies of the sites by name, and their places in the world."""
     floating: list[str] = field(default_factory=list)
@@ -114,7 +116,7 @@ class _Reader:
         )
         notes = (*found.notes, *ties.notes)
         model = RobotModel(links, joints, tuple(fixed), motors, notes, couplings)
-        model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints))
+        model, notes = at_keyframe(model, self.root, self.file, found.order, len(found.joints), found.keys)
         return replace(model, notes=(*model.notes, *notes))
 
     def _inside(self, element: Element, body: str, at: Pose, child_class: str | None) -> None:
@@ -201,6 +203,8 @@ class _Reader:
             name = each.get("name") or f"{body}/joint {number}"
             found.joints.append(self._joint(each, name, (before, after), at, child_class))
             found.order.append(name)
+            for key in each.iterfind("key"):
+                found.keys.setdefault(key.get("name", ""), {})[name] = key.get("qpos", "")
             before = after
 
     def _joint(self, each: Element, name: str, parts: tuple[str, str], at: Pose, child_class: str | None) -> RobotJoint:

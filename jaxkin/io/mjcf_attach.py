@@ -15,6 +15,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from jaxkin._names import nearest
+from jaxkin.io.mjcf_keyframe import keys_into_joints
 from jaxkin.io.mjcf_text import MAX_COPIED, WRITTEN_OUT, Compiler, Defaults, included, replicated
 from jaxkin.io.robot_model import WORLD, numbers, tag
 from jaxkin.io.xml_tree import MOST_DEEP, read_xml
@@ -105,10 +106,9 @@ class _Model:
         self.notes = attached(root, file, self.compiler, depth + 1)
         replicated(root, self.compiler)
         self.root, self.defaults = root, Defaults(root, file.name)
-        if root.find("keyframe/key") is not None:
-            self.notes.append(f"{file.name}: the keyframes of an attached model are not read")
         for world in root.iterfind("worldbody"):
             self._written_out(world, None)
+        keys_into_joints(root)
         for section in SECTIONS:
             for each in root.iterfind(f"{section}/*"):
                 self._said(each, None, "equality" if section == "equality" else None)

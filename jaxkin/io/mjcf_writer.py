@@ -8,7 +8,7 @@ that has the coordinates of the joint, and a <weld> of it to the second part.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -23,6 +23,7 @@ from jaxkin.io.names import unique
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, coordinate_names, coordinate_scale, single_motions
 from jaxkin.io.writable import check_writable
+from jaxkin.io.written_masses import principal_axes, written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -30,6 +31,8 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.topology.shallow_tree import shallow_tree
 
 if TYPE_CHECKING:
+    from jaxkin.effects.forces.masses import Masses
+    from jaxkin.geometry.inertial import Inertial
     from jaxkin.geometry.part import Part
     from jaxkin.mechanism.mechanism import Mechanism
 
@@ -39,21 +42,24 @@ LEAST_MASS, LEAST_INERTIA = 1e-6, 1e-9
 """In kg and kg m^2: MuJoCo refuses bodies that move and have none, as those without a solid."""
 
 
-def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
+def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Masses | None = None) -> Path:
     """Write a mechanism as a model of MuJoCo (.xml), in metres, and return its path.
 
     The file holds bodies, joints with their ranges, loops, couplings, motors as actuators, and the solids as meshes; it
     appears whole or not at all. MuJoCo pulls loops together by springs, so the poses that it settles at agree with a
     sweep to their softness. A coordinate of a joint that has several is a joint of its own there, "joint_phi".
 
+    Bodies weigh what the file says that the mechanism was read from, or what `masses`, found by `jk.masses`, say. Of
+    others MuJoCo computes the masses from their meshes, as shells.
+
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, for a joint along a curve, and for a coupling that MuJoCo cannot say: a polynomial in several coordinates, or
-    of a power above four.
+    pose, for a joint along a curve, for a coupling that MuJoCo cannot say (a polynomial in several coordinates, or of a
+    power above four), and for `masses` of another mechanism.
     """
     target = Path(path)
     if target.suffix.lower() != ".xml":
         raise ValueError(f"a model of MuJoCo is an .xml file, got {str(target)!r}")
-    root = _Writer(mechanism, target.stem).root
+    root = _Writer(mechanism, target.stem, written_inertials(mechanism, masses)).root
     ElementTree.indent(root)
     with whole(target) as draft:
         ElementTree.ElementTree(root).write(draft, encoding="utf-8", xml_declaration=False)
@@ -63,7 +69,7 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
 class _Writer:
     """The elements of one model."""
 
-    def __init__(self, mechanism: Mechanism, model: str) -> None:
+    def __init__(self, mechanism: Mechanism, model: str, inertials: Mapping[str, Inertial]) -> None:
         check_writable(mechanism.all_joints, "model")
         self.mechanism = mechanism
         self.metres = METRES[mechanism.unit]
@@ -81,6 +87,8 @@ class _Writer:
         self.bodies = {WORLD: world}
         self.joint_names = coordinate_names(mechanism.all_joints)
         self._write_bodies()
+        for part, inertial in inertials.items():
+            self._inertial(part, inertial)
         self._write_couplings()
         for element in (self.equality, self.tendons, self._actuators()):
             if len(element):
@@ -140,9 +148,18 @@ class _Writer:
         SubElement(self.equality, "weld", name=f"{joint.name} closed" if joint.freedoms else joint.name, body1=one,
                    body2=other, relpose=_text(0, 0, 0, 1, 0, 0, 0))  # fmt: skip
 
+    def _inertial(self, part: str, given: Inertial) -> None:
+        """Write what a part weighs into its body, whose axes are those of the world."""
+        if self.body_names[part] == WORLD:
+            return  # which has no mass in MuJoCo
+        moments, turn = principal_axes(given.inertia)
+        inertial = Element("inertial", pos=_text(*given.centre), quat=_text(*turn), mass=_text(given.mass),
+                           diaginertia=_text(*moments))  # fmt: skip
+        self.bodies[self.body_names[part]].insert(0, inertial)
+
     def _solid(self, solid: Part) -> None:
         """Write the triangles of a part as a mesh in the frame of its body."""
-        if not len(solid.triangles):
+        if not len(solid.triangles) or not solid.is_solid:
             return
         corners = np.asarray(solid.triangles, float).reshape(-1, 3) * self.metres
         points, faces = np.unique(corners, axis=0, return_inverse=True)

@@ -93,15 +93,22 @@ class RobotModel:
     """Unit of all lengths; "" where the format says none."""
 
 
+LARGEST = 1e30
+"""Largest size of a number that files of robots may have: squares of squares of it are numbers yet."""
+
+
 def numbers(text: str | None, count: int, where: str, default: Sequence[float] | None = None) -> np.ndarray:
-    """Read finite numbers that blanks separate; `default` where there is no text, ValueError where they are others."""
+    """Read finite numbers that blanks separate, up to `LARGEST`; `default` where there is no text.
+
+    Raises ValueError for other texts, and for more or fewer numbers.
+    """
     if text is None and default is not None:
         return np.array(default, float)
     try:
         found = np.array((text or "").split(), float)
     except ValueError:
         found = np.empty(0)
-    if len(found) != count or not np.isfinite(found).all():
+    if len(found) != count or not np.all(np.abs(found) <= LARGEST):
         raise ValueError(f"{where}: expected {count} finite number{'s' if count > 1 else ''}, got {text!r}")
     return found
 
@@ -125,10 +132,11 @@ def limits_between(low: float, high: float) -> Limits:
 
 def direction(vector: np.ndarray, where: str) -> np.ndarray:
     """Divide a vector by its length; ValueError for zero."""
-    length = float(np.linalg.norm(vector))
-    if length == 0.0:
+    size = float(np.abs(vector).max())
+    if size == 0.0:
         raise ValueError(f"{where}: expected the direction of an axis, got the zero vector")
-    return vector / length
+    vector = vector / size  # squares of large numbers would overflow
+    return vector / np.linalg.norm(vector)
 
 
 def placed(turn: np.ndarray, point: Sequence[float] | np.ndarray) -> Pose:

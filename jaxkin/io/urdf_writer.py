@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,10 +23,12 @@ from jaxkin._files import whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
+from jaxkin.io.robot_inertials import SIX
 from jaxkin.io.robot_loops import SPHERICAL
 from jaxkin.io.robot_model import UNLIMITED, WORLD
 from jaxkin.io.single_motions import BALL, SLIDE, SingleMotion, coordinate_names, coordinate_scale, single_motions
 from jaxkin.io.writable import check_writable
+from jaxkin.io.written_masses import written_inertials
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -33,6 +36,8 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.topology.shallow_tree import shallow_tree
 
 if TYPE_CHECKING:
+    from jaxkin.effects.forces.masses import Masses
+    from jaxkin.geometry.inertial import Inertial
     from jaxkin.geometry.part import Part
     from jaxkin.mechanism.mechanism import Mechanism
 
@@ -40,7 +45,7 @@ NOT_IN_FILE_NAMES = re.compile(r"[^A-Za-z0-9_.-]+")
 """Letters that names of mesh files are written without, whatever parts are called."""
 
 
-def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
+def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Masses | None = None) -> Path:
     """Write a mechanism as a robot (.urdf), in metres, and return its path.
 
     Beside it are written its loops, in the YAML file "NAME.yaml" with the keys of Gepetto's example-parallel-robots,
@@ -48,13 +53,18 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
     there where the mechanism has loops or balls, and is taken away where it has none. A coordinate of a joint that has
     several is a joint of its own there, "joint_phi"; each file appears whole or not at all.
 
+    Links weigh what the file says that the mechanism was read from, or what `masses`, found by `jk.masses`, say.
+    Readers take a link without a mass for one that weighs nothing where others have masses: a warning names those of
+    which nothing is known.
+
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, and for a coupling that is not linear in two coordinates: URDF has no others.
+    pose, for a coupling that is not linear in two coordinates, which is all that URDF has, and for `masses` of another
+    mechanism.
     """
     target = Path(path)
     if target.suffix.lower() != ".urdf":
         raise ValueError(f"a robot in URDF is a .urdf file, got {str(target)!r}")
-    writer = _Writer(mechanism, target.stem)
+    writer = _Writer(mechanism, target.stem, written_inertials(mechanism, masses))
     ElementTree.indent(writer.root)
     loops = target.with_suffix(".yaml")
     if writer.meshes:
@@ -75,7 +85,7 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
 class _Writer:
     """The elements of one robot, and the texts of the files beside it."""
 
-    def __init__(self, mechanism: Mechanism, name: str) -> None:
+    def __init__(self, mechanism: Mechanism, name: str, inertials: Mapping[str, Inertial]) -> None:
         check_writable(mechanism.all_joints, "robot")
         self.mechanism, self.metres = mechanism, METRES[mechanism.unit]
         self.folder = f"{name}_meshes"
@@ -92,6 +102,10 @@ class _Writer:
         self._tree()
         for solid in mechanism.solids:
             self._solid(solid)
+        for part, inertial in inertials.items():
+            self._inertial(part, inertial)
+        if inertials:
+            _warn_of_unknown_masses(mechanism, inertials)
         for coupling in mechanism.linkage.couplings:
             self._coupling(coupling)
         motors = [self._motor(motor) for motor in mechanism.motors]
@@ -182,9 +196,22 @@ class _Writer:
         self._join(joint, "fixed", link, frame)
         return frame
 
+    def _element(self, part: str) -> Element:
+        """Find the element of the link of a part."""
+        name = self.links[part]
+        return next(each for each in self.root.iterfind("link") if each.get("name") == name)
+
+    def _inertial(self, part: str, given: Inertial) -> None:
+        """Write what a part weighs into its link, whose axes are those of the world."""
+        inertial = SubElement(self._element(part), "inertial")
+        SubElement(inertial, "origin", xyz=_text(*given.centre - self.begun[self.links[part]]), rpy="0 0 0")
+        SubElement(inertial, "mass", value=_text(given.mass))
+        rows = {name: given.inertia["xyz".index(name[1]), "xyz".index(name[2])] for name in SIX}
+        SubElement(inertial, "inertia", {name: _text(value) for name, value in rows.items()})
+
     def _solid(self, solid: Part) -> None:
         """Write the triangles of a part into a mesh of its own, and name it in its link."""
-        if not len(solid.triangles):
+        if not len(solid.triangles) or not solid.is_solid:
             return
         corners = np.asarray(solid.triangles, float).reshape(-1, 3) * self.metres
         points, faces = np.unique(corners, axis=0, return_inverse=True)
@@ -193,11 +220,8 @@ class _Writer:
         clean = NOT_IN_FILE_NAMES.sub("_", solid.name)
         file = unique([*(name.removesuffix(".obj") for name in self.meshes), clean])[-1].replace("#", "_") + ".obj"
         self.meshes[file] = "\n".join(lines) + "\n"
-        name = self.links[solid.name]
-        visual = SubElement(
-            next(each for each in self.root if each.tag == "link" and each.get("name") == name), "visual"
-        )
-        SubElement(visual, "origin", xyz=_text(*-self.begun[name]), rpy="0 0 0")
+        visual = SubElement(self._element(solid.name), "visual")
+        SubElement(visual, "origin", xyz=_text(*-self.begun[self.links[solid.name]]), rpy="0 0 0")
         SubElement(SubElement(visual, "geometry"), "mesh", filename=f"{self.folder}/{file}")
 
     def _coupling(self, coupling: Coupling) -> None:
@@ -240,6 +264,18 @@ class _Writer:
             "joint_type": ", ".join(_quoted(SPHERICAL) for _ in self.balls),
         }
         return "".join(f"{key}: [{said}]\n" for key, said in keys.items() if said)
+
+
+def _warn_of_unknown_masses(mechanism: Mechanism, inertials: Mapping[str, Inertial]) -> None:
+    """Name the parts that move, and will be read as weighing nothing."""
+    if unknown := [part for part in mechanism.parts if part not in {*inertials, *mechanism.fixed}]:
+        one = len(unknown) == 1
+        warnings.warn(
+            f"nothing is known of what {listed(list(map(repr, unknown)))} {'weighs' if one else 'weigh'}, and "
+            f"readers of URDF take {'it' if one else 'them'} to weigh nothing, since other links have masses: write "
+            "jk.write_urdf(mechanism, path, masses=jk.masses(mechanism, ...))",
+            stacklevel=4,
+        )
 
 
 def _quoted(name: str) -> str:

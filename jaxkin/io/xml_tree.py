@@ -11,6 +11,12 @@ from jaxkin._files import check_file
 MOST_BYTES = 256_000_000
 """Of one file: 175 placed parts take 135 kB, so this is room for 300,000."""
 
+OF_NUMBERS = "0123456789.+-eE, \t\r\n"
+"""What lists of numbers are written with."""
+
+MOST_LETTERS = 4096
+"""Of a text in an attribute that is no list of numbers: as long as a path may be, and far above any name."""
+
 MOST_DEEP = 200
 """Elements inside each other: an instance five assemblies deep is at depth 8."""
 
@@ -19,7 +25,7 @@ def read_xml(path: Path) -> Element:
     """Read the root element of an XML file, tags without their namespaces.
 
     Raises FileNotFoundError where there is no file, and ValueError, in one line, where the file is larger or deeper
-    than the bounds, declares a document type (the only place of entities), or is damaged.
+    than the bounds, declares a document type (the only place of entities), has a name as long as a book, or is damaged.
     """
     if (size := check_file(path, "file in XML")) > MOST_BYTES:
         raise ValueError(f"{path.name}: {size} bytes of XML; at most {MOST_BYTES} are read")
@@ -36,6 +42,9 @@ def parse_xml(data: bytes, name: str) -> Element:
         depth += 1
         if depth > MOST_DEEP:
             raise ValueError(f"{name}: elements nested more than {MOST_DEEP} deep")
+        for key, text in attributes.items():
+            if len(text) > MOST_LETTERS and text[:MOST_LETTERS].strip(OF_NUMBERS):
+                raise ValueError(f"{name}: <{tag[:MOST_DEEP]}>: {key[:MOST_DEEP]!r} is a text of {len(text)} letters")
         builder.start(tag.rpartition(":")[2], attributes)
 
     def end(tag: str) -> None:
@@ -51,6 +60,6 @@ def parse_xml(data: bytes, name: str) -> Element:
     parser.StartDoctypeDeclHandler = refuse
     try:
         parser.Parse(data, True)
-    except expat.ExpatError as error:
+    except (expat.ExpatError, LookupError) as error:  # an encoding that there is not is looked up
         raise ValueError(f"{name}: damaged XML: {error}") from None
     return builder.close()

@@ -21,6 +21,12 @@ from jaxkin._files import check_file
 MAX_YAML_BYTES = 1_000_000
 """Bytes of a file: a robot with a thousand loops has a tenth of that."""
 
+MAX_LETTERS = 4096
+"""Letters of a text: far above any name."""
+
+MAX_SHOWN = 80
+"""Letters of the file that a message repeats."""
+
 MAX_LEVELS = 20
 """Lists in each other; loops have two."""
 
@@ -43,6 +49,8 @@ def read_yaml(path: Path) -> dict[str, Value]:
 
 def parse_yaml(text: str, source: str) -> dict[str, Value]:
     """Parse a text: see the module; `source` begins messages."""
+    if re.search(rf"[^,\[\]\n]{{{MAX_LETTERS + 1}}}", text):
+        raise ValueError(f"{source}: it holds a text of more than {MAX_LETTERS} letters")
     found: dict[str, Value] = {}
     lines = [(number, line) for number, line in enumerate(map(_uncommented, text.splitlines()), 1) if line.strip()]
     lines = [(number, line) for number, line in lines if line.strip() not in ("---", "...")]
@@ -51,7 +59,7 @@ def parse_yaml(text: str, source: str) -> dict[str, Value]:
         said = _KEY.fullmatch(line.rstrip())
         where = f"{source}, line {number}"
         if said is None:
-            raise ValueError(f"{where}: expected a key and its value, name_mot: ['hip', 'knee'], got {line.strip()!r}")
+            raise ValueError(f"{where}: expected a key and its value, name_mot: ['hip', 'knee'], got {_shown(line)}")
         key, value = said[1], said[2]
         if key in found:
             raise ValueError(f"{where}: the key {key!r} is there twice")
@@ -67,6 +75,11 @@ def parse_yaml(text: str, source: str) -> dict[str, Value]:
     return found
 
 
+def _shown(text: str) -> str:
+    text = text.strip()
+    return repr(text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}...")
+
+
 def _uncommented(line: str) -> str:
     return re.sub(r"(^|\s)#.*", "", line)
 
@@ -78,7 +91,7 @@ def _flow(text: str, where: str) -> Value:
     while text[position:].strip():
         token = _TOKEN.match(text, position)
         if token is None:
-            raise ValueError(f"{where}: expected a text or a list, got {text[position:].strip()!r}")
+            raise ValueError(f"{where}: expected a text or a list, got {_shown(text[position:])}")
         position = token.end()
         mark = token[1]
         if mark == "[" and expected and len(open_lists) <= MAX_LEVELS:
@@ -93,9 +106,9 @@ def _flow(text: str, where: str) -> Value:
             open_lists[-1].append(next(group for group in token.groups()[1:] if group is not None).strip())
             expected = False
         else:
-            raise ValueError(f"{where}: {mark or token[0].strip()!r} is out of place in {text!r}")
+            raise ValueError(f"{where}: {mark or token[0].strip()!r} is out of place in {_shown(text)}")
     if len(open_lists) != 1 or len(open_lists[0]) != 1:
-        raise ValueError(f"{where}: the list {text!r} is not closed")
+        raise ValueError(f"{where}: the list {_shown(text)} is not closed")
     return open_lists[0][0]
 
 

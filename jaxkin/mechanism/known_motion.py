@@ -18,7 +18,7 @@ from jaxtyping import Array, Float, Int
 
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.range.known_poses import known_displacements
-from jaxkin.solve.status import Status
+from jaxkin.solve.status import Status, is_closed_on_branch
 from jaxkin.solve.system.from_linkage import Columns
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -79,7 +79,8 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
     The function returns the displacements that are known; its derivatives are zero at poses that did not close.
     """
     # least-residual poses are closed by the ideal joints, whose derivatives they have
-    status = jnp.where(known.status == Status.MISFIT.value, Status.CLOSED.value, known.status)
+    differentiated = is_closed_on_branch(known.status) | (known.status == Status.MISFIT.value)
+    status = jnp.where(differentiated, Status.CLOSED.value, known.status)
     finite = known.status != Status.NONFINITE.value
     at = tuple(jnp.where(finite[:, None], lax.stop_gradient(rows), 0.0) for rows in known.displacements)
 

@@ -16,12 +16,14 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin._named import Named
 from jaxkin._names import listed, nearest
+from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, limit_report
 from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import Status
+from jaxkin.solve.status import Status, is_closed_on_branch
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.lost_contacts import LostContact
@@ -53,8 +55,8 @@ class Motion:
 
     @property
     def closed(self) -> Bool[Array, " poses"]:
-        """Which poses are closed on the branch of the assembled pose."""
-        return self.status == Status.CLOSED.value
+        """Which poses are closed on the branch of the assembled pose: CLOSED, or LIMITED by the range of a joint."""
+        return is_closed_on_branch(self.status)
 
     @property
     def on_branch(self) -> Bool[Array, " poses"]:
@@ -62,12 +64,29 @@ class Motion:
         return self.closed | (self.status == Status.MISFIT.value)
 
     def check(self) -> Motion:
-        """Raise PoseError where a pose is not on the branch of the assembled pose, with a remedy; else return itself.
+        """Raise PoseError where a pose is not on the branch of the assembled pose, or is beyond the limits of a joint.
+
+        The error names what is wrong with how many poses, the first one of each kind, and a remedy; else the motion is
+        returned.
 
         Raises ValueError inside `jit`, `vmap` and `grad`, where the statuses are no numbers yet.
         """
         check(self)
         return self
+
+    @cached_property
+    def beyond_limits(self) -> Mapping[str, Float[np.ndarray, " poses"]]:
+        """How far coordinates are beyond the limits of their joints, by "joint.coordinate": radians or lengths.
+
+        Above 0 beyond the highest displacement, below 0 beyond the lowest, 0 within the limits and at poses off the
+        branch. Only coordinates that are beyond at some pose are listed: empty where all poses are within all limits.
+        Raises ValueError inside `jit`, `vmap` and `grad`: there read the status LIMITED.
+        """
+        if traced(self.displacements):
+            raise ValueError(
+                "beyond_limits looks at numbers, which JAX traces here: inside jit, vmap and grad read motion.status"
+            )
+        return excesses(self)
 
     @cached_property
     def sigma_min(self) -> Float[Array, " poses"]:
@@ -143,7 +162,7 @@ class Motion:
 
     def __str__(self) -> str:
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        told = tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts)
+        told = tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts, breaches(self))
         if not any(joint.curves for joint in self.mechanism.all_joints):
             return told
         from jaxkin.effects.curve_contacts import curve_contacts
@@ -175,8 +194,10 @@ def tally(
     counts: Int[np.ndarray, " status"],
     largest: Float[np.ndarray, " status"],
     lost: Sequence[LostContact],
+    beyond: Sequence[Breach],
 ) -> str:
-    """Tell in words what became of poses: how many of each status, the largest residual of closed ones, faces left."""
+    """Tell in words what became of poses: how many of each status, the largest residual of closed ones, limits passed,
+    faces left."""
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
@@ -186,6 +207,7 @@ def tally(
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
     if free := undriven_freedoms(mechanism.linkage, [coordinate(mechanism.linkage, name) for name in inputs]):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
+    lines += [f"  {line}" for line in limit_report(beyond, mechanism.unit, inputs)]
     lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
     return "\n".join(lines)
 

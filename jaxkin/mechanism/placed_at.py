@@ -43,7 +43,7 @@ def mechanism_at(mechanism: Mechanism, motion: Motion | Pose, index: int) -> Mec
     if not -len(motion) <= index < len(motion):
         raise ValueError(f"the motion has {len(motion)} poses, numbered from 0, got {index}")
     status = Status(int(motion.status[index]))
-    if status not in (Status.CLOSED, Status.JUMPED):
+    if status not in (Status.CLOSED, Status.LIMITED, Status.JUMPED):
         raise ValueError(
             f"pose {index} is {status.name}: {status.message}; a mechanism is assembled in closed poses only"
         )

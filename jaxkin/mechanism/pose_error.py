@@ -1,20 +1,25 @@
-"""The error for poses that are not on the branch of the assembled pose, with what to do about them."""
+"""The error for poses that are off the branch of the assembled pose or beyond limits, with what to do about them."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
+from jaxtyping import Bool
 
 from jaxkin._traced import traced
-from jaxkin.solve.status import SEVERITY
+from jaxkin.mechanism.joint_limits import breaches, limit_report
+from jaxkin.solve.status import SEVERITY, Status
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 
 class PoseError(RuntimeError):
-    """Some poses of a motion are not on the branch of the assembled pose. `motion` holds them all."""
+    """Some poses of a motion are not on the branch of the assembled pose, or beyond the limits of a joint.
+
+    `motion` holds them all.
+    """
 
     def __init__(self, motion: Motion) -> None:
         super().__init__(_message(motion))
@@ -22,25 +27,36 @@ class PoseError(RuntimeError):
 
 
 def check(motion: Motion) -> None:
-    """Raise PoseError if a pose is not on the branch; ValueError where JAX traces the statuses."""
+    """Raise PoseError if a pose is off the branch or beyond limits; ValueError where JAX traces the statuses."""
     if traced(motion.status):
         raise ValueError(
             "throw=True and check() look at numbers, which JAX traces here: inside jit, vmap and grad read "
             "motion.status, and write check() outside"
         )
-    if not np.all(motion.on_branch):
+    if not np.all(_usable(motion)):
         raise PoseError(motion)
+
+
+def _usable(motion: Motion) -> Bool[np.ndarray, " poses"]:
+    """Tell which poses are on the branch, and within the limits of joints."""
+    # numbers of the host: the first comparison of arrays of JAX compiles a program
+    usable = np.isin(np.asarray(motion.status), (Status.CLOSED, Status.LIMITED, Status.MISFIT))
+    for over in motion.beyond_limits.values():
+        usable = usable & (over == 0)
+    return usable
 
 
 def _message(motion: Motion) -> str:
     """Write one line for each status, the worst first: how many poses, the first one with its inputs, the remedy."""
-    status, on_branch = np.asarray(motion.status), np.asarray(motion.on_branch)
-    off_branch = status[~on_branch]
-    lines = [f"{len(off_branch)} of {len(motion)} poses are not on the branch of the assembled pose:"]
+    status, usable = np.asarray(motion.status), _usable(motion)
+    wrong, limited = status[~usable], breaches(motion)
+    cause = "not on the branch of the assembled pose" + (", or beyond the limits of a joint" if limited else "")
+    lines = [f"{len(wrong)} of {len(motion)} poses are {cause}:"]
     for each in reversed(SEVERITY):
-        if count := int(np.sum(off_branch == each)):
-            first = int(np.argmax(status == each))
+        if count := int(np.sum(wrong == each)):
+            first = int(np.argmax((status == each) & ~usable))
             inputs = ", ".join(f"{name} = {float(values[first]):.6g}" for name, values in motion.inputs.items())
             where = f"first pose {first}" + (f" ({inputs})" if inputs else "")
             lines.append(f"  {count} {each.name}, {where}: {each.message}")
+    lines += [f"  {line}" for line in limit_report(limited, motion.mechanism.unit, motion.inputs)]
     return "\n".join(lines)

@@ -17,6 +17,7 @@ from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.collect import nan_where_not_finite
+from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import closure_tolerance, padded, warn_of_float32
 from jaxkin.solve.correctors.nearest_pose import NearestPoses
@@ -108,7 +109,7 @@ def project(
         status = jnp.where(status == Status.CLOSED.value, Status.MISFIT.value, status)
     names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
     inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
-    motion = Motion(mechanism, inputs, displacements, status, residual, options=options)
+    motion = with_limited(Motion(mechanism, inputs, displacements, status, residual, options=options))
     return Projection(motion, distance, best)
 
 

@@ -24,8 +24,9 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import named, resolve, without_gaps
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
+from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
-from jaxkin.mechanism.sweep import sweep
+from jaxkin.mechanism.sweep import follow_drive, warn_of_float32
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
@@ -59,6 +60,7 @@ class Stream:
             raise ValueError("a stream is of numbers: inside jit, vmap and grad write sweep")
         if not isinstance(chunk, int | np.integer) or chunk < 1:
             raise ValueError(f"chunk must be a number of poses, 1 or more, got {chunk}")
+        warn_of_float32()
         self.mechanism = mechanism
         self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism.linkage, drive).items()}
         """Driven displacements by "joint.coordinate", of all poses, as they were given."""
@@ -67,7 +69,7 @@ class Stream:
         """The displacements as the motion is followed: without NaN and infinity."""
         self.poses = len(next(iter(self.inputs.values())))
         self.chunk = min(chunk, max(self.poses, 1))
-        self._sweep = partial(sweep, mechanism, options=options)
+        self._sweep = partial(follow_drive, mechanism, options=options)
         origins = np.concatenate([np.asarray(joint.frames_1)[:, :3, 3] for joint in mechanism.all_joints])
         self._centre, self._size = origins.mean(axis=0), float(np.linalg.norm(np.ptp(origins, axis=0))) or 1.0
 
@@ -77,7 +79,7 @@ class Stream:
 
     def __iter__(self) -> Iterator[Motion]:
         if len(self) == 1:
-            yield self._sweep(self.inputs)
+            yield with_limited(self._sweep(self.inputs))
             return
         on_branch, last = True, None
         for first in range(0, self.poses, self.chunk):
@@ -88,7 +90,7 @@ class Stream:
             cut = _cut(arrays, self._turns(last, met), jnp.asarray(on_branch), leading, count)
             motion = Motion(self.mechanism, *cut, options=motion.options)
             last = _shared_pose(motion, count - 1)
-            yield self._as_given(motion, first)
+            yield with_limited(self._as_given(motion, first))
 
     def _led(self, first: int, last: _SharedPose | None) -> tuple[Motion, int, _SharedPose, bool]:
         """Solve the chunk that begins at pose `first`, behind one lead after the other until one keeps the branch.

@@ -19,6 +19,7 @@ from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenElement, DrivePlan, plan_drive
+from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
@@ -58,14 +59,25 @@ def sweep(
     shorthands for fields of `options`, a `jk.SolverOptions`, which has all settings of the solver. The motion keeps its
     options, and effects of the motion use them.
 
-    Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached is reported in `motion.status`; with
-    `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose displacements are NaN or infinite is
-    NONFINITE and NaN itself, and all others are what they would be without it. Raises ValueError for a drive that makes
-    no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops have no freedoms for (see
-    `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of wrong values, and for
-    `throw=True` where numbers are traced.
+    Works inside `jax.jit`, `vmap` and `grad`. A pose that cannot be reached, or is beyond the limits of a joint, is
+    reported in `motion.status`; with `throw=True` it raises PoseError instead (see `Motion.check`). A pose whose
+    displacements are NaN or infinite is NONFINITE and NaN itself, and all others are what they would be without it.
+    Raises ValueError for a drive that makes no sense (see `jaxkin.linkage.coordinates.resolve`), for one that the loops
+    have no freedoms for (see `jaxkin.mobility.infeasible_drive`; not where the geometry is traced), for options of
+    wrong values, and for `throw=True` where numbers are traced.
     """
-    options = options_with(options, tolerance, method)
+    warn_of_float32()
+    motion = with_limited(follow_drive(mechanism, drive, options_with(options, tolerance, method), tolerance))
+    if throw:
+        motion.check()
+    return motion
+
+
+def follow_drive(
+    mechanism: Mechanism, drive: Mapping[Any, object], options: SolverOptions, tolerance: Any = None
+) -> Motion:
+    """Compute the motion of a sweep, without regard to the limits of joints; a traced `tolerance` is given beside the
+    options."""
     mechanism, drive = with_targets(mechanism, by_name(drive, "driven displacements", "{'A': angles}"))
     plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
@@ -73,7 +85,6 @@ def sweep(
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
     known = tolerance is None or not traced(tolerance)
     asked = closure_tolerance(options.tolerance if known else tolerance)
-    warn_of_float32()
     elements = plan.elements if values[0].shape[0] else ()
     followed, finite = without_gaps(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
@@ -81,7 +92,7 @@ def sweep(
         found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
-            return _motion(mechanism, plan, found, options, throw)
+            return _motion(mechanism, plan, found, options)
     solutions = [
         solve(
             element.system,
@@ -97,18 +108,15 @@ def sweep(
     elements, solutions = _of_least_residual(elements, solutions, asked)
     columns = tuple(element.columns for element in elements)
     layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
-    return _motion(mechanism, plan, _collect(layout, values, finite, solutions), options, throw)
+    return _motion(mechanism, plan, _collect(layout, values, finite, solutions), options)
 
 
-def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions, throw: bool) -> Motion:
+def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions) -> Motion:
     # under `grad` JAX hands arrays of the host through as they are
     arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
     inputs = dict(zip(plan.driven, arrays, strict=True))
     displacements = found.displacements(plan.freedoms)
-    motion = Motion(mechanism, inputs, displacements, found.status, found.residual, options=options)
-    if throw:
-        motion.check()
-    return motion
+    return Motion(mechanism, inputs, displacements, found.status, found.residual, options=options)
 
 
 def _of_least_residual(

@@ -18,6 +18,8 @@
   the residual of the given joints is above the tolerance (`correctors.least_residual`).
 - The worst of several loop groups: see `SEVERITY`.
 - JUMPED in place of CLOSED: an earlier chunk of a stream left the branch (`mechanism.stream`).
+- LIMITED in place of CLOSED: a coordinate is beyond the limits of its joint (`mechanism.joint_limits`). The loops are
+  closed, on the branch of the assembled pose, so that effects and derivatives are those of any closed pose.
 - NONFINITE: an input of the pose is NaN or infinite (`linkage.coordinates.without_gaps` puts a finite input
   in its place, `mechanism.collect` sets the status).
 
@@ -52,6 +54,7 @@ class Status(IntEnum):
     STALLED = 3
     NONFINITE = 4
     MISFIT = 5
+    LIMITED = 6
 
     @property
     def message(self) -> str:
@@ -66,10 +69,20 @@ _MESSAGES = {
     Status.STALLED: "not converged: give more poses in between, or start from a pose that is less singular",
     Status.MISFIT: "closed as nearly as the joints agree, on the branch of the assembled pose: the notes of the "
     "mechanism say which of them disagree",
+    Status.LIMITED: "all loops closed, on the branch of the assembled pose, but a joint is beyond its limits: keep the "
+    "range within what jk.limits finds, or give the joint other limits",
     Status.NONFINITE: "the input or the geometry holds NaN or infinity: correct it",
 }
 
-SEVERITY = (Status.CLOSED, Status.MISFIT, Status.JUMPED, Status.UNREACHABLE, Status.STALLED, Status.NONFINITE)
+SEVERITY = (
+    Status.CLOSED,
+    Status.LIMITED,
+    Status.MISFIT,
+    Status.JUMPED,
+    Status.UNREACHABLE,
+    Status.STALLED,
+    Status.NONFINITE,
+)
 """All statuses from the best to the worst. A pose of a mechanism has the worst of the statuses that its structure
 elements have: a pose that is useless for one element is useless for the mechanism."""
 
@@ -121,6 +134,11 @@ def classify(
     status = jnp.where(stationary, Status.UNREACHABLE.value, Status.STALLED.value)
     status = jnp.where(closed, jnp.where(same_branch, Status.CLOSED.value, Status.JUMPED.value), status)
     return jnp.where(jnp.isfinite(residual_norm), status, Status.NONFINITE.value).astype(jnp.int32)
+
+
+def is_closed_on_branch(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
+    """Tell which poses have all loops closed on the branch of the assembled pose, within limits of joints or not."""
+    return (status == Status.CLOSED.value) | (status == Status.LIMITED.value)
 
 
 def is_closed(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:

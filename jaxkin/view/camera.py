@@ -12,9 +12,12 @@ from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points, Vector, frame, perpendicular, unit
 from jaxkin.view.raster import rasterise
 
-FLAT = 1e-3  # a motion this much thinner than it is wide is plane: far above rounding, and not to be seen in a picture
-PREFERENCE = 1.1  # another side must show so many times more of the moving parts to be chosen instead of the first
-THUMBNAIL = 120  # pixels across the trial pictures that compare the sides
+FLAT = 1e-3
+"""A motion this much thinner than it is wide is plane: far above rounding, and not to be seen in a picture."""
+PREFERENCE = 1.1
+"""Another side must show so many times more of the moving parts to be chosen instead of the first."""
+THUMBNAIL = 120
+"""Pixels across the trial pictures that compare the sides."""
 
 Displacements = Mapping[str, Float[np.ndarray, "poses 4 4"]]
 

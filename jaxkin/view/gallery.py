@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 PANEL = 340
 """Pixels of a side of a panel."""
 GALLERY_COLUMNS = 4
+"""Pictures beside each other."""
 
 
 def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Contact] | None = None) -> None:

@@ -11,14 +11,21 @@ from jaxtyping import Bool, Float, UInt8
 from jaxkin.view.camera import View
 from jaxkin.view.raster import Raster, normals, rasterise
 
-SUPERSAMPLING = 3  # pixels drawn along one pixel of the picture, for smooth edges
+SUPERSAMPLING = 3
+"""Pixels drawn along one pixel of the picture, for smooth edges."""
 PAPER, INK, FAINT_INK = (1.0, 1.0, 1.0), (0.13, 0.15, 0.18), (0.58, 0.60, 0.63)
-HATCH = (5, 1)  # distance between the hatching lines of fixed parts and their width, in pixels along x
-HATCHED = 0.93  # brightness of a hatching line
-LIGHT = np.array([-0.35, -0.55, 0.76], np.float32)  # in pixels, y downwards: from the upper left
+HATCH = (5, 1)
+"""Distance between the hatching lines of fixed parts and their width, in pixels along x."""
+HATCHED = 0.93
+"""Brightness of a hatching line."""
+LIGHT = np.array([-0.35, -0.55, 0.76], np.float32)
+"""Direction towards the light, in axes of pixels (y downwards): from the upper left."""
 CONTRAST = 0.45
-CREASE_COSINE = float(np.cos(np.deg2rad(38)))  # more than a tessellated round face turns from one triangle to the next
-DEPTH_STEP = 2.0  # depth between neighbours, in pixels drawn and over the slope, that no plane has: a step
+"""How strongly the brightness of a face follows the cosine between its normal and `LIGHT`."""
+CREASE_COSINE = float(np.cos(np.deg2rad(38)))
+"""An edge is drawn where faces turn by more: beyond what a tessellated round face turns between triangles."""
+DEPTH_STEP = 2.0
+"""Depth between neighbours, in pixels drawn and over the slope, that no plane has: a step."""
 SHADOW, SHADOW_REACH = 0.26, 7.0  # darkest shadow; how far it reaches and how deep a layer lies to be in it, in pixels
 
 

@@ -14,7 +14,8 @@ from jaxkin.solve.status import Status
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-MAX_TOLD_INPUTS = 3  # driven displacements that are told; there may be many, and no place for them
+MAX_TOLD_INPUTS = 3
+"""Driven displacements that are told; there may be many, and no place for them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +60,8 @@ def headline(motion: Motion) -> tuple[str, str]:
         codes, numbers = np.unique(status, return_counts=True)
         causes = (f"{number} {Status(code).name.lower()}" for code, number in zip(codes, numbers, strict=True))
         facts.append(f"not drawn: {', '.join(causes)}")
+    if limited := np.sum(np.any([over != 0 for over in motion.beyond_limits.values()], axis=0)):
+        facts.append(f"beyond joint limits at {limited}")
     if lost := np.sum(np.any([each.loose for each in motion.lost_contacts], axis=0)):
         facts.append(f"contact lost at {lost}")
     facts.append(f"lengths in {motion.mechanism.unit or 'the unit of the input'}")

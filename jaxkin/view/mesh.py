@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-PAGE_CREASE = np.deg2rad(35)  # more than a tessellated round face turns from one triangle to the next
+PAGE_CREASE = np.deg2rad(35)
+"""An edge is sharp where faces turn by more: beyond what a tessellated round face turns between triangles."""
 MAX_PAGE_TRIANGLES = 80_000
 """Triangles of a page at most: some 4 MB, which open within seconds without a graphics card, too."""
 FINEST = 1.0 / 4000

@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
     from jaxkin.view.sheet import Color
 
-MAX_PAGE_POSES = 361  # poses in the page: a full turn in degrees; more are not told apart on a slider
-TILT = (-0.45, 0.40)  # yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows
-RISE = 0.52  # pitch that one in space is first seen from
+MAX_PAGE_POSES = 361
+"""Poses in the page: a full turn in degrees; more are not told apart on a slider."""
+TILT = (-0.45, 0.40)
+"""Yaw and pitch that a plane mechanism is first seen from, in radians: its depth shows."""
+RISE = 0.52
+"""Pitch that one in space is first seen from."""
 
 
 def page(motion: Motion, path: Path | str, points: Mapping[str, object] | None = None) -> None:

@@ -19,8 +19,10 @@ from jaxkin.view.traces import default_marks, given_marks
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-PROBES = 60  # poses that the view and the points are chosen from
-CLOSED = 1e-4  # the ends of a motion so near to each other, over its size, are one pose: safe in float32
+PROBES = 60
+"""Poses that the view and the points are chosen from."""
+CLOSED = 1e-4
+"""The ends of a motion so near to each other, over its size, are one pose: safe in float32."""
 
 
 @dataclass(frozen=True, eq=False)

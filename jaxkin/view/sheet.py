@@ -19,6 +19,7 @@ Color = tuple[float, float, float]
 Place = tuple[float | int, float | int]
 
 DPI = 150
+"""Pixels an inch of a saved picture."""
 MARGIN, GAP, HEAD, CAPTION, FOOT, LINE = 54, 36, 122, 44, 64, 34
 """In pixels: around the sheet, between panels, above them, above each, below them, a line of the legend."""
 GREY = (0.40, 0.42, 0.46)

@@ -21,13 +21,17 @@ if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
 PANELS = 6
+"""Poses that are drawn, in two rows."""
 PANEL_COLUMNS = {0: 1, 1: 1, 2: 2, 4: 2}
 """Panels in a row by their number, three for all others."""
 WIDTHS = {1: 1000, 2: 760, 3: 544}
 """Width of a panel in pixels by the number in a row; a panel is at most as high as it is wide."""
-SWEEP_MARGIN = 0.03  # around the mechanism, over the larger side of what it sweeps
-MAX_LEGEND_LETTERS = 40  # letters of a name in the legend
-MAX_LEGEND_BODIES = 24  # moving bodies in the legend; more hide the picture
+SWEEP_MARGIN = 0.03
+"""Around the mechanism, over the larger side of what it sweeps."""
+MAX_LEGEND_LETTERS = 40
+"""Letters of a name in the legend."""
+MAX_LEGEND_BODIES = 24
+"""Moving bodies in the legend; more hide the picture."""
 FIXED = (0.90, 0.905, 0.915)
 LOST_STYLE = {
     "color": WARNING,

@@ -19,9 +19,12 @@ if TYPE_CHECKING:
 Marks = list[tuple[str, Vector]]
 """Points of parts: the part, and where the point is in the assembled pose, in world coordinates."""
 
-NEAR_JOINT = 0.15  # a corner so near to a joint, over the size of its part, would only double the path of the joint
-SAME_PATH = 1e-3  # paths so near to each other, over the size of the mechanism, are one path; one so short is a dot
-MAX_PATHS = 8  # more paths than these hide the mechanism: the longest are kept
+NEAR_JOINT = 0.15
+"""A corner so near to a joint, over the size of its part, would only double the path of the joint."""
+SAME_PATH = 1e-3
+"""Paths so near to each other, over the size of the mechanism, are one path; one so short is a dot."""
+MAX_PATHS = 8
+"""More paths than these hide the mechanism: the longest are kept."""
 
 
 def given_marks(points: Mapping[str, object], parts: Sequence[str]) -> Marks:

@@ -24,6 +24,7 @@ LONG = {
     for page in (
         "index",
         "how-to/by-hand",
+        "how-to/cams",
         "how-to/robots",
         "how-to/design",
         "how-to/derivatives",

@@ -8,30 +8,9 @@ import jaxkin as jk
 from reference import parallel, planar, spatial
 from reference.catalogue import hexapod, hexapod_between, stephenson
 from reference.mechanisms import flat, planar_fourbar, rssr_linkage, spherical_linkage
+from reference.planar_robots import BASE, LEGS, PLATFORM, corners, three_rpr
 
 Z = (0.0, 0.0, 1.0)
-BASE = np.array([[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]])
-PLATFORM = planar.meet(np.zeros(2), 20.84, np.array([17.04, 0.0]), 16.54, 1)
-PLATFORM = np.array([[0.0, 0.0], [17.04, 0.0], PLATFORM])
-LEGS = np.array([14.98, 15.38, 12.0])
-"""A 3-RPR robot with six poses (Innocenti and Parenti-Castelli, 1992)."""
-
-
-def corners(pose) -> np.ndarray:
-    x, y, angle = pose
-    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    return PLATFORM @ turn.T + [x, y]
-
-
-def three_rpr(pose) -> jk.Mechanism:
-    joints = []
-    for i, (base, corner) in enumerate(zip(BASE, corners(pose), strict=True)):
-        joints += [
-            jk.revolute(f"base {i}", "ground", f"tube {i}", point=flat(base), axis=Z),
-            jk.prismatic(f"leg {i}", f"tube {i}", f"rod {i}", axis=flat(corner - base), point=flat(base)),
-            jk.revolute(f"top {i}", f"rod {i}", "platform", point=flat(corner), axis=Z),
-        ]
-    return jk.Mechanism.build(fixed=["ground"], joints=joints)
 
 
 def turned(modes: jk.AssemblyModes, part: str) -> np.ndarray:

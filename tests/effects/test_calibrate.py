@@ -235,6 +235,7 @@ def test_what_makes_no_sense_is_refused(measured, more, said):
         jk.calibrate(fourbar(*GIVEN), {"A": ANGLES}, measured, **more)
 
 
+@pytest.mark.long
 def test_a_start_that_does_not_close_and_data_that_tell_nothing():
     with pytest.raises(ValueError, match=r"does not close at \d+ of 24 measured poses, first at pose"):
         jk.calibrate(fourbar(100.0, 60.0, 80.0, 60.0), {"A": ANGLES}, {"D": np.zeros(24)}, lengths=[CRANK])

@@ -160,7 +160,8 @@ def test_two_parts_in_the_same_place_are_a_clash(tmp_path):
     assert 1 < found.depths[0, 1] <= 2
 
 
-@pytest.mark.parametrize("name", ["cam", pytest.param("fourbar", marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["cam", "fourbar"])
 def test_shipped_assemblies_do_not_clash(name, tmp_path):
     example = EXAMPLES[name]
     mechanism = jk.load(path(name)).mechanism(fixed=example.fixed)

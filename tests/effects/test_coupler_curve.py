@@ -81,6 +81,7 @@ def test_a_circle_has_neither(motion):
     assert "no cusp, no crossing" in str(found)
 
 
+@pytest.mark.long
 def test_it_prints_draws_and_saves(motion, tmp_path):
     found = jk.coupler_curve(motion, "coupler", (*coupler_point(START, 50.0, -60.0)[0], 0.0))
     assert str(found).startswith("Curve of a point of coupler over A.phi, 181 poses, plane")

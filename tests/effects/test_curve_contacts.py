@@ -142,6 +142,7 @@ def test_a_round_curve_larger_than_a_hollow_is_told_as_a_roller_is():
     assert "would have a curve pass through the profile" in str(motion)
 
 
+@pytest.mark.long
 def test_drawn_and_saved(tmp_path):
     found = jk.curve_contacts(on_cam("roller", radius=10.0).sweep({"shaft": TURN}))
     assert found.plot(tmp_path / "contacts.png").stat().st_size > 1000

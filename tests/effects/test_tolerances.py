@@ -85,6 +85,7 @@ def test_the_extremes_are_full_designs(found):
     assert found.extremes[0] < found.samples.min() and found.samples.max() < found.extremes[1]
 
 
+@pytest.mark.long
 def test_samples_spread_as_the_first_order_says(found):
     """The measure is nearly linear within the tolerances: deviations within 4 standard errors of 4000 samples."""
     assert found.not_closed == 0

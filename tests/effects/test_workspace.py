@@ -3,61 +3,19 @@
 import jax
 import numpy as np
 import pytest
-from scipy.ndimage import label
 
 import jaxkin as jk
 from jaxkin import Status
 from reference import planar
 from reference.catalogue import hexapod
 from reference.mechanisms import flat, planar_fourbar
+from reference.planar_robots import connected, elbows, five_bar, tip
 
 Z = (0.0, 0.0, 1.0)
-BASE, ARM, START = 80.0, np.hypot(30.0, 60.0), np.arctan2(60.0, -30.0)
-FINE = 24
-"""Intervals between two nodes at which the closed form is looked at."""
 
 
-def elbows(left, right):
-    """Ends of the two arms (poses, 2) for displacements of their drives; the right one is the mirror image."""
-    return planar.polar(ARM, START + left), np.array([BASE, 0.0]) + planar.polar(ARM, np.pi - START + right)
-
-
-def tip(left, right, rod):
-    """Where the rods meet, above the line of the elbows; nan where they do not."""
-    one, other = elbows(np.asarray(left, float), np.asarray(right, float))
-    with np.errstate(invalid="ignore"):
-        return planar.meet(one, rod, other, rod, 1)
-
-
-def five_bar(rod: float) -> jk.Mechanism:
-    left, right = (place[0] for place in elbows(np.zeros(1), np.zeros(1)))
-    top = tip(np.zeros(1), np.zeros(1), rod)
-    joints = [
-        jk.revolute("A", "ground", "left", point=(0, 0, 0), axis=Z),
-        jk.revolute("B", "left", "left rod", point=flat(left), axis=Z),
-        jk.revolute("C", "left rod", "right rod", point=flat(top), axis=Z),
-        jk.revolute("D", "right", "right rod", point=flat(right), axis=Z),
-        jk.revolute("E", "ground", "right", point=(BASE, 0, 0), axis=Z),
-    ]
-    return jk.Mechanism.build(fixed=["ground"], joints=joints)
-
-
-def connected(grid, rod) -> np.ndarray:
-    """Nodes that are connected with the assembled pose along the lines of the grid, through poses that exist."""
-    fine = np.linspace(grid[0], grid[-1], FINE * (len(grid) - 1) + 1)
-    there = np.isfinite(tip(*(each.ravel() for each in np.meshgrid(fine, fine, indexing="ij")), rod)[:, 0])
-    there = there.reshape(len(fine), len(fine))
-    lines = np.zeros_like(there)
-    lines[::FINE] = lines[:, ::FINE] = True
-    islands = label(there & lines)[0]
-    home = int(np.argmin(np.abs(fine)))
-    return islands[::FINE, ::FINE] == islands[home, home]
-
-
-@pytest.mark.parametrize(
-    ("rod", "nodes"),
-    [(72.0, 13), pytest.param(72.0, 37, marks=pytest.mark.long), pytest.param(86.0, 37, marks=pytest.mark.long)],
-)
+@pytest.mark.long
+@pytest.mark.parametrize(("rod", "nodes"), [(72.0, 37), (86.0, 37)])
 def test_a_five_bar(rod, nodes, tmp_path):
     """All nodes, their places, and their derivatives; the shorter rods leave islands to which no motion leads."""
     grid = np.linspace(-3.1, 3.1, nodes)  # no node where the elbows meet, around which the rods turn freely

@@ -146,3 +146,57 @@ def test_models_that_are_missing_or_attach_themselves_are_refused(tmp_path):
         )
     with pytest.raises(ValueError, match="have more than 100000 elements"):
         jk.load(tmp_path / "n11.xml")
+
+
+KEYED = """<mujoco model="keyed"><compiler angle="degree" autolimits="true"/><default>
+<joint range="30 90" axis="0 1 0"/><default class="slides"><joint type="slide" range="0.5 2"/>
+</default></default><worldbody><body name="base">
+<body name="tip" pos="1 0 0"><joint name="k" class="slides"/><geom size="0.1"/></body>
+<frame pos="0 0 1"><joint name="j" ref="10"/></frame><geom size="0.1"/></body>
+<body name="second"><freejoint/><geom size="0.1"/><body name="ball" pos="0 1 0">
+<joint name="b" type="ball" range="0 0"/><geom size="0.1"/></body></body></worldbody>
+<keyframe><key name="short" qpos="1"/><key name="other" qpos="1.1 0.7 0 0 0 1 0 0 0 1 0 0 0"/>
+<key name="home" qpos="0.8 0.6 9 9 9 1 0 0 0 0.8 0 0.6 0"/></keyframe></mujoco>"""
+
+HOLDER = """<mujoco><asset><model name="keyed" file="keyed.xml"/></asset><worldbody><body name="hub"><joint name="r"
+range="-90 90" ref="20"/><geom size="0.1"/><frame pos="0 0 1" euler="0 0 30">{inside}</frame></body>
+<frame pos="0 1 1" euler="0 30 0">{beside}</frame></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("inside", "beside", "keys"),
+    [
+        ('<attach model="keyed" body="base" prefix="l-"/>', "", ["l-home"]),
+        ("", '<attach model="keyed" prefix="l-"/>', ["l-home"]),
+        ('<attach model="keyed" body="tip" prefix="l-"/>', '<attach model="keyed" body="base" prefix="r-"/>',
+         ["l-home", "r-home"]),
+    ],
+)  # fmt: skip
+def test_keyframes_of_attached_models_are_those_of_mujoco(tmp_path, inside, beside, keys):
+    """Of a pose beyond ranges: the joints of each attached model are where MuJoCo's merged keyframe has them."""
+    mujoco = pytest.importorskip("mujoco")
+    (tmp_path / "keyed.xml").write_text(KEYED.replace('<key name="short" qpos="1"/>', ""))
+    (tmp_path / "model.xml").write_text(HOLDER.format(inside=inside, beside=beside))
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "model.xml"))
+    (tmp_path / "keyed.xml").write_text(KEYED)  # a keyframe of another length, which MuJoCo refuses
+    from jaxkin.io.mjcf import read_mjcf
+    from jaxkin.io.xml_tree import read_xml
+
+    found = read_mjcf(tmp_path / "model.xml", read_xml(tmp_path / "model.xml"))
+    data = mujoco.MjData(model)
+    data.qpos[:] = model.qpos0
+    for key in keys:  # each moves joints of its own model
+        at = model.key(key).qpos
+        for number in range(model.njnt):
+            if model.joint(number).name.startswith(key[:2]) and model.jnt_type[number] != mujoco.mjtJoint.mjJNT_FREE:
+                first = model.jnt_qposadr[number]
+                size = {0: 7, 1: 4}.get(int(model.jnt_type[number]), 1)
+                data.qpos[first : first + size] = at[first : first + size]
+    mujoco.mj_kinematics(model, data)
+    links = {each.name: each.pose for each in found.links}
+    for number in range(1, model.nbody):
+        np.testing.assert_allclose(links[model.body(number).name][:3, 3], data.xpos[number], atol=1e-12)
+        np.testing.assert_allclose(links[model.body(number).name][:3, :3], data.xmat[number].reshape(3, 3), atol=1e-12)
+    note = " and ".join(f"<key name={key!r}>" for key in keys)
+    assert any(f"the assembled pose is that of {note}" in each for each in found.notes)
+    assert not any(low > 1e-9 or high < -1e-9 for each in found.joints for low, high in each.limits)

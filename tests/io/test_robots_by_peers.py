@@ -12,6 +12,7 @@ import jaxkin as jk
 from jaxkin.io.yaml_subset import parse_yaml
 from reference.archives import unpack
 from reference.bare_models import bare_model
+from reference.grippers import ROBOTIQ_2F85, XARM_HAND
 
 SAME = 1e-11
 """Metres, and entries of rotations: sums along chains of a dozen links a metre long, of angles that are closed to
@@ -113,3 +114,68 @@ def test_every_body_of_cassie_is_where_mujoco_has_it(folder, tmp_path):
                 np.testing.assert_allclose(reach, np.linalg.norm(own), atol=SAME)
             else:
                 np.testing.assert_allclose(end(one, near, points, turns), end(other, far, points, turns), atol=SAME)
+
+
+@pytest.mark.parametrize(
+    ("text", "closed", "others"),
+    [(ROBOTIQ_2F85, 0.8, {"right_follower": -0.5, "left_follower": -0.2}), (XARM_HAND, 0.85, {})],
+    ids=["Robotiq", "xArm"],
+)
+def test_a_gripper_closes_as_newton_has_it_on_kinematics_of_mujoco(text, closed, others, tmp_path):
+    """From the driver alone, over its whole range: what MuJoCo's Jacobians lead to is where our fingers are.
+
+    The fingers of the Robotiq give way to what they grasp: each has a freedom of its own beside the driver.
+    """
+    mujoco = pytest.importorskip("mujoco")
+    (tmp_path / "gripper.xml").write_text(text)
+    mechanism = jk.load(tmp_path / "gripper.xml").mechanism()
+    (motor,) = mechanism.motors
+    drive = {name: np.linspace(0, end, 18) for name, end in {motor: closed, **others}.items()}
+    assert mechanism.mobility().freedoms == len(drive)
+    motion = mechanism.sweep(drive, throw=True)
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    held = {model.joint(name).dofadr[0]: values for name, values in drive.items()}
+    free = np.flatnonzero(~np.isin(np.arange(model.nv), [*held]))
+    first = None
+    for pose in range(len(motion)):
+        for place, values in held.items():
+            data.qpos[place] = values[pose]
+        for _ in range(20):
+            residual, jacobian = _ties(mujoco, model, data)
+            data.qpos[free] -= np.linalg.lstsq(jacobian[:, free], residual, rcond=1e-10)[0]
+        residual, _ = _ties(mujoco, model, data)
+        assert np.abs(residual).max() < 1e-14
+        places = np.tile(np.eye(4), (model.nbody, 1, 1))
+        places[:, :3, :3], places[:, :3, 3] = data.xmat.reshape(-1, 3, 3), data.xpos
+        first = places if first is None else first
+        for number in range(1, model.nbody):
+            step = np.asarray(motion.transforms[model.body(number).name])[pose]
+            np.testing.assert_allclose(places[number], step @ first[number], atol=1e-12)
+        for number in range(model.njnt):
+            found = float(motion.coordinates[model.joint(number).name][pose, 0])
+            np.testing.assert_allclose(found, data.qpos[number], atol=1e-12)
+    assert np.abs(data.qpos).min() > 0.1  # all joints have moved
+
+
+def _ties(mujoco, model, data):
+    """Residuals of the constraints, and their derivatives, from MuJoCo's kinematics at `data.qpos`."""
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_comPos(model, data)
+    residual, rows = [], []
+    for k in range(model.neq):
+        one, other = int(model.eq_obj1id[k]), int(model.eq_obj2id[k])
+        if model.eq_type[k] == mujoco.mjtEq.mjEQ_CONNECT:
+            at, jacobians = [], []
+            for body, own in ((one, model.eq_data[k, :3]), (other, model.eq_data[k, 3:6])):
+                at.append(data.xpos[body] + data.xmat[body].reshape(3, 3) @ own)
+                jacobians.append(np.zeros((3, model.nv)))
+                mujoco.mj_jac(model, data, jacobians[-1], None, at[-1], body)
+            residual += list(at[0] - at[1])
+            rows += list(jacobians[0] - jacobians[1])
+        elif model.eq_type[k] == mujoco.mjtEq.mjEQ_JOINT:
+            residual.append(data.qpos[one] - model.eq_data[k, 1] * data.qpos[other])
+            row = np.zeros(model.nv)
+            row[one], row[other] = 1.0, -model.eq_data[k, 1]
+            rows.append(row)
+    return np.array(residual), np.array(rows)

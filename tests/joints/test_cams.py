@@ -146,6 +146,7 @@ def test_a_roller_that_is_a_part_spins_by_itself():
     np.testing.assert_allclose(motion.coordinates["guide"][:, 0], law(TURN) - law(0.0), atol=SPLINE)
 
 
+@pytest.mark.long
 def test_a_flat_follower_is_the_contact_state_of_a_cylinder_on_a_plane():
     """State (b) of the paper, with frames as Table 1 has them: the round face on the cam, the plane on the follower."""
     height = RADIUS + OFF * np.sin(0.7)

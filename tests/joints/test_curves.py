@@ -96,6 +96,7 @@ def test_a_round_curve_on_a_disc_is_a_roller():
     assert (found.freedoms, found.idle_freedoms) == (1, 0)
 
 
+@pytest.mark.long
 def test_curves_that_do_not_touch_are_open_and_closed_by_close():
     mechanism = discs(gap=0.5)
     assert "Not closed in this pose" in str(mechanism)
@@ -132,6 +133,7 @@ def test_neither_unit_nor_place_nor_names_nor_order_matter(swung):
         np.testing.assert_allclose(swings(other), swung, atol=1e-11)
 
 
+@pytest.mark.long
 def test_all_that_can_be_written_is_read_back(oval, swung, tmp_path):
     study = tmp_path / "cam.toml"
     write_study(oval, study, drive={"shaft": "0:360:13"})

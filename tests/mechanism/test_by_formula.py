@@ -99,6 +99,7 @@ def test_one_pose_far_away_has_the_turns_that_led_to_it(general):
     np.testing.assert_allclose(alone.coordinates["B"][0], [-3 * TURN], atol=WITHIN)
 
 
+@pytest.mark.long
 def test_changed_lengths_are_closed_on_the_branch_of_the_assembled_pose(general):
     """Loops that are open at the assembled pose, by a percent of a link."""
     mechanism = planar_fourbar()

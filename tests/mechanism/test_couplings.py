@@ -180,6 +180,7 @@ def test_changed_lengths_keep_couplings():
     same(motion.coordinates["E"], -motion.coordinates["A"])
 
 
+@pytest.mark.long
 def test_an_offset_opens_the_assembled_pose_and_close_brings_it_home():
     mechanism = build(FIVE_BAR, [jk.relation({"A": 1.0, "E": 1.0}, 0.1, name="phase")])
     assert "the coupling 'phase' of A, E is off by 0.1" in str(mechanism)

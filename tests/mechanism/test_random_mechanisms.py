@@ -40,6 +40,7 @@ def test_limits_are_found_however_the_steps_fall(points):
     assert np.all((off * np.sqrt(np.maximum(solved.margin[0], 0.0)))[:18] < 1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "linkage, points",
     [
@@ -82,10 +83,8 @@ def test_every_pose_is_closed_on_its_branch_or_says_why_not(name):
     assert count.closed >= 0.999 * count.reachable and count.reachable > 0.4 * count.poses
 
 
-@pytest.mark.parametrize(
-    "linkage",
-    [pytest.param(one, id=one.name, marks=[pytest.mark.long] * (one.name != "Watt six-bar")) for one in LINKAGES],
-)
+@pytest.mark.long
+@pytest.mark.parametrize("linkage", LINKAGES, ids=lambda one: one.name)
 def test_formulas_alone_close_what_can_be_reached_or_say_why_not(linkage):
     """As inside of `vmap` over designs, where no other solver is at hand: a few poses near limits are in doubt."""
     count = checked(linkage, sweeps(linkage), np.random.default_rng(7), 60)

@@ -110,6 +110,7 @@ def test_derivatives_of_inverse_kinematics():
     np.testing.assert_allclose(product, np.eye(2), atol=1e-12)
 
 
+@pytest.mark.long
 def test_one_pose_and_the_velocities_of_a_path():
     mechanism, tip = fivebar(), (1.5, 2.0, 0.0)
     target = jk.point("b", tip)

@@ -43,7 +43,7 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
 from jaxkin.solve.execution.compiler import whole_program
-from jaxkin.solve.status import Status
+from jaxkin.solve.status import is_closed_on_branch
 
 MAX_LINES = 12
 """Joints that a printed result or a picture names at most: more do not fit on a screen."""
@@ -201,7 +201,7 @@ def _balanced(
     rubs: dict[int, Wrench],
 ) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
     """Points of the joints, forces, torques about the points, forces of the drives, and what holds the rest."""
-    metre, closed = METRES[unit], status == Status.CLOSED.value
+    metre, closed = METRES[unit], is_closed_on_branch(status)
     driven = {(joint, k): name for name, joint, k in drive.driven}
     found = balance(linkage, moving.at, moving.displacements, list(driven))
     size, middle = moving.at.scale

@@ -16,6 +16,7 @@ from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
 from jaxkin.mechanism.inverse.problem import CLOSED, REACHED, Problem, Solution
 from jaxkin.mechanism.inverse.step import Bounds
+from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.open_loops import opening
 from jaxkin.solve.options import SolverOptions
@@ -147,14 +148,9 @@ def _motion(
     q = jnp.asarray(x * problem.units)
     split = np.cumsum([joint.freedoms for joint in mechanism.all_joints])[:-1]
     status = np.where(closure <= CLOSED, Status.CLOSED.value, Status.UNREACHABLE.value)
-    return Motion(
-        mechanism,
-        {name: q[:, problem.names.index(name)] for name in inputs},
-        tuple(jnp.split(q, split, axis=1)),
-        jnp.asarray(status),
-        jnp.asarray(closure),
-        SolverOptions(),
-    )
+    inputs_of = {name: q[:, problem.names.index(name)] for name in inputs}
+    rows = tuple(jnp.split(q, split, axis=1))
+    return with_limited(Motion(mechanism, inputs_of, rows, jnp.asarray(status), jnp.asarray(closure), SolverOptions()))
 
 
 def _distinct(x: np.ndarray, errors: np.ndarray, first: int, problem: Problem) -> np.ndarray:

@@ -29,7 +29,7 @@ from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
-from jaxkin.solve.system.chain_tables import AXES, ChainTables, chain_tables
+from jaxkin.solve.system.chain_tables import Z_AXIS, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, rotation_matrix
 
@@ -66,7 +66,7 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     free, spherical, schoenflies, ends = (np.array(loops, int) for loops in sections[:-1])
     # 3 - trace would lose digits by cancellation: its root does not fall below the root of rounding
     uncut = np.sort(np.concatenate([free, spherical, schoenflies]))
-    turned = rotation[:, :, uncut] - jnp.eye(3, dtype=rotation.dtype)[..., None, None]
+    turned = rotation[:, :, uncut] - np.eye(3, dtype=rotation.dtype)[..., None, None]
     residual = [*_of_loops(vee(rotation[:, :, free].swapaxes(0, 1)))]
     rows = [twists[table.source[:, free], :3, free]]
     moved = translation[:, ends]
@@ -174,13 +174,14 @@ def _travel(
     """
     table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
     chains = len(table.begin)
-    turn, slide, screw, sign, side = (
-        jnp.asarray(entry, dtype)[..., None]
+    turn, advance, screw, sign, side = (
+        np.asarray(entry, dtype)[..., None]
         for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
     )
-    advance = slide + screw * geometry.pitch[table.joint][..., None] / (2 * jnp.pi)
+    if screw.any():
+        advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
     q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
-    (cos, sin), travel = cos_sin(turn * q), advance * q
+    (cos, sin), travel = cos_sin(turn * q), jnp.asarray(advance) * q
     rates: Array | None = None
     if geometry.curves:
         cos, sin, travel, rates = along_curves(system, geometry.curves, state, (cos, sin, travel))
@@ -196,7 +197,7 @@ def _travel(
         axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
-    first = jnp.eye(3, dtype=dtype)[..., None, None] * jnp.ones((chains, poses), dtype)
+    first = jnp.broadcast_to(np.eye(3, dtype=dtype)[..., None, None], (3, 3, chains, poses))
     start = first, jnp.zeros((3, chains, poses), dtype)
     last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
     rotation, translation = _compose(*last, geometry.end)
@@ -247,13 +248,16 @@ def spatial_geometry(
 ) -> Spatial:
     """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
     table = chain_tables(system)
-    turned = np.zeros((3, 4, 4))
-    turned[:, :3, :3], turned[:, 3, 3] = AXES, 1.0
-    along = jnp.asarray(turned[table.axis], frames.dtype)
-    enter, leave = frames[table.enter] @ along, _inverse(frames[table.leave] @ along)
-    between = jnp.concatenate([_inverse(frames[table.begin])[None] @ enter[:1], leave[:-1] @ enter[1:]])
-    end, lines, centres = leave[-1] @ frames[table.end], spin_lines(system, frames), _centres(system, frames)
-    return Spatial(between, end, pitch, lines, centres, curves)
+    # from behind each step, and from the begin of the chain, to the next step, and to the end of the chain
+    upright = np.full_like(table.axis[:1], Z_AXIS)
+    behind = np.concatenate([table.begin[None], table.leave]), np.concatenate([upright, table.axis])
+    before = np.concatenate([table.enter, table.end[None]]), np.concatenate([table.axis, upright])
+    which, axis = np.stack([behind, before], axis=1)
+    # `AXES` moves the columns of frames round: column c is what column c + axis + 1 was
+    columns = np.where(np.arange(4) < 3, (np.arange(4) + axis[..., None] + 1) % 3, 3)
+    left, right = frames[which[..., None, None], np.arange(4)[:, None], columns[..., None, :]]
+    between = _inverse(left) @ right
+    return Spatial(between[:-1], between[-1], pitch, spin_lines(system, frames), _centres(system, frames), curves)
 
 
 def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Array, "3 spherical"]:

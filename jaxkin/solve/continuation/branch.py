@@ -116,10 +116,14 @@ def _max_steps(problem: ContinuationProblem, poses: int) -> int:
 
 
 def _same_pose(problem: ContinuationProblem, state: State) -> Bool[Array, ""]:
-    """Tell whether two fronts are in the same pose, up to full turns of coordinates and idle spins of rods."""
+    """Tell whether two fronts are in the same pose, up to full turns of coordinates and idle spins of rods.
+
+    The rotations of balls at which loops are cut follow from the other coordinates.
+    """
     system = problem.system
     same = SAME_POSE if jnp.finfo(state.x.dtype).bits == 64 else SAME_POSE_SINGLE
     rest = jnp.max(jnp.abs(state.x[:, 1] - state.x[:, 0] - winding(system, problem.geometry, state)))
-    for turn in ball_turns(system, problem.geometry, state).values():
-        rest = jnp.maximum(rest, jnp.max(jnp.abs(turn[..., 1] - turn[..., 0])))
+    if system.turned_balls:
+        for turn in ball_turns(system, problem.geometry, state).values():
+            rest = jnp.maximum(rest, jnp.max(jnp.abs(turn[..., 1] - turn[..., 0])))
     return rest <= same

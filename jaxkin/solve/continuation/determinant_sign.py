@@ -13,7 +13,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.solve.linear.gram import Matrix
+from jaxkin.solve.linear.gram import Matrix, column_products, row_products
 from jaxkin.solve.system.equation_blocks import EquationBlock
 
 Square = Float[Array, "n n poses"]
@@ -39,11 +39,11 @@ def _block_ratio(before: Matrix, after: Matrix) -> Float[Array, " poses"]:
     """Compute the ratio of one block, (rows, columns, poses)."""
     rows, columns, _ = before.shape
     eps = float(jnp.finfo(before.dtype).eps)
-    shift = DIAGONAL * eps**0.5 * jnp.einsum("eil,eil->l", before, before) + 1e-30
-    diagonal = shift * jnp.eye(min(columns, rows), dtype=before.dtype)[..., None]
+    shift = DIAGONAL * eps**0.5 * jnp.sum(before**2, axis=(0, 1)) + 1e-30
+    diagonal = shift * np.eye(min(columns, rows), dtype=before.dtype)[..., None]
 
     def product(other: Matrix) -> Square:
-        return jnp.einsum("eil,ejl->ijl" if columns < rows else "eil,fil->efl", before, other) + diagonal
+        return (column_products if columns < rows else row_products)(before, other) + diagonal
 
     return ratio_of_determinants(product(after), product(before))
 

@@ -7,9 +7,8 @@ from functools import cache, wraps
 from typing import Any
 
 import jax
-import numpy as np
 
-from jaxkin._traced import traced
+from jaxkin._traced import inside_trace, traced
 
 COMPILER_OPTIONS = {
     "xla_cpu_use_fusion_emitters": False,
@@ -38,7 +37,7 @@ def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
 
     @wraps(function)
     def call(*given):
-        return (part if traced(given) or traced(jax.device_put(np.zeros(0))) else whole())(*given)
+        return (part if traced(given) or inside_trace() else whole())(*given)
 
     return call
 

@@ -15,7 +15,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._traced import traced
+from jaxkin._traced import inside_trace, traced
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
 from jaxkin.solve.closed_form.line import Line
@@ -79,7 +79,7 @@ def solve(
         if not traced(proven) and proven:
             return displaced, outcome
     # inside a function that is being traced, what a program returns is traced, though it is given numbers
-    inside = traced(jax.device_put(np.zeros(0)))
+    inside = inside_trace()
     if known and not inside:
         return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance, limits_ahead=by_formula)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
@@ -104,7 +104,7 @@ def project(
     tolerance: ClosureTolerance,
 ) -> NearestPoses:
     """Find the closed poses nearest to `given` coordinates of all joints: see `correctors.nearest_pose`."""
-    known = not traced((joints, given, weights, tolerance, jax.device_put(np.zeros(0))))
+    known = not (traced((joints, given, weights, tolerance)) or inside_trace())
     return _projection_program(known)(system, options.of_program, joints, given, weights, tolerance)
 
 

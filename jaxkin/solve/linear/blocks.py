@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.solve.linear.gram import Matrix, Vector
+from jaxkin.solve.linear.gram import Matrix, Vector, column_products
 from jaxkin.solve.linear.least_norm import factor_normal_equations, scatter_rows
 from jaxkin.solve.system.equation_blocks import EquationBlock
 
@@ -55,7 +55,7 @@ def _substitute_forward(
         if regular and own.shape[:2] == (3, 3):
             here = _cramer(own, rest)
         else:
-            here = jnp.einsum("rcp,rkp->ckp", own, factor_normal_equations(own, damping)(rest))
+            here = column_products(own, factor_normal_equations(own, damping)(rest))
         found = jnp.concatenate([found, here])
         known += block.columns
     return scatter_rows(found, known, jacobian.shape[1])

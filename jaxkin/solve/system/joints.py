@@ -44,12 +44,12 @@ def scaled_frames(
     (the characteristic length), so that no result depends on unit or origin. Centroid and characteristic length are
     constants in derivatives, in which they cancel.
     """
-    origins = xp.concatenate([xp.asarray(frames, float)[:, :3, 3] for frames in frames_1])
+    frames = xp.concatenate([*(xp.asarray(each, float) for each in (*frames_1, *frames_2)), np.eye(4)[None]])
+    origins = frames[: len(frames) // 2, :3, 3]
     origins = lax.stop_gradient(origins) if xp is jnp else origins
     centre = xp.mean(origins, axis=0)
     radius = xp.sqrt(xp.mean(xp.sum((origins - centre) ** 2, axis=1)))
     length = xp.where(radius > 0, radius, 1.0)
-    frames = xp.concatenate([*(xp.asarray(each, float) for each in (*frames_1, *frames_2)), xp.eye(4)[None]])
     shift = (frames[:-1, :3, 3] - centre) / length
     if xp is jnp:
         return frames.at[:-1, :3, 3].set(shift), length

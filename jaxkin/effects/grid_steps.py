@@ -1,0 +1,151 @@
+"""Step from pose to pose over a grid of inputs, past no singular pose.
+
+A step from a closed pose to the inputs of a neighbour is predicted along the tangent and corrected. It is taken where
+the corrected pose is near the prediction and no determinant of a block of the closure Jacobian has changed its sign
+(as in `solve.continuation.step`); where it is not, once more in shorter steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from typing import NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Bool, Float, Int
+
+from jaxkin.mechanism.drive_plan import DrivenElement
+from jaxkin.solve.closure.closure import closure, scaled_geometry
+from jaxkin.solve.continuation.determinant_sign import determinant_ratio
+from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL, input_slopes
+from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
+from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
+from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.options import SolverOptions
+from jaxkin.solve.status import rounding_residual
+from jaxkin.solve.system.equation_blocks import equation_blocks
+from jaxkin.solve.system.joints import Joints
+from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.state import State, difference, drive, retract
+
+Inputs = Float[np.ndarray, "driven nodes"]
+
+BATCH = 128
+"""Steps that are taken together: a front on a grid of some thousand nodes has about as many."""
+SHORT_STEPS = 8
+"""Number of steps to a neighbour where one step is not taken."""
+SHORTEST_STEPS = 64
+"""Number of steps where these are not taken either, although the loops close: a neighbour beside a limit."""
+SLACK = 1e-12
+"""Deviation from a prediction that is always accepted, radians or characteristic lengths: rounding."""
+
+
+class Steps(NamedTuple):
+    """What became of a batch of steps."""
+
+    states: tuple[State, ...]
+    taken: Bool[Array, " steps"]
+    residual: Float[Array, " steps"]
+    stationary: Bool[Array, " steps"]
+
+
+def neighbours(
+    nodes: Int[np.ndarray, " nodes"], shape: tuple[int, int]
+) -> tuple[Int[np.ndarray, " pairs"], Int[np.ndarray, " pairs"]]:
+    """List the neighbours of nodes in a grid: for each which of the nodes it belongs to, and its own number."""
+    row, column = np.unravel_index(nodes, shape)
+    which, found = [], []
+    for down, right in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        i, j = row + down, column + right
+        inside = (i >= 0) & (i < shape[0]) & (j >= 0) & (j < shape[1])
+        which.append(np.flatnonzero(inside))
+        found.append(np.ravel_multi_index((i[inside], j[inside]), shape))
+    return np.concatenate(which), np.concatenate(found)
+
+
+class GridSteps:
+    """Steps between closed poses of the elements that the inputs move."""
+
+    def __init__(self, elements: Sequence[DrivenElement], options: SolverOptions, max_residual: float) -> None:
+        self.elements, self.options, self.max_residual = elements, options, max_residual
+        self.systems = tuple(element.system for element in elements)
+        self.joints = tuple(element.joints for element in elements)
+
+    def follow(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs) -> Steps:
+        """Step from poses to others, once more in shorter steps where the first is not taken."""
+        found = self.walk(states, begin, end, 1)
+        for count, most in ((SHORT_STEPS, np.inf), (SHORTEST_STEPS, self.max_residual)):
+            (failed,) = np.nonzero(~np.asarray(found.taken) & (np.asarray(found.residual) <= most))
+            if len(failed):
+                chosen = [[part[..., failed] for part in state] for state in states]
+                found = _merged(found, self.walk(chosen, begin[:, failed], end[:, failed], count), failed)
+        return found
+
+    def walk(self, states: Sequence[Sequence[np.ndarray]], begin: Inputs, end: Inputs, count: int) -> Steps:
+        """Walk from poses to others in `count` steps each, a batch at a time."""
+        size, parts = begin.shape[1], []
+        for first in range(0, size, BATCH):
+            which = np.minimum(np.arange(first, first + BATCH), size - 1)
+            chosen = tuple(State(*(jnp.asarray(part[..., which]) for part in state)) for state in states)
+            rows = [
+                tuple(jnp.asarray(each[np.array(e.inputs)][:, which]) for e in self.elements) for each in (begin, end)
+            ]
+            found = _walk(self.systems, self.options.of_program, self.joints, chosen, *rows, count, self.max_residual)
+            parts.append(jax.tree.map(np.asarray, found))
+        return jax.tree.map(lambda *each: np.concatenate(each, axis=-1)[..., :size], *parts)
+
+
+def _merged(found: Steps, again: Steps, failed: np.ndarray) -> Steps:
+    """Replace the steps that failed by those that were tried again."""
+
+    def put(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+        one = np.array(one)
+        one[..., failed] = other
+        return one
+
+    return jax.tree.map(put, found, again)
+
+
+@partial(jax.jit, static_argnums=(0, 1))
+def _walk(
+    systems: tuple[LoopSystem, ...],
+    options: SolverOptions,
+    joints: tuple[Joints, ...],
+    states: tuple[State, ...],
+    begin: tuple[Float[Array, "driven steps"], ...],
+    end: tuple[Float[Array, "driven steps"], ...],
+    count: int | Array,
+    max_residual: float | Array,
+) -> Steps:
+    """Move the inputs of closed poses from `begin` to `end` in so many steps; all structure elements have to follow."""
+    size = states[0].x.shape[-1]
+    yes, zero = jnp.ones(size, bool), jnp.zeros(size)
+    taken, square, stationary, found = yes, zero, yes, []
+    for system, numbers, state, one, other in zip(systems, joints, states, begin, end, strict=True):
+        geometry, lengths = scaled_geometry(system, numbers)
+        own = lengths[np.array(system.driven, int)]
+        problem = ClosureProblem(system, geometry, options)
+
+        def step(number, carry, system=system, geometry=geometry, problem=problem, ends=(one / own, other / own)):
+            state, taken, *_ = carry
+            # shorter towards both ends, where a limit may be near: coordinates change as the root of the distance to it
+            done, then = (0.5 - 0.5 * jnp.cos(jnp.pi * k / count) for k in (number, number + 1))
+            direction = (then - done) * (ends[1] - ends[0])
+            before = closure(system, geometry, state)
+            slope = input_slopes(system, state, before, direction)
+            predicted = drive(system, retract(system, state, slope), ends[0] + then * (ends[1] - ends[0]))
+            target = rounding_residual(state.x.dtype, CLOSED_ROUNDINGS)
+            there = levenberg_marquardt(problem, predicted, options.rescue_steps, target)
+            travel = difference(predicted, state)
+            ratio = determinant_ratio(before.jacobian, there.closure.jacobian, equation_blocks(system))
+            good = (there.residual_norm <= max_residual) & (travel <= MAX_TRAVEL) & jnp.all(ratio > 0, axis=0)
+            good &= difference(there.state, predicted) <= MAX_DEVIATION * travel + SLACK
+            return there.state, taken & good, there.residual_norm, there.stationary
+
+        state, taken, residual, still = lax.fori_loop(0, count, step, (state, taken, zero, yes))
+        square, stationary = square + residual**2, stationary & still
+        found.append(state)
+    return Steps(tuple(found), taken, jnp.sqrt(square), stationary)

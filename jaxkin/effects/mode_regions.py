@@ -1,0 +1,181 @@
+"""Assembly modes that a path over two inputs connects without a singular pose between them.
+
+A mechanism may have several closed poses for the same inputs on one sheet: a path around a cusp of its singularity
+curves leads from one to another (Innocenti and Parenti-Castelli, 1998, for planar platforms). Poses are therefore
+spread from node to node of a grid as in `grid_flood`, but as many a node as steps lead to. Poses that steps connect are
+one region, a part of what the literature of parallel robots calls an aspect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from jax import dtypes
+from jaxtyping import Float, Int
+
+from jaxkin._names import by_name, listed, nearest
+from jaxkin.effects.assembly_modes import AssemblyModes
+from jaxkin.effects.grid_steps import GridSteps
+from jaxkin.effects.pose_plot import save_rows
+from jaxkin.effects.region_plot import draw_regions
+from jaxkin.effects.sheets import Sheets
+from jaxkin.linkage.coordinates import coordinates
+from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.solve.options import options_with
+from jaxkin.solve.status import default_tolerance
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+SAME_VALUE = 1e-9
+"""Distance of a value of the grid from that of the modes, over the range, at which it is replaced: rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class ModeRegions:
+    """Which assembly modes a path over two inputs connects. Prints, draws and saves itself."""
+
+    modes: AssemblyModes
+    inputs: Mapping[str, Float[np.ndarray, " values"]]
+    """The two inputs by "joint.coordinate", with the values of the grid, those of the modes among them."""
+    regions: tuple[tuple[int, ...], ...]
+    """The modes of each region, numbered from 0 as in `modes`."""
+    poses: Int[np.ndarray, "regions first second"]
+    """How many poses of each region each node of the grid has."""
+    sheets: Sheets
+    """All poses that were found, and the steps between them."""
+
+    def connected(self, one: int, other: int) -> bool:
+        """Tell whether a path over the grid leads from one mode to another one past no singular pose."""
+        return self._region(one) == self._region(other)
+
+    def path(self, one: int, other: int) -> dict[str, Float[np.ndarray, " nodes"]]:
+        """Give the inputs of a shortest path over the grid from one mode to another, by "joint.coordinate".
+
+        They count as those of the modes do, from the assembled pose; those of `modes[one].mechanism()` count from its
+        own. Raises ValueError for modes that are not connected.
+        """
+        if not self.connected(one, other):
+            raise ValueError(
+                f"no path over this grid connects {self.modes.names[one]} and {self.modes.names[other]} without a "
+                f"singular pose: .regions are {self.regions}"
+            )
+        nodes = self.sheets.path(one % len(self.modes), other % len(self.modes))
+        given = self.sheets.inputs[:, nodes]
+        return dict(zip(self.modes.inputs, given, strict=True))
+
+    def __str__(self) -> str:
+        (one, first), (other, second) = self.inputs.items()
+        count = len(self.regions)
+        lines = [
+            f"{len(self.modes)} assembly mode{'' if len(self.modes) == 1 else 's'} in {count} "
+            f"region{'' if count == 1 else 's'} over {len(first)} x {len(second)} values of {one} and {other}"
+        ]
+        for modes, poses in zip(self.regions, self.poses, strict=True):
+            names = listed([self.modes.names[k] for k in modes])
+            said = "connected without a singular pose" if len(modes) > 1 else "not connected with another mode"
+            most = f", up to {poses.max()} for the same inputs" if poses.max() > 1 else ""
+            lines.append(f"  {names}: {said}; {poses.sum()} poses{most}")
+        if count > 1:
+            lines.append("  a passage narrower than the grid, or beyond it, is not found")
+        return "\n".join(lines)
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw for each region how many poses it has at each node, into a picture file; returns its path."""
+        return draw_regions(self, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write both inputs and the number of poses of each region as comma-separated values, a row a node."""
+        grid = np.meshgrid(*self.inputs.values(), indexing="ij")
+        names = ["+".join(self.modes.names[k].removeprefix("mode ") for k in modes) for modes in self.regions]
+        rows = np.array([np.ravel(each) for each in (*grid, *self.poses)], float)
+        return save_rows([*self.inputs, *(f"poses of modes {name}" for name in names)], rows, Path(path))
+
+    def _region(self, mode: int) -> int:
+        if not -len(self.modes) <= mode < len(self.modes):
+            raise IndexError(f"there are {len(self.modes)} modes, numbered from 0, got {mode}")
+        mode %= len(self.modes)
+        return next(k for k, modes in enumerate(self.regions) if mode in modes)
+
+
+def mode_regions(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np.ndarray]) -> ModeRegions:
+    """Find the assembly modes that a path over two inputs connects without a singular pose between them.
+
+    `modes` are those of `jk.assembly_modes`. `ranges` maps two of their inputs to rising arrays of displacements from
+    the assembled pose, radians or lengths; the inputs of the modes are added to them, and the other inputs rest. From
+    each mode all poses to which steps lead past no singular pose are found, as many at a node as there are. Modes that
+    are said to be connected are: `path` gives the inputs of a path. Others may be by a passage that is narrower than
+    the grid, beyond it, or by other inputs.
+
+    Raises ValueError for names and ranges that make no sense, for a singular mode, for loops with idle freedoms, which
+    make a continuum of one pose, and where a node has more poses than a mechanism has.
+    """
+    if not isinstance(modes, AssemblyModes):
+        raise ValueError(
+            f"regions are those of modes, jk.assembly_modes(mechanism, inputs), got {type(modes).__name__}"
+        )
+    if not len(modes):
+        raise ValueError("there are no modes: the loops do not close for these inputs")
+    mechanism = modes.motion.mechanism
+    grid = _grid(modes, ranges)
+    elements = plan_drive(mechanism.linkage, tuple(modes.inputs)).elements
+    _check_idle(mechanism, elements)
+    first, second = grid.values()
+    every = dict(zip(grid, map(np.ravel, np.meshgrid(first, second, indexing="ij")), strict=True))
+    rest = np.ones(len(first) * len(second))
+    nodes = np.array([every[name] if name in grid else value * rest for name, value in modes.inputs.items()])
+    nodes = nodes.astype(dtypes.canonicalize_dtype(float))
+    options = options_with(modes.motion.options)
+    max_residual = float(options.tolerance or default_tolerance(nodes.dtype))
+    steps = GridSteps(elements, options, max_residual)
+    home = [int(np.searchsorted(values, modes.inputs[name])) for name, values in grid.items()]
+    shape = len(first), len(second)
+    sheets = Sheets(steps, nodes, shape)
+    sheets.begin(int(np.ravel_multi_index(home, shape)), modes.motion)
+    sheets.spread()
+    regions, poses = sheets.regions(len(modes))
+    return ModeRegions(modes, grid, regions, poses, sheets)
+
+
+def _grid(modes: AssemblyModes, ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, np.ndarray]:
+    """Check the values of the two inputs, and add those of the modes."""
+    linkage = modes.motion.mechanism.linkage
+    given = by_name(ranges, "ranges", "{'A': np.linspace(-1, 1, 41), 'B': np.linspace(-1, 1, 41)}")
+    names = list(coordinates(linkage, tuple(given)))
+    if len(names) != 2:
+        raise ValueError(f"regions are mapped over two inputs, got {len(names)}")
+    found = {}
+    for name, (key, values) in zip(names, given.items(), strict=True):
+        if name not in modes.inputs:
+            raise ValueError(f"{key!r} is no input of the modes{nearest(name, modes.inputs)}")
+        try:
+            row = np.asarray(values, float)
+        except (TypeError, ValueError):
+            raise ValueError(f"the values of {key!r} must be numbers, got {values!r}") from None
+        if row.ndim != 1 or len(row) < 2 or not np.isfinite(row).all() or np.any(np.diff(row) <= 0):
+            raise ValueError(f"the values of {key!r} must be two finite numbers or more, rising, got {values!r}")
+        if not row[0] <= modes.inputs[name] <= row[-1]:
+            raise ValueError(
+                f"the values of {key!r}, {row[0]:g} to {row[-1]:g}, must hold that of the modes, {modes.inputs[name]:g}"
+            )
+        apart = np.abs(row - modes.inputs[name]) > SAME_VALUE * np.ptp(row)
+        found[name] = np.sort([*row[apart], modes.inputs[name]])
+    return found
+
+
+def _check_idle(mechanism: Mechanism, elements: Sequence) -> None:
+    """Raise ValueError for loops with freedoms that no input drives."""
+    groups = mechanism.linkage.structure.loop_groups
+    freedoms = loop_freedoms(mechanism.linkage)
+    for element in elements:
+        idle = len(freedoms[groups.index(element.loop_group)].motions) - len(element.inputs)
+        if idle:
+            raise ValueError(
+                f"the loops have {idle} idle freedom{'' if idle == 1 else 's'}, such as the spin of a rod between two "
+                "balls, so that one mode is many poses: make one ball of each such rod a universal joint"
+            )

@@ -1,0 +1,176 @@
+"""Tell which poses of a motion lie beyond the limits of joints, of which joints, and by how much.
+
+The solver follows closed loops whatever the limits are, since limits end a motion and do not change it. Each pose is
+looked at by itself; how far a drive can go until the first limit is what `jk.limits` finds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+from jax import lax
+from jaxtyping import Array, Float, Int
+
+from jaxkin.geometry.movements import is_length
+from jaxkin.joints.joint import Joint
+from jaxkin.solve.status import Status
+from jaxkin.solve.system.joints import scaled_frames
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.motion import Motion
+
+ROUNDING = 1e-9
+"""How far beyond a limit a coordinate is still at it, radians or characteristic lengths: `jk.limits` finds the end of a
+range to 1e-10, and a motion up to there is within it."""
+ROUNDINGS = 32
+"""The same in units of rounding, where these are more: in float32, poses are right to some of them."""
+MAX_REPORTED_COORDINATES = 8
+"""Coordinates beyond their limits that a report names at most: those that are farthest beyond."""
+
+
+class Bound(NamedTuple):
+    """A coordinate that has limits (static)."""
+
+    joint: int
+    """Number of its joint in the mechanism."""
+    coordinate: int
+    """Its number in the joint."""
+    low: float
+    high: float
+    length: bool
+    """Whether it is a length, and not an angle."""
+
+
+class Breach(NamedTuple):
+    """A coordinate that is beyond its limits at some poses of a motion."""
+
+    name: str
+    """"joint.coordinate"."""
+    limits: tuple[float, float]
+    """Lowest and highest displacement from the assembled pose, radians or lengths."""
+    poses: int
+    """How many poses are beyond the limits."""
+    worst: float
+    """The displacement farthest beyond."""
+    at: int
+    """The pose of that."""
+    length: bool
+
+    @property
+    def excess(self) -> float:
+        """How far the worst displacement is beyond its limit, radians or lengths."""
+        low, high = self.limits
+        return max(low - self.worst, self.worst - high)
+
+
+def bounds_of(joints: Sequence[Joint]) -> tuple[Bound, ...]:
+    """List the coordinates that have a finite limit."""
+    return tuple(
+        Bound(number, k, low, high, is_length(joint.coordinates[k]))
+        for number, joint in enumerate(joints)
+        for k, (low, high) in enumerate(joint.limits)
+        if np.isfinite(low) or np.isfinite(high)
+    )
+
+
+def with_limited(motion: Motion) -> Motion:
+    """Give the poses that are CLOSED with a joint beyond its limits the status LIMITED; the same motion without any."""
+    joints = motion.mechanism.all_joints
+    if not (bounds := bounds_of(joints)):
+        return motion
+    frames = tuple(joint.frames_1 for joint in joints), tuple(joint.frames_2 for joint in joints)
+    return replace(motion, status=_limited(bounds, frames, motion.displacements, motion.status))
+
+
+@partial(jax.jit, static_argnums=0)
+def _limited(
+    bounds: tuple[Bound, ...],
+    frames: tuple[tuple[Array, ...], tuple[Array, ...]],
+    displacements: tuple[Float[Array, "poses _"], ...],
+    status: Int[Array, " poses"],
+) -> Int[Array, " poses"]:
+    """Set LIMITED in place of CLOSED where a coordinate is beyond its limits."""
+    size = scaled_frames(*frames)[1]
+    beyond = jnp.zeros(status.shape, bool)
+    for each in bounds:
+        q = lax.stop_gradient(displacements[each.joint][:, each.coordinate])
+        slack = _slack(q.dtype) * (size if each.length else 1.0)
+        beyond |= (q < each.low - slack) | (q > each.high + slack)
+    return jnp.where(beyond & (status == Status.CLOSED.value), Status.LIMITED.value, status)
+
+
+def _slack(dtype: np.dtype) -> float:
+    return max(ROUNDING, ROUNDINGS * float(jnp.finfo(dtype).eps))
+
+
+def excesses(motion: Motion) -> dict[str, Float[np.ndarray, " poses"]]:
+    """Measure how far each coordinate is beyond its limits at each pose: see `Motion.beyond_limits`."""
+    joints, on_branch = motion.mechanism.all_joints, np.asarray(motion.on_branch)
+    bounds, found = bounds_of(joints), {}
+    if not bounds:
+        return found
+    frames = ([np.asarray(each.frames_1) for each in joints], [np.asarray(each.frames_2) for each in joints])
+    size = scaled_frames(frames[0], frames[1], np)[1]
+    for each in bounds:
+        q = np.asarray(motion.displacements[each.joint], float)[:, each.coordinate]
+        slack = _slack(motion.displacements[each.joint].dtype) * (float(size) if each.length else 1.0)
+        over = np.maximum(q - each.high, 0.0) - np.maximum(each.low - q, 0.0)
+        over = np.where(on_branch & (np.abs(over) > slack), over, 0.0)
+        if over.any():
+            joint = joints[each.joint]
+            found[f"{joint.name}.{joint.coordinates[each.coordinate]}"] = over
+    return found
+
+
+def breaches(motion: Motion) -> tuple[Breach, ...]:
+    """Collect the coordinates that are beyond their limits, in the order of the mechanism."""
+    joints, over, found = motion.mechanism.all_joints, motion.beyond_limits, []
+    for each in bounds_of(joints) if over else ():
+        name = f"{joints[each.joint].name}.{joints[each.joint].coordinates[each.coordinate]}"
+        if name in over:
+            at = int(np.argmax(np.abs(over[name])))
+            worst = float(motion.displacements[each.joint][at, each.coordinate])
+            count = int(np.count_nonzero(over[name]))
+            found.append(Breach(name, (each.low, each.high), count, worst, at, each.length))
+    return tuple(found)
+
+
+def joined(pieces: Sequence[tuple[Sequence[Breach], int]]) -> tuple[Breach, ...]:
+    """Join what was found in consecutive motions, each given with its number of poses."""
+    found: dict[str, Breach] = {}
+    first = 0
+    for piece, poses in pieces:
+        for each in piece:
+            here = each._replace(at=each.at + first)
+            known = found.get(each.name)
+            worse = here if known is None or here.excess > known.excess else known
+            found[each.name] = worse._replace(poses=each.poses + (known.poses if known else 0))
+        first += poses
+    return tuple(found.values())
+
+
+def limit_report(found: Sequence[Breach], unit: str, inputs: Mapping[str, object]) -> list[str]:
+    """Write a line on each coordinate that is beyond its limits, the farthest first, and one on what to do."""
+    if not found:
+        return []
+    order = sorted(found, key=lambda each: -each.excess)
+    lines = []
+    for each in order[:MAX_REPORTED_COORDINATES]:
+        low, high = each.limits
+        of = unit if each.length else "rad"
+        lines.append(
+            f"beyond its limits: {each.name} at {each.poses} pose{'' if each.poses == 1 else 's'}, up to "
+            f"{each.excess:.4g} {of} ".rstrip()
+            + f" {'below' if each.worst < low else 'above'} its limits {low:.4g} to {high:.4g}, at pose {each.at}"
+        )
+    if len(order) > MAX_REPORTED_COORDINATES:
+        lines.append(f"beyond its limits: {len(order) - MAX_REPORTED_COORDINATES} more: see motion.beyond_limits")
+    name = next(iter(inputs), "joint")
+    lines.append(f"how far a drive can go within all limits: jk.limits(mechanism, {name!r})")
+    return lines
