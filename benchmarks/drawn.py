@@ -63,6 +63,8 @@ def verdict(wanted: TrueJoint, found: jk.Mechanism, idle: set[str], truly_idle: 
             else "other: one body"
         )
     between = [joint for joint in found.all_joints if {body[part] for part in joint.parts} == {one, other}]
+    if not between and wanted.kind == "Revolute" and _turn_on_a_third(found, body, one, other, wanted, place):
+        return "right"
     if not between:
         return "missed"
     joint, got = between[0], set(between[0].coordinates)
@@ -83,6 +85,23 @@ def verdict(wanted: TrueJoint, found: jk.Mechanism, idle: set[str], truly_idle: 
     if got == coordinates:
         return "right"
     return "idle" if got - coordinates <= more and coordinates - got <= truly_idle else f"other: {joint.kind}"
+
+
+def _turn_on_a_third(
+    found: jk.Mechanism, body: dict[str, str], one: str, other: str, wanted: TrueJoint, place: Place
+) -> bool:
+    """Tell whether two bodies turn on a third one about the axis that was meant: three links on one pin have two
+    joints, and it is of no matter to which of them the pin belongs."""
+    axis, about = place.turn @ wanted.axis, {one: set[str](), other: set[str]()}
+    for joint in found.all_joints:
+        offset = joint.frames_1[0][:3, 3] - place.point(wanted.point)
+        apart = np.linalg.norm(offset - (offset @ axis) * axis) / place.millimetre
+        tilt = np.linalg.norm(np.cross(joint.frames_1[0][:3, 2], axis))
+        if joint.kind == "revolute" and apart < MAX_OFFSET and tilt < MAX_ANGLE:
+            owners = {body[part] for part in joint.parts}
+            for each in owners & {*about}:
+                about[each] |= owners - {each}
+    return bool(about[one] & about[other])
 
 
 def judged(drawing: Drawing, found: jk.Mechanism, place: Place) -> list[str]:

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.inference.bores import NEAR_ANGLE
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
+from jaxkin.geometry.part import size
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
 from jaxkin.topology.components import connected
@@ -27,6 +33,10 @@ _KEPT = (EvidenceKind.NEAREST, EvidenceKind.BOLT_PATTERN)
 plates that are bolted together do not move."""
 TOLD = "inferred beside exact contacts"
 """How the note begins that counts inferences."""
+_NEAR = 1e-4
+"""Distance of two axes that are one, over the size of the assembly."""
+_ROUNDS = 3
+"""Times that seats are looked for: what is one body by some may be seated on others."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -39,19 +49,52 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     seats of faces leave a slide of no use are one body. Where the inferences lock it, the weakest one without which it
     moves is dropped, and that is said.
     """
-    mechanism, found, levels = _with_seats(assembly, contacts, said)
-    if not found and not any(levels):
-        return mechanism
-    useful = useful_freedoms(mechanism)
+    source = told_by(assembly, contacts)
+    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
+    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+
+    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference]]:
+        rigid = [*said.rigid, *(each.parts for each in seats)]
+        found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        return _stopped(assembly, contacts, said, [*seats, *found], levels)
+
+    mechanism, found = made(())
+    seats: list[Inference] = []
+    for _ in range(_ROUNDS):
+        seats += (new := _seats(mechanism))
+        other, more = made(seats) if new else (mechanism, found)
+        if not new or _not_idle(other) != _not_idle(mechanism):
+            break
+        mechanism, found = other, more
+    unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
+    return unlocked or _counted(mechanism, found)
+
+
+def _not_idle(mechanism: Mechanism) -> int:
+    """Count the freedoms that are not idle, those of parts that only spin included; 0 where none is of use."""
+    return useful_freedoms(mechanism) and mechanism.mobility().useful + mechanism.mobility().spins
+
+
+def _stopped(
+    assembly: Assembly,
+    contacts: Sequence[Contact],
+    said: Said,
+    found: list[Inference],
+    levels: Sequence[Sequence[Inference]],
+) -> tuple[Mechanism, list[Inference]]:
+    """Find the mechanism, and its inferences: with as many levels of what would stop slides as leave it freedoms, if
+    these are fewer then, or those of parts that only spin are."""
+    mechanism = from_words(assembly, contacts, said, found)
+    useful = useful_freedoms(mechanism) if any(levels) else 0
     for count in range(len(levels), 0, -1) if useful else ():
         if not levels[count - 1]:
             continue
         more = [*found, *(each for level in levels[:count] for each in level)]
         other = from_words(assembly, contacts, said, more)
-        if 0 < useful_freedoms(other) < useful:
-            return _counted(other, more)
-    unlocked = None if useful else _unlocked(assembly, contacts, said, found)
-    return unlocked or _counted(mechanism, found)
+        fewer = useful_freedoms(other)
+        if 0 < fewer < useful or (fewer == useful and other.mobility().spins < mechanism.mobility().spins):
+            return other, more
+    return mechanism, found
 
 
 def _unlocked(
@@ -97,30 +140,9 @@ def useful_freedoms(mechanism: Mechanism) -> int:
     return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
 
 
-def _with_seats(
-    assembly: Assembly, contacts: Sequence[Contact], said: Said
-) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
-    """Find the mechanism, its inferences, and those that would stop slides, where bodies that seats hold are one."""
-    source = told_by(assembly, contacts)
-    used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
-    ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
-
-    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], list[list[Inference]]]:
-        rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, stopped = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
-        found = [*seats, *found]
-        return from_words(assembly, contacts, said, found), found, stopped
-
-    first = made(())
-    if not (seats := _seats(first[0])):
-        return first
-    then = made(seats)
-    return then if useful_freedoms(then[0]) == useful_freedoms(first[0]) else first
-
-
 def _seats(mechanism: Mechanism) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
-    cheeks.
+    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
@@ -133,16 +155,49 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     useful = [joint.parts for joint in mechanism.all_joints if {f"{joint.name}.{c}" for c in joint.coordinates} - idle]
     result = []
     for joint in mechanism.all_joints:
-        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR) and joint.name in mechanism.contacts
-        if not flat or not {f"{joint.name}.{name}" for name in joint.coordinates} <= idle or is_guide(mechanism, joint):
+        flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
+        screwed = joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
+        if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
+            result.append(Inference(joint.parts, joint.evidence))
+            continue
+        moved = {f"{joint.name}.{name}" for name in joint.coordinates} - idle
+        if joint.name not in mechanism.contacts or not (flat or screwed) or moved or is_guide(mechanism, joint):
             continue
         one, other = (owner[part] for part in joint.parts)
         joined = {part: one if body == other else body for part, body in owner.items()}
         if all(joined[first] != joined[second] or owner[first] == owner[second] for first, second in useful):
-            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a slide that moves nothing else"
+            rest = "turn, as of a thread," if screwed else "slide"
+            text = f"faces hold {joint.parts[0]!r} to {joint.parts[1]!r} but for a {rest} that moves nothing else"
             result.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
             owner = joined
     return result
+
+
+def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) -> bool:
+    """Tell whether all other joints of one of two bodies are about the axis of a joint, as those of the rod of a
+    cylinder with an eye on its end are; a roller also touches its rail."""
+    pose = np.asarray(joint.frames_1, float)[0]
+    point, axis = pose[:3, 3], pose[:3, 2]
+    near = _NEAR * size(mechanism.solids)
+    for body in {owner[part] for part in joint.parts}:
+        others = [
+            each
+            for each in mechanism.all_joints
+            if each is not joint and each.freedoms and body in {owner[part] for part in each.parts}
+        ]
+        if others and all(_is_about(each, point, axis, near) for each in others):
+            return True
+    return False
+
+
+def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
+    """Tell whether a joint is a turn about an axis, or along and about it, but for the distance `near`."""
+    frame = np.asarray(joint.frames_1, float)[0]
+    offset = frame[:3, 3] - point
+    apart = float(np.linalg.norm(np.cross(offset, axis)))
+    along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
+    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL)
+    return turns and along and apart <= near
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:

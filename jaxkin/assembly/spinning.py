@@ -8,7 +8,7 @@ for parts without solids.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -19,6 +19,7 @@ from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Pose, frame
+from jaxkin.geometry.surfaces import Cylinder
 from jaxkin.joints.combine import LOWER_PAIRS
 from jaxkin.joints.from_contacts import forwards
 from jaxkin.joints.joint import Joint
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 MIN_ROUNDNESS = 0.84
 """Smallest ratio of least to greatest half width of a part that is round about an axis: a hexagon has 0.866, a square
 0.707."""
+MIN_BUSH = 0.95
+"""The same of a bush: round but for its tessellation."""
 TWIST_TOLERANCE = 1e-6
 """Entries of unit twists below this count as zero: far above rounding, far below design."""
 
@@ -70,7 +73,7 @@ def spins(mechanism: Mechanism) -> tuple[dict[str, Spin], dict[str, Spin]]:
     for part, joints in around.items():
         if part in mechanism.fixed or part not in solids or (spin := _spin(joints, size)) is None:
             continue
-        if not _is_round(solids[part], spin):
+        if not _is_round(solids[part], spin) or _turns_in_a_bush(mechanism, joints, part, spin):
             continue
         neighbours = dict.fromkeys(p for joint in joints for p in joint.parts if p != part)
         if len(neighbours) > 1:
@@ -101,6 +104,21 @@ def _spin(joints: Sequence[Joint], size: float) -> Spin | None:
     else:
         return None
     return Spin(kind, movement, forwards(frame(centre + size * point, axis)))
+
+
+def _turns_in_a_bush(mechanism: Mechanism, joints: Sequence[Joint], part: str, spin: Spin) -> bool:
+    """Tell whether a part is on a ring that is long and one body with others, as a shaft is in a bush: it is there to
+    turn."""
+    rows = mechanism.structure.row_of
+    sizes = Counter(rows.values())
+    others = {other for joint in joints for other in joint.parts if other != part and sizes[rows[other]] > 1}
+    for ring in (each for each in mechanism.solids if each.name in others):
+        away = (ring.outermost - spin.frame[:3, 3]) @ spin.frame[:3, :3]
+        holes = [face.surface for face in ring.faces if isinstance(face.surface, Cylinder) and face.surface.side < 0]
+        long = [hole for hole in holes if np.ptp(away[:, 2]) >= hole.radius]
+        if long and roundness(away[:, :2], np.zeros(2)) > MIN_BUSH:
+            return True
+    return False
 
 
 def _is_round(part: Part, spin: Spin) -> bool:

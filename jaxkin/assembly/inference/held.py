@@ -17,6 +17,13 @@ from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
+LONG = 2.5
+"""Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
+WIDER = 1.05
+"""Radius of a collar over that of the pin, at least."""
+STICKS_OUT = 2.0
+"""Length of a loose pin beyond its hole, over its radius, on both sides from which on it is a bar that slides."""
+
 
 def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Find pins that stand in the material of parts that have no hole for them."""
@@ -92,11 +99,15 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
     A rod that something slides on belongs to the body that holds it on both sides of all others, or more tightly.
     """
     body, result = known.body, []
+    fastening = {part for stack in every for part in stack.fasteners}
     for stack in every:
         owners = {body[part] for part in stack.fasteners}
         hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
         slides = stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
+        turning = all(part in fastening or _is_round_about(known, part, stack.axis) for part in hosts)
+        if turning and (crank := _carried(known, stack, body)):
+            holder, where = crank, "alone, as it turns in bushes of others"
         if slides and holder is None:
             continue
         parts = (*([holder] if holder else []), *stack.fasteners)
@@ -110,18 +121,23 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
 def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -> tuple[str | None, str]:
     """Find the part that holds a stack, and how: of the body whose bores reach farthest along the axis.
 
-    Where others slide on the stack, that body reaches farther on both sides, or fits more tightly; None if none does.
+    A body that is round about the axis, as a roller or a planet is, turns on the stack, and so does one that is on it
+    with sleeves only, where there is another one. Where others slide on the stack, that body reaches farther on both
+    sides, or fits more tightly; None if none does.
     """
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
     fits: dict[str, float] = {}
+    bushed: set[str] = set()
     traps: set[str] = set()
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
             if pin.part in stack.fasteners and hole.part in stack.held:
                 owner = body[hole.part]
                 reach.setdefault(owner, []).append((*hole.reach(along), hole.part))
-                fits[owner] = min(fits.get(owner, np.inf), max(pair.clearance, 0.0))
+                if (fit := max(pair.clearance, 0.0)) < fits.get(owner, np.inf):
+                    fits[owner] = fit
+                    (bushed.add if hole.part in known.sleeves else bushed.discard)(owner)
                 if slides and _is_trapped(known, pin.part, hole):
                     traps.add(owner)
     if not reach:
@@ -129,23 +145,90 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     ends = {
         owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
     }
-    widest = max(ends, key=lambda owner: ends[owner][1] - ends[owner][0])
+    widest = max(_keepers(known, stack, reach, fits), key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len({body[each] for each in stack.held}) == 1:
         # as a shaft in bushes, also where its collars touch what these are in
         turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
-        return (None, "") if turns else (part, "only")
+        turns = turns or _goes_on(known, stack, low, high)
+        slides = stack.guides and fits[widest] > SAME_FIT * stack.axis.radius and _sticks_out(known, stack, low, high)
+        return (None, "") if turns or slides else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
     if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
         return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
     looser = [fit for owner, fit in fits.items() if owner != tightest]
-    if traps - {tightest}:
+    if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
     if looser and min(looser) - fits[tightest] > SAME_FIT * stack.axis.radius:
         return ends[tightest][2], "more tightly than by others"
     return None, ""
+
+
+def _keepers(
+    known: Known, stack: Stack, reach: Mapping[str, Sequence[tuple[float, float, str]]], fits: Mapping[str, float]
+) -> list[str]:
+    """Find the bodies that may hold a stack: not those that are round about it, but for one that fits more tightly than
+    all others, nor those that are on it with sleeves only, if there are others."""
+
+    def turns(parts: Sequence[str]) -> bool:
+        round_ones = all(_is_round_about(known, part, stack.axis) for part in parts)
+        return round_ones or all(part in known.sleeves for part in parts)
+
+    keeping = [owner for owner, some in reach.items() if not turns([part for *_, part in some])] or list(reach)
+    tightest = min(fits, key=fits.__getitem__)
+    looser = min((fits[owner] for owner in keeping if owner != tightest), default=0.0) - fits[tightest]
+    pressed = tightest not in keeping and looser > SAME_FIT * stack.axis.radius
+    return [tightest] if pressed and not all(part in known.sleeves for *_, part in reach[tightest]) else keeping
+
+
+def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
+    """Find the part that a shaft in bushes carries, as its crank: of the only body that is on it without them, and no
+    more loosely; of several that which is not round."""
+    own, on = {body[part] for part in stack.fasteners}, {}
+    for pair in known.axes:
+        if pair.one.part in stack.fasteners and pair.other.part in stack.held and not pair.virtual:
+            on.setdefault(body[pair.other.part], []).append(pair)
+    others = {owner: pairs for owner, pairs in on.items() if owner not in own}
+    bushed = [owner for owner, pairs in others.items() if all(pair.other.part in known.sleeves for pair in pairs)]
+    loosest = max((pair.clearance for owner in bushed for pair in others[owner]), default=-np.inf)
+    rest = [pair for owner, pairs in others.items() if owner not in bushed for pair in pairs]
+    rest = [pair.other.part for pair in rest if pair.clearance <= loosest + SAME_FIT * stack.axis.radius]
+    carried = [part for part in rest if not _is_round_about(known, part, stack.axis)] or rest
+    return carried[0] if len({body[part] for part in carried}) == 1 else None
+
+
+def _is_round_about(known: Known, part: str, axis: Bore) -> bool:
+    own = [bore for bore in known.bores[part] if bore.on_axis_of(axis)]
+    return any(not bore.hole for bore in own) and is_round(known, part, own)
+
+
+def _goes_on(known: Known, stack: Stack, low: float, high: float) -> bool:
+    """Tell whether a pin goes on beyond a collar of its own, as a shaft does; a rivet ends with its heads."""
+    for pair in known.axes:
+        if pair.virtual or pair.one.part not in stack.fasteners or pair.other.part not in stack.held:
+            continue
+        pin, along = pair.one, stack.axis.axis
+        collars = [
+            bore
+            for bore in known.bores[pin.part]
+            if not bore.hole and bore.on_axis_of(pin) and bore.radius > WIDER * pin.radius
+        ]
+        spans = [span for bore in collars for span in bore.spans_along(along)]
+        first, last = pin.reach(along)
+        beyond = [start - first for start, end in spans if start + end < 2 * low]
+        beyond += [last - end for start, end in spans if start + end > 2 * high]
+        if beyond and max(beyond) > STICKS_OUT * pin.radius:
+            return True
+    return False
+
+
+def _sticks_out(known: Known, stack: Stack, low: float, high: float) -> bool:
+    """Tell whether a pin is out of its holes on both sides, as the bar of a vise is, which slides to and fro."""
+    pins = [pair.one for pair in known.axes if pair.one.part in stack.fasteners and not pair.virtual]
+    ends = [end for pin in pins for end in pin.reach(stack.axis.axis)]
+    return bool(ends) and min(low - min(ends), max(ends) - high) > STICKS_OUT * stack.axis.radius
 
 
 def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
@@ -156,20 +239,39 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
 
 
 def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find plain rods that fit one hole exactly and stand on its floor: posts and dowels, which are set into it."""
+    """Find plain rods that fit a hole exactly and stand on its floor: posts and dowels, which are set into it, and rods
+    with caps that touch nothing else on both ends."""
     on: dict[str, set[str]] = {}
     for contact in known.contacts:
         if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
             for part, other in (contact.parts, contact.parts[::-1]):
                 on.setdefault(part, set()).add(other)
+    neighbours: dict[str, set[str]] = {}
+    for pair in known.touching:
+        for part in pair:
+            neighbours.setdefault(part, set()).update(pair - {part})
     result = []
     for rod in (name for name in known.names if name in fastening):
-        if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(on.get(rod, ())) != 1:
-            continue
-        (host,) = on[rod]
-        if len(known.solids[rod].faces) == 3:  # the pin and its two ends
+        if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(known.solids[rod].faces) != 3:
+            continue  # it has faces beside those of a pin with two ends
+        caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
+        for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
             result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def rollers(known: Known, fastening: Collection[str]) -> set[str]:
+    """Find the round parts on a pin that are long and lie flat on nothing: rollers and planets, no nuts or washers."""
+    lying = {part for each in known.contacts if each.contact_state.is_flat for part in each.parts}
+    result = set()
+    for pair in known.axes:
+        name = pair.other.part
+        if pair.virtual or name not in fastening or name in lying or pair.other.half < LONG * pair.other.radius / 2:
+            continue
+        own = known.bores[name]
+        if any(not bore.hole for bore in own) and is_round(known, name, list(own)):
+            result.add(name)
     return result
 
 

@@ -128,6 +128,9 @@ def _hinge(
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
     ends = [end for each in found for end in each.other.reach(pair.one.axis)]
+    middles = [float(hole.point @ pair.one.axis)]
+    if _is_last(known, body[pair.one.part], owners):
+        middles.append((min(ends) + max(ends)) / 2)  # of two bushes, where an axle with its wheels moves nothing else
     short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * hole.radius
     between = None if pair.virtual else _between(known, pair, found)
     if between is not None and between <= MAX_PLAY * hole.radius:
@@ -137,7 +140,7 @@ def _hinge(
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
-        elif abs(float((pair.one.point - hole.point) @ hole.axis)) <= CENTRED * hole.radius:
+        elif min(abs(pair.one.point @ pair.one.axis - middle) for middle in middles) <= CENTRED * hole.radius:
             free, stop = 0.0, Stop.CENTRED
         elif short and room is not None:
             free, stop = 0.0, Stop.SHORT
@@ -165,6 +168,12 @@ def _hinge(
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
     return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+
+
+def _is_last(known: Known, owner: str, owners: Pair) -> bool:
+    """Tell whether one of two bodies touches no third one, and has no axis in common with it."""
+    body, related = known.body, [*known.touching, *(pair.parts for pair in known.axes)]
+    return all(owner not in each or each <= owners for each in ({body[part] for part in pair} for pair in related))
 
 
 def _between(known: Known, pair: CommonAxis, found: Sequence[CommonAxis]) -> float | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
+from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
@@ -13,17 +14,18 @@ from jaxkin.assembly.inference.held import (
     butting_pins,
     embedded_pins,
     pressed_rings,
+    rollers,
     standing_rods,
     with_hosts,
 )
 from jaxkin.assembly.inference.hinges import Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
-from jaxkin.assembly.inference.keyed import keyed_hubs
+from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
-from jaxkin.assembly.inference.sleeves import hollow_axles, seated_sleeves, sleeves, sliding_rods
+from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.undrawn import screwed_flat
@@ -52,15 +54,23 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
-    known.add(keyed_hubs(known))
+    known.add([*keyed_hubs(known), *flatted_hubs(known)])
+    known.add(bolted_balls(known))
     set_in = sleeves(known)
+    driven = driven_sleeves(known, set_in)
+    set_in = [each for each in set_in if each.part not in driven]
     known.add(seated_sleeves(known, set_in))
+    known.add(clamped_hubs(known))
     known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
-    fastening -= sliding_rods(known, set_in) | hollow_axles(known)
+    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
+    fastening -= rollers(known, fastening)
+    known.add(locked_threads(known, fastening))
+    body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
-    fastening -= {*fixed, *(part for contact in others for part in contact.parts)}
+    apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
+    fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))

@@ -1,4 +1,4 @@
-"""Keys: a small part in a slot of a shaft and in one of the hub on it, which hold each other."""
+"""Keys: a small part in a slot of a shaft and in one of the hub on it, which hold each other, and flats of shafts."""
 
 from __future__ import annotations
 
@@ -10,11 +10,46 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.slides import between_faces
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MAX_WIDTH = 1.0
 """Width of a key between the walls of its slots, over the radius of the shaft, at most: keys of tables have 0.4 to
 0.7."""
+
+
+MAX_HUB = 4.0
+"""Length of a hub on a shaft with a flat, over the radius of the shaft, at most: what slides on such a shaft is longer,
+so that it does not jam."""
+
+
+def flatted_hubs(known: Known) -> list[Inference]:
+    """Join hubs with the shafts whose flats keep them from turning, as those of motors and servos do: one flat, or two
+    opposite ones.
+
+    That nothing drawn keeps the hub from sliding is the screw or the press fit that people do not draw.
+    """
+    result = []
+    for pair in known.axes:
+        if (
+            pair.virtual
+            or frozenset(pair.parts) not in known.pinned
+            or pair.other.half > MAX_HUB / 2 * pair.other.radius
+        ):
+            continue
+        flats = [
+            each.surfaces[0].normal
+            for each in known.contacts
+            if {*each.parts} == {*pair.parts} and each.contact_state.is_flat and isinstance(each.surfaces[0], Plane)
+        ]
+        along = [normal for normal in flats if abs(normal @ pair.one.axis) < ACROSS]
+        if along and all(np.linalg.norm(np.cross(normal, along[0])) < ACROSS for normal in along):
+            shaft, hub = pair.parts
+            parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+            sizes = (("radius", pair.one.radius),)
+            text = f"a flat of {shaft!r} keeps {hub!r} from turning on it"
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
 
 
 def keyed_hubs(known: Known) -> list[Inference]:

@@ -8,14 +8,20 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bearings import ROUND
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import play
+from jaxkin.assembly.inference.trapped import ACROSS, play
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
+MAX_LOOSE = 0.1
+"""Clearance of a sleeve in its hole, over the radius of the hole, at most: what has more, as a horn or a hub in a wide
+opening, is no bush of that hole."""
 SAME_FIT = 0.002
 """Clearances that differ by less, over the radius, are one fit: the loosest press fit of a tolerance table."""
+MIN_HOLLOW = 0.8
+"""Share of the length of a sleeve that its holes have, at least: the rest is chamfers."""
 FLUSH = 0.1
 """A sleeve that ends where its hole does, within so much over its radius, is set into the hole from there."""
 
@@ -36,15 +42,29 @@ def sleeves(known: Known) -> list[Sleeve]:
     pins = [pair for pair in known.axes if not pair.virtual and not pair.threaded]
     axles, result = hollow_axles(known), []
     for name in known.names:
-        outside = [pair for pair in pins if pair.one.part == name]
+        outside = [pair for pair in pins if pair.one.part == name and pair.clearance <= MAX_LOOSE * pair.other.radius]
         if not outside or name in axles:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
-        if any(bore.hole for bore in own) and is_round(known, name, own):
+        if any(bore.hole for bore in own) and is_round(known, name, own) and _is_hollow(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
+    return result
+
+
+def driven_sleeves(known: Known, found: list[Sleeve]) -> set[str]:
+    """Find the sleeves with plane faces along their axis in contact with another part than their housing, such as the
+    square of a hollow shaft in its wheel: these turn in their hole."""
+    flat = [each for each in known.contacts if each.contact_state.is_flat]
+    result = set()
+    for sleeve in found:
+        housing, axis = sleeve.housing.other.part, sleeve.housing.one.axis
+        beside = {housing, *(each.part for each in found)} - {sleeve.part}  # half-shells touch where they are split
+        planes = [each.surfaces[0] for each in flat if sleeve.part in each.parts and not beside & {*each.parts}]
+        if any(isinstance(each, Plane) and abs(float(each.normal @ axis)) < ACROSS for each in planes):
+            result.add(sleeve.part)
     return result
 
 
@@ -53,11 +73,12 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
 
     It sits where it fits more tightly. Where it fits both alike, it is set into its hole, but for a ring in a groove of
     the pin: that is held between faces of the pin, and not where its hole ends. Where the pin fills the same hole, as a
-    piston beside its gland, the hole is one to slide in, and nothing is set into it.
+    piston beside its gland, the hole is one to slide in, and nothing is set into it but where it ends. A flange that
+    two or more parallel axes hold to another part is screwed on there.
     """
     result = []
     for each in found:
-        if each.part in known.fixed:
+        if each.part in known.fixed or _is_flange(known, each):
             continue
         seat, why = each.housing, "set into the hole of"
         if each.pin is not None:
@@ -66,7 +87,7 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
                 seat, why = each.pin, "tighter on the pin of"
             elif abs(looser) <= SAME_FIT * each.housing.one.radius and _in_groove(known, each.housing, each.pin):
                 seat, why = each.pin, "held in a groove of"
-        if seat is each.housing and _is_shared(known, each):
+        if seat is each.housing and _is_shared(known, each) and not _is_flush(each.housing):
             continue
         host = seat.other.part if seat is each.housing else seat.one.part
         evidence = Evidence(
@@ -114,6 +135,37 @@ def is_round(known: Known, name: str, own: list[Bore]) -> bool:
     corners = known.solids[name].outermost - widest.point
     away = np.linalg.norm(corners - np.outer(corners @ widest.axis, widest.axis), axis=1)
     return bool(away.max() <= ROUND * widest.radius)
+
+
+def _is_hollow(known: Known, name: str, own: list[Bore]) -> bool:
+    """Tell whether holes go through a part along the axis that they have in common; a shaft with a hole for a screw in
+    its end is no sleeve."""
+    along = own[0].axis
+    heights = known.solids[name].outermost @ along
+    through = merged(span for bore in own if bore.hole for span in bore.spans_along(along))
+    return sum(high - low for low, high in through) >= MIN_HOLLOW * float(np.ptp(heights))
+
+
+def _is_flange(known: Known, sleeve: Sleeve) -> bool:
+    """Tell whether two or more parallel axes beside that of a sleeve are those of one other part, too."""
+    beside: dict[str, int] = {}
+    for pair in (*known.axes, *known.tapped):
+        for own, other in ((pair.one, pair.other), (pair.other, pair.one)):
+            if own.part == sleeve.part and own.hole and not own.on_axis_of(sleeve.housing.one):
+                for host in {other.part} if other.hole else _around(known, other):
+                    beside[host] = beside.get(host, 0) + 1
+    return max((count for host, count in beside.items() if host != sleeve.part), default=0) > 1
+
+
+def _around(known: Known, pin: Bore) -> set[str]:
+    """Find the parts in whose holes a pin is."""
+    return {pair.other.part for pair in known.axes if pair.one.part == pin.part and pair.one.on_axis_of(pin)}
+
+
+def _is_flush(housing: CommonAxis) -> bool:
+    """Tell whether a sleeve ends where the hole does that it is in."""
+    (low, high), (first, last) = (bore.reach(housing.one.axis) for bore in (housing.one, housing.other))
+    return min(abs(low - first), abs(last - high)) <= FLUSH * housing.one.radius
 
 
 def _in_groove(known: Known, housing: CommonAxis, pin: CommonAxis) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -24,19 +25,23 @@ TOUCHING = 1e-3
 
 
 def loose_slides(known: Known) -> list[Inference]:
-    """Infer prismatic joints of parts that are between faces of another one, with play, and have no contact with it."""
+    """Infer prismatic joints of parts that are between faces of another body, with play, and have no contact with
+    it."""
     body, result = known.body, []
     tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
     tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     for part in known.parts:
+        around: dict[str, list[Part]] = {}
         for other in known.measured.beside(part):
-            owners = frozenset((body[part.name], body[other.name]))
-            if known.order[part.name] > known.order[other.name] or len(owners) < 2 or owners in tied:
+            around.setdefault(body[other.name], []).append(other)
+        for owner, others in around.items():
+            owners = frozenset((body[part.name], owner))
+            if len(owners) < 2 or owners in tied:
                 continue
-            found = _slide(part, other)
+            found = _slide(part, others)
             if found is not None:
                 axis, play = found
-                parts = (part.name, other.name)
+                parts = tuple(sorted((part.name, others[0].name), key=known.order.__getitem__))
                 text = f"faces on both sides in two directions, with a play of {play:.2g}"
                 evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
                 joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
@@ -45,9 +50,9 @@ def loose_slides(known: Known) -> list[Inference]:
     return result
 
 
-def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
-    """Find the direction in which one of two parts slides between faces of the other, and its largest play."""
-    held = between_faces(one, other)
+def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
+    """Find the direction in which a part slides between faces of others, which are one body, and its largest play."""
+    held = between_faces(one, *others)
     for normal, play in held:
         for across, other_play in held:
             axis = np.cross(normal, across)
@@ -58,13 +63,14 @@ def _slide(one: Part, other: Part) -> tuple[Vector, float] | None:
     return None
 
 
-def between_faces(one: Part, other: Part) -> list[tuple[Vector, float]]:
-    """Find the directions in which a part is between two faces of another one: unit normals, and the play along
-    them."""
+def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
+    """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
+    normals, and the play along them."""
     facing = [
         (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
         for a in one.faces
         if isinstance(a.surface, Plane)
+        for other in others
         for b in other.faces
         if (gap := _gap(a, b)) is not None
     ]

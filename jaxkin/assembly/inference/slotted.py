@@ -41,8 +41,8 @@ def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
     for stack in every:
         owner = body[stack.fasteners[0]]
         axis = max((bore for name in stack.fasteners for bore in known.bores[name]), key=lambda bore: bore.half)
-        if axis.hole:
-            continue
+        if any(bore.hole for bore in known.bores[axis.part]):
+            continue  # a nut, or a washer: their outside is that of no screw
         for part in known.parts:
             pair = frozenset((owner, body[part.name]))
             normals = [] if len(pair) < 2 or pair in elsewhere else flat.get(pair, [])

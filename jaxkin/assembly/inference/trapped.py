@@ -77,18 +77,18 @@ def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis
 
 def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
     """Return how far one body can slide in the other in all, forwards and backwards; None where nothing stops it."""
-    ahead, behind = _gap(one, other, radius), _gap(other, one, radius)
+    ahead, behind = gap(one, other, radius), gap(other, one, radius)
     return None if ahead is None or behind is None else ahead + behind
 
 
 def nearest(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
     """Return how far one body is from being stopped by the other, on the side where that is less; None without
     stops."""
-    gaps = [gap for gap in (_gap(one, other, radius), _gap(other, one, radius)) if gap is not None]
-    return min(gaps, default=None)
+    found = (gap(one, other, radius), gap(other, one, radius))
+    return min((each for each in found if each is not None), default=None)
 
 
-def _gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+def gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
     """Measure the least gap from faces of one that look forwards to faces of the other that look backwards, as far from
     the axis."""
     facing = [(a, b) for a in one if a.forwards for b in other if not b.forwards]

@@ -1,0 +1,167 @@
+"""What screws across a shaft, nuts that lock a thread and bolts through balls hold together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, shared_length
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
+from jaxkin.assembly.inference.sleeves import is_round
+from jaxkin.assembly.inference.trapped import ACROSS, gap
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Plane, Sphere
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+FITTED = 0.02
+"""Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
+MAX_ACROSS = 0.6
+"""Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
+FILLED = 0.5
+"""Share of a hub's hole that its shaft fills, at least: a piston fills less of its cylinder, which has holes across
+it, too."""
+
+
+def clamped_hubs(known: Known) -> list[Inference]:
+    """Join hubs with the shafts that screws across them hold: set screws and pins that are drawn, in any hub; those of
+    round hubs also where only their holes are drawn, radial ones and those of clamps beside the shaft.
+
+    Only with shafts that are round: where shaft and motor are one solid, it is the hub that turns on it.
+    """
+    result = []
+    pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= FITTED * pair.other.radius]
+    housed = {pair.one.part for pair in known.axes if not pair.virtual}
+    for pair in pins:
+        shaft, hub = pair.parts
+        own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
+        across = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
+        if not across or not is_round(known, shaft, own):
+            continue
+        screws = [screw for bore in across if (screw := _screw(known, bore, pair)) is not None]
+        around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
+        alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
+        filled = shared_length(pair.one, pair.other) >= FILLED * 2 * pair.other.half
+        if screws or (alone and filled):
+            what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
+            text = f"{what} holds {hub!r} to {shaft!r}"
+            parts = tuple(sorted({*pair.parts, *screws[:1]}, key=known.order.__getitem__))
+            sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _is_across(hole: Bore, pair: CommonAxis) -> bool:
+    """Tell whether a hole of a hub stands across its shaft, where the shaft is: radial, or beside it."""
+    if abs(float(hole.axis @ pair.one.axis)) > ACROSS or hole.radius > MAX_ACROSS * pair.one.radius:
+        return False
+    height = float(hole.point @ pair.one.axis)
+    (low, high), (first, last) = pair.one.reach(pair.one.axis), pair.other.reach(pair.one.axis)
+    return max(low, first) < height < min(high, last)
+
+
+def _from_axis(hole: Bore, pair: CommonAxis) -> float:
+    """Measure the distance between the axis of a hole across a shaft and that of the shaft."""
+    return abs(float((hole.point - pair.one.point) @ np.cross(hole.axis, pair.one.axis)))
+
+
+def _screw(known: Known, hole: Bore, pair: CommonAxis) -> str | None:
+    """Find the screw or pin in a radial hole whose end is at the shaft, or in it."""
+    if _from_axis(hole, pair) > FITTED * pair.one.radius:
+        return None
+    for each in known.axes:
+        if each.other is hole and each.one.part not in pair.parts:
+            places = [float((each.one.point - pair.one.point) @ hole.axis) + side * each.one.half for side in (-1, 1)]
+            nearest = 0.0 if places[0] * places[1] < 0 else min(map(abs, places))
+            if nearest - pair.one.radius <= MAX_SHORTFALL * hole.radius:
+                return each.one.part
+    return None
+
+
+def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies flat on the
+    other part, and nothing but the thread pulls it there.
+
+    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp.
+    """
+    result = []
+    for on_nut in known.axes:
+        pin, nut = on_nut.one, on_nut.other.part
+        if on_nut.virtual or nut not in fastening or not all(bore.hole for bore in known.bores[nut]):
+            continue
+        threads = [pair for pair in known.axes if pair.one.part == pin.part and pair.one.on_axis_of(pin)]
+        for pair in threads:
+            host = pair.other.part
+            fits = pair.threaded or abs(pair.clearance) <= FITTED * pair.other.radius
+            if host == nut or not fits or not _lies_on(known, nut, host, pin):
+                continue
+            after = float((on_nut.other.point - pair.other.point) @ pin.axis)
+            others = [each.other for each in threads if each.other.part not in (nut, host)]
+            beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
+            own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
+            ahead = after * float(pin.axis @ pair.other.axis) > 0
+            one, other = (own, theirs) if ahead else (theirs, own)
+            if not beyond and gap(one, other, pair.other.radius) is None:
+                text = f"{pin.part!r} is screwed into {host!r} and locked by {nut!r}"
+                parts = tuple(sorted((pin.part, host, nut), key=known.order.__getitem__))
+                sizes = (("radius", pin.radius), ("clearance", pair.clearance))
+                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
+    """Tell whether two parts have plane faces across an axis in contact."""
+    pair = frozenset((one, other))
+    return any(_is_across_face(each, axis) for each in known.contacts if frozenset(each.parts) == pair)
+
+
+def _is_across_face(contact: Contact, axis: Bore) -> bool:
+    plane = contact.surfaces[0]
+    flat = contact.contact_state.is_flat and isinstance(plane, Plane)
+    return bool(flat and isinstance(plane, Plane) and np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS)
+
+
+def bolted_balls(known: Known) -> list[Inference]:
+    """Join the balls of rod ends with the bolts through them, and with what these bolts hold flat against the balls.
+
+    What turns does so about the middle of the ball, in the race of the rod end.
+    """
+    result = []
+    for contact in known.contacts:
+        if not all(isinstance(surface, Sphere) for surface in contact.surfaces):
+            continue
+        for ball, race in (contact.parts, contact.parts[::-1]):
+            for pair in known.axes:
+                if ball not in pair.parts or race in pair.parts or not _through(contact, pair, ball):
+                    continue
+                bolt = pair.one if pair.one.part != ball else pair.other
+                on = [each for each in known.axes if bolt.part in each.parts and each.one.on_axis_of(bolt)]
+                parts = {part for each in on for part in each.parts} - {race}
+                if len(held := _stacked(known, ball, parts, bolt)) > 1:
+                    text = f"{bolt.part!r} holds the ball {ball!r} of the rod end {race!r}"
+                    names = tuple(sorted({*held, bolt.part}, key=known.order.__getitem__))
+                    sizes = (("radius", bolt.radius),)
+                    result.append(Inference(names, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def _through(contact: Contact, pair: CommonAxis, ball: str) -> bool:
+    """Tell whether an axis that a ball with a hole has in common with another part goes through its middle."""
+    bore = pair.one if pair.one.part == ball else pair.other
+    sphere = contact.surfaces[contact.parts.index(ball)]
+    if not bore.hole or not isinstance(sphere, Sphere):
+        return False
+    offset = sphere.centre - bore.point
+    return bool(np.linalg.norm(offset - (offset @ bore.axis) * bore.axis) <= FITTED * sphere.radius)
+
+
+def _stacked(known: Known, ball: str, parts: Collection[str], axis: Bore) -> Sequence[str]:
+    """Find the parts that lie flat on a ball, and on those that do, across an axis."""
+    touching = [each.parts for each in known.contacts if {*each.parts} <= {*parts} and _is_across_face(each, axis)]
+    found = [ball]
+    for part in found:  # grows while it is read
+        found += [other for pair in touching if part in pair for other in pair if other not in found]
+    return found
