@@ -116,6 +116,7 @@ def test_the_two_modes_of_a_five_bar_are_never_connected():
         np.testing.assert_array_equal(poses, connected(grid, 72.0))
 
 
+@pytest.mark.long
 def test_what_has_no_regions_is_refused():
     rods = jk.Mechanism.build(
         fixed=["ground"],

@@ -96,6 +96,7 @@ def test_samples_spread_as_the_first_order_says(found):
     assert 0.4 < found.within < 0.9
 
 
+@pytest.mark.long
 def test_a_result_prints_draws_and_saves(found, tmp_path):
     text = str(found)
     for word in ("worst case", "coupler B C", "clearance", "yield", "sigma 0.02", "± 0.05"):
@@ -105,6 +106,7 @@ def test_a_result_prints_draws_and_saves(found, tmp_path):
     assert len(lines) == 6 and lines[3].startswith('"coupler B C",120,0.05,')
 
 
+@pytest.mark.long
 def test_the_tolerances_of_a_wanted_error(found):
     worst, squares = found.allowed(0.01), found.allowed(0.01, "root sum of squares")
     slopes = np.abs(found.sensitivities)

@@ -67,7 +67,7 @@ def bend(turned, tilted):
     return jnp.stack([theta, 2 * jnp.arcsin(jnp.sin(tilted / 2) * jnp.cos(turned))], axis=-1)
 
 
-@pytest.mark.parametrize("angle", [0.5, 1.4])
+@pytest.mark.parametrize("angle", [0.5, pytest.param(1.4, marks=pytest.mark.long)])
 def test_both_shafts_turn_alike(angle):
     mechanism = shafts(angle)
     motion = mechanism.sweep({"in": TURN}, throw=True)

@@ -184,10 +184,12 @@ def test_the_ends_of_an_open_curve_are_limits():
     np.testing.assert_allclose(joint.limits[0], (-80.0, 70.0), atol=1e-12)
     assert on_line(limits={"s": (-5, 5)}).limits[0] == (-5, 5)
     # it is passed where the pin of the wheel, of 50, is 170 - 80 - 50 = 40 beside its lowest place
-    motion = quick_return(joint).sweep({"crank": TURN}, throw=True)
+    motion = quick_return(joint).sweep({"crank": TURN})
     found = jk.curve_contacts(motion).contacts[0]
     arm = np.hypot(120 + 50 * np.cos(TURN), 50 * np.sin(TURN))
     np.testing.assert_allclose(found.beyond, np.maximum(90 - arm, 0.0), atol=1e-9)
+    assert np.all(motion.closed)
+    np.testing.assert_array_equal(np.asarray(motion.status) == jk.Status.LIMITED, arm < 90)
     assert "leaves the end of its curve" in str(motion) and "20 mm" in str(motion)
 
 

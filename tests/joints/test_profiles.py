@@ -51,6 +51,7 @@ def test_points_that_make_no_profile_are_refused(oval, points, message):
         oval.with_points({("contact", "profile2"): points})
 
 
+@pytest.mark.long
 def test_derivatives_with_respect_to_the_profile_are_differences(oval):
     points = np.asarray(oval.joints["contact"].curves[0].points)
     direction = np.random.default_rng(2).normal(size=points.shape)

@@ -56,6 +56,7 @@ def test_poses_beyond_a_limit_are_limited_and_all_else_is_as_without_limits():
     assert free.beyond_limits == {} and jk.Status.LIMITED not in np.asarray(free.status)
 
 
+@pytest.mark.long
 def test_effects_of_limited_poses_are_those_of_closed_ones():
     motion, free = (each.sweep({"A": TURN}) for each in (limited(), slider_crank()))
     push = [jk.force("slider", (0, 0, 0), (10.0, 0.0, 0.0))]

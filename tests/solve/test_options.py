@@ -20,6 +20,7 @@ def test_options_are_hashable_and_equal_by_value():
 NEWTON = jk.SolverOptions(formulas=False)
 
 
+@pytest.mark.long
 def test_a_shorthand_is_the_option():
     mechanism = planar_fourbar(1.0)
     short = mechanism.sweep({"A": TURN}, tolerance=1e-3, options=NEWTON)
