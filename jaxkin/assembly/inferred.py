@@ -59,9 +59,10 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         return _stopped(assembly, contacts, said, [*seats, *found], levels)
 
     mechanism, found = made(())
+    inexact = bool(found)
     seats: list[Inference] = []
     for _ in range(_ROUNDS):
-        seats += (new := _seats(mechanism))
+        seats += (new := _seats(mechanism, inexact))
         other, more = made(seats) if new else (mechanism, found)
         if not new or _not_idle(other) != _not_idle(mechanism):
             break
@@ -140,9 +141,10 @@ def useful_freedoms(mechanism: Mechanism) -> int:
     return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
 
 
-def _seats(mechanism: Mechanism) -> list[Inference]:
+def _seats(mechanism: Mechanism, inexact: bool) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
-    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn.
+    cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
+    `inexact`: where exact contacts do not determine all of it.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
@@ -156,7 +158,7 @@ def _seats(mechanism: Mechanism) -> list[Inference]:
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        screwed = joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
+        screwed = inexact and joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue
