@@ -7,11 +7,12 @@ from typing import NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.coordinates import Given
 from jaxkin.solve.execution.programs import Outcome
-from jaxkin.solve.status import SEVERITY, Status
+from jaxkin.solve.status import SEVERITY, Status, is_closed
 from jaxkin.solve.system.from_linkage import Columns
 
 Solution = tuple[Float[Array, "_ _"], Outcome]
@@ -67,11 +68,15 @@ def collect(
         worst = jnp.where(finite, worst, SEVERITY.index(Status.NONFINITE))
     square = jnp.zeros(poses, dtype)
     for columns, (coordinates, found) in zip(layout.columns, solutions, strict=True):
+        own_status = found.status[:poses]
+        follows = is_closed(own_status) | (own_status == Status.MISFIT.value)
         for joint in dict.fromkeys(joint for joint, _ in columns):
             own = [(joint, k) for k in range(layout.freedoms[joint])]
-            # inputs as they were given
+            # inputs as they were given; the derivative of a pose that is not closed is zero in all its coordinates
             rows = [
-                given[each] if each in given else coordinates[columns.index(each), :poses] if each in columns else 0.0
+                jnp.where(follows, given[each], lax.stop_gradient(given[each]))
+                if each in given
+                else (coordinates[columns.index(each), :poses] if each in columns else 0.0)
                 for each in own
             ]
             rows = [jnp.broadcast_to(row, (poses,)) for row in rows]
