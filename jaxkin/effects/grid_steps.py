@@ -67,7 +67,7 @@ def neighbours(
 
 
 class GridSteps:
-    """Steps between closed poses of the loop_groups that the inputs move."""
+    """Steps between closed poses of the loop groups that the inputs move."""
 
     def __init__(self, loop_groups: Sequence[DrivenLoopGroup], options: SolverOptions, max_residual: float) -> None:
         self.loop_groups, self.options, self.max_residual = loop_groups, options, max_residual

@@ -124,14 +124,14 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
             continue
         inputs = tuple(i for _, _, i in inside)
         loop_groups.append(
-            _element(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
+            _driven_loop_group(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
         )
     freedoms = tuple(joint.freedoms for joint in linkage.joints)
     infeasible = infeasible_drive(linkage, places) if judged and not traced(linkage) else None
     return DrivePlan(driven, freedoms, tuple(loop_groups), infeasible)
 
 
-def _element(
+def _driven_loop_group(
     linkage: Linkage, on_host: Linkage | None, number: int, driven: Columns, inputs: tuple[int, ...]
 ) -> DrivenLoopGroup:
     """Plan a loop group, its loops in the order in which they are solved; `on_host` where numbers are known."""
