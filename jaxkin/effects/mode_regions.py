@@ -87,14 +87,19 @@ class ModeRegions:
 
     def plot(self, path: str | Path) -> Path:
         """Draw for each region how many poses it has at each node, into a picture file; returns its path."""
-        return draw_regions(self, Path(path))
+        one, other = (float(self.modes.inputs[name]) for name in self.inputs)
+        titles = [f"mode{'' if len(modes) == 1 else 's'} {', '.join(self._numbers(modes))}" for modes in self.regions]
+        return draw_regions(self.inputs, self.poses, titles, (one, other), Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write both inputs and the number of poses of each region as comma-separated values, a row a node."""
         grid = np.meshgrid(*self.inputs.values(), indexing="ij")
-        names = ["+".join(self.modes.names[k].removeprefix("mode ") for k in modes) for modes in self.regions]
+        names = ["+".join(self._numbers(modes)) for modes in self.regions]
         rows = np.array([np.ravel(each) for each in (*grid, *self.poses)], float)
         return save_rows([*self.inputs, *(f"poses of modes {name}" for name in names)], rows, Path(path))
+
+    def _numbers(self, modes: Sequence[int]) -> list[str]:
+        return [self.modes.names[k].removeprefix("mode ") for k in modes]
 
     def _region(self, mode: int) -> int:
         if not -len(self.modes) <= mode < len(self.modes):
