@@ -4,7 +4,7 @@
     python benchmarks/baseline.py --compare     # hold against baseline.json; exit code 1 where something got slower
     python benchmarks/baseline.py --update      # measure, and write baseline.json
 
-Every figure is a time over another one that is measured in the same seconds of the same run: sweeps over the closed form
+Every figure is a time over another one of the same seconds of the same run: sweeps over the closed form
 of the four-bar at as many poses, a gradient over its sweep, a first call in a new process over `import jax`. Reference
 and case take turns in blocks of calls; a figure is the median of their quotients, its noise the distance between the
 quartiles. Something got slower if its quotient grew by more than both noises together and a tenth. A formula of 60 us
