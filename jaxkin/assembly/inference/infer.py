@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
+from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
@@ -56,6 +57,7 @@ def infer(
     known.add(bearing_bodies(known, rolling))
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
+    known.add(collets(known))
     set_in = sleeves(known)
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
