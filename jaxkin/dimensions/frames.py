@@ -84,8 +84,9 @@ def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points
             f"the points of {place!r} must be as many as before, of shape {np.shape(curve.points)}, got shape "
             f"{np.shape(points)}; another number of points is another joint, made anew"
         )
-    if not traced(points) and isinstance(curve, Patch):
-        points = np.asarray(placed_patch(joint.name, points, curve.closed).patch.points)
+    if isinstance(curve, Patch):
+        if not traced(points):
+            points = np.asarray(placed_patch(joint.name, points, curve.closed).patch.points)
     elif not traced(points):
         checked = placed_profile(joint.name, place[1], points, np.zeros(3), curve.closed)
         if joint.kind is not JointKind.POINT_ON_CURVE:

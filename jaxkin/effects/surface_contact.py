@@ -17,7 +17,7 @@ def contacts_on_surface(
 
     `q` are the coordinates of the joint, u and v first, NaN where the pose is not closed.
     """
-    finite = np.isfinite(q[:, :2]).all(axis=1)
+    finite = np.asarray(np.isfinite(q[:, :2]).all(axis=1))
     at = np.where(finite[:, None], q[:, :2], 0.0).T
     u, v = (sampled(knots, closed, SAMPLES) for knots, closed in zip(spline.knots, spline.closed, strict=True))
     begin_u, begin_v = map(float, spline.start)

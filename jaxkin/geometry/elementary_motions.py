@@ -47,7 +47,8 @@ def amount(
     """
     if element.law is not None:
         if element.law == "turn":
-            return None, (_of("cos", point), element.sense * _of("sin", point))
+            cos, sin = law_turn(point)
+            return None, (cos, element.sense * sin)
         return element.sense * law_length(element.law, point), None
     advance = None
     if element.kind != "rotate":
@@ -67,6 +68,11 @@ def rates(element: ElementaryMotion, pitch: Any, point: FollowedPoint | None) ->
 def law_length(law: Law, point: FollowedPoint | None) -> Any:
     """Look up the length that a law other than "turn" says."""
     return 0.0 if law.endswith("_v") else _of(law, point)
+
+
+def law_turn(point: FollowedPoint | None) -> tuple[Any, Any]:
+    """Look up the cosine and the sine of the angle of the tangent."""
+    return _of("cos", point), _of("sin", point)
 
 
 def law_rate(law: Law, point: FollowedPoint | None) -> Any:

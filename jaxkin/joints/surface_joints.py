@@ -79,7 +79,7 @@ def surface_points(
     if any(pair) and xp is np:
         size = float(np.linalg.norm(np.ptp(points.reshape(-1, 3), axis=0)))
         for axis, label in enumerate("uv"):
-            rows = np.moveaxis(points, axis, 0)
+            rows = np.moveaxis(np.asarray(points), axis, 0)
             apart = float(np.linalg.norm(rows[-1] - rows[0], axis=-1).max())
             if pair[axis] and not apart <= _ENDS_MEET * size:
                 raise ValueError(

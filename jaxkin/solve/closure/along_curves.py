@@ -8,7 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.elementary_motions import law_length, law_rate
+from jaxkin.geometry.elementary_motions import law_length, law_rate, law_turn
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.solve.system.chain_tables import LAWS, chain_tables
@@ -40,7 +40,8 @@ def along_curves(
             sign = jnp.asarray(table.sign[where], cos.dtype)[:, None]
             rates = rates.at[where].set(law_rate(law, at))
             if law == "turn":
-                cos, sin = cos.at[where].set(at.cos), sin.at[where].set(sign * at.sin)
+                cosine, sine = law_turn(at)
+                cos, sin = cos.at[where].set(cosine), sin.at[where].set(sign * sine)
             else:
                 travel = travel.at[where].set(sign * law_length(law, at))
     return cos, sin, travel, rates
