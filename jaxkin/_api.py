@@ -3,7 +3,7 @@
 from jaxkin import design as design
 from jaxkin.assembly.assembly import Assembly as Assembly
 from jaxkin.assembly.blocking_contacts import BlockingContacts as BlockingContacts
-from jaxkin.assembly.gears import GearProposal as GearProposal
+from jaxkin.assembly.gear_proposal import GearProposal as GearProposal
 from jaxkin.assembly.gears import gear_proposals as gear_proposals
 from jaxkin.assembly.proposals import Proposal as Proposal
 from jaxkin.contacts.contact import Contact as Contact
