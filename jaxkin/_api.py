@@ -3,7 +3,7 @@
 from jaxkin import design as design
 from jaxkin.assembly.assembly import Assembly as Assembly
 from jaxkin.assembly.blocking_contacts import BlockingContacts as BlockingContacts
-from jaxkin.assembly.gears import GearProposal as GearProposal
+from jaxkin.assembly.gear_proposal import GearProposal as GearProposal
 from jaxkin.assembly.gears import gear_proposals as gear_proposals
 from jaxkin.assembly.proposals import Proposal as Proposal
 from jaxkin.contacts.contact import Contact as Contact
@@ -25,8 +25,8 @@ from jaxkin.effects.contact_validity import ContactValidity as ContactValidity
 from jaxkin.effects.contact_validity import contact_validity as contact_validity
 from jaxkin.effects.coupler_curve import CouplerCurve as CouplerCurve
 from jaxkin.effects.coupler_curve import coupler_curve as coupler_curve
-from jaxkin.effects.curve_contacts import CurveContact as CurveContact
-from jaxkin.effects.curve_contacts import CurveContacts as CurveContacts
+from jaxkin.effects.curve_contact import CurveContact as CurveContact
+from jaxkin.effects.curve_contact import CurveContacts as CurveContacts
 from jaxkin.effects.curve_contacts import curve_contacts as curve_contacts
 from jaxkin.effects.forces.drive import DriveForces as DriveForces
 from jaxkin.effects.forces.drive import drive_forces as drive_forces
@@ -81,6 +81,10 @@ from jaxkin.geometry.curves import Curve as Curve
 from jaxkin.geometry.curves import CurvePoint as CurvePoint
 from jaxkin.geometry.curves import Spline as Spline
 from jaxkin.geometry.part import Part as Part
+from jaxkin.geometry.patches import BicubicSpline as BicubicSpline
+from jaxkin.geometry.patches import Patch as Patch
+from jaxkin.geometry.patches import PatchDerivatives as PatchDerivatives
+from jaxkin.geometry.patches import PatchPoint as PatchPoint
 from jaxkin.io.asmt_writer import write_asmt as write_asmt
 from jaxkin.io.load import load as load
 from jaxkin.io.mjcf_writer import write_mjcf as write_mjcf
@@ -101,6 +105,7 @@ from jaxkin.joints.evidence import EvidenceKind as EvidenceKind
 from jaxkin.joints.joint import Joint as Joint
 from jaxkin.joints.on_frames import joint_on_frames as joint_on_frames
 from jaxkin.joints.pairs import *  # noqa: F403
+from jaxkin.joints.surface_joints import surface_points as surface_points
 from jaxkin.linkage.closure_equations import ClosureEquations as ClosureEquations
 from jaxkin.linkage.linkage import Linkage as Linkage
 from jaxkin.mechanism.inverse.inverse import Inverse as Inverse

@@ -9,68 +9,29 @@ nothing is coupled before somebody says so:
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from itertools import combinations, product
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from jaxkin.assembly.gear_proposal import GearProposal, Meshing
+from jaxkin.assembly.racks import rack_proposal
+from jaxkin.assembly.toothed_parts import MODULE, PARALLEL, Turn, is_around, slides_of, turns_of
 from jaxkin.geometry.part import Part, size
 from jaxkin.geometry.pose import Points
 from jaxkin.geometry.teeth import Teeth, find_teeth
 from jaxkin.joints.coupling import Coupling, gear, relation
-from jaxkin.joints.joint import Joint
-from jaxkin.joints.kinds import JointKind
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-PARALLEL = 1e-3
-"""Radians between axes that count as parallel, or as meeting at no angle."""
 COAXIAL = 1e-4
 """Distance between axes that count as one, and by which axes of bevel wheels miss each other, over the assembly's size:
 twice what drawn clearances leave."""
-MODULE = 0.12
-"""How far the module of a wheel, from its own radius and teeth, may be from that of the pair, from the distance of the
-axes: profiles are shifted by up to half a module, which is 6 % of a wheel of 17 teeth."""
 MIN_TRIANGLES = 60
 """Triangles of a part with teeth, at least: two flanks and a tip on each of six teeth."""
 MIN_FACES = 12
 """The same of faces, two flanks on each of six teeth, where no face is a free form, which may go round all teeth."""
-
-Meshing = Literal["external", "internal", "bevel"]
-
-
-@dataclass(frozen=True)
-class GearProposal:
-    """Two toothed parts that may mesh."""
-
-    parts: tuple[str, str]
-    teeth: tuple[int, int]
-    meshing: Meshing
-    module: float
-    """Pitch diameter over number of teeth, in the unit of the mechanism; of bevel wheels about that at their middle."""
-    coupling: Coupling
-    """What couples the joints of the two parts if they mesh."""
-
-    def __str__(self) -> str:
-        (one, other), (n_1, n_2) = self.parts, self.teeth
-        return (
-            f"{one!r} ({n_1} teeth) and {other!r} ({n_2} teeth) may mesh, {self.meshing}, module {self.module:.3g}: "
-            f"{self.coupling}"
-        )
-
-
-class _Turn(NamedTuple):
-    """A turn of a body against another one."""
-
-    coordinate: str
-    """Name "joint.coordinate"."""
-    carrier: str
-    """The other body."""
-    point: Points
-    axis: Points
-    """Unit vector about which the body turns by the coordinate, against the carrier."""
 
 
 class _Pair(NamedTuple):
@@ -88,11 +49,13 @@ def gear_proposals(mechanism: Mechanism) -> tuple[GearProposal, ...]:
 
     Two parts are a gear where both have teeth about the axis of a joint, their pitch circles touch, and a body carries
     both axes: outer teeth, a ring with inner teeth, or bevel wheels whose axes meet. A wheel whose carrier turns about
-    the other one's axis, such as a planet, is coupled by the equation of Willis. Worm gears and racks are not looked
-    for. `print` of a proposal shows both numbers of teeth and the equation.
+    the other one's axis, such as a planet, is coupled by the equation of Willis. A part with teeth in a row along its
+    slide, at the pitch circle of a wheel on the same carrier, is a rack. Of a sector its teeth are counted, and those
+    that a full turn would have follow from their distance. Worm gears are not looked for. `print` of a proposal shows
+    both numbers of teeth and the equation.
     """
     body = {part: first for first, parts in mechanism.bodies.items() for part in parts}
-    turns = _turns(mechanism, body)
+    turns = turns_of(mechanism, body)
     largest = size(mechanism.solids) if mechanism.solids else 0.0
     toothed = [part for part in mechanism.solids if turns.get(body.get(part.name, "")) and _has_flanks(part)]
     found = []
@@ -101,6 +64,13 @@ def gear_proposals(mechanism: Mechanism) -> tuple[GearProposal, ...]:
             continue
         if proposal := _proposed(one, other, turns[body[one.name]], turns[body[other.name]], turns, largest):
             found.append(proposal)
+    slides = slides_of(mechanism, body)
+    sliding = [part for part in mechanism.solids if slides.get(body.get(part.name, "")) and _has_flanks(part)]
+    for wheel, row in product(toothed, sliding):
+        if body[wheel.name] != body[row.name] and _boxes_meet(wheel, row):
+            pairs = product(turns[body[wheel.name]], slides[body[row.name]])
+            proposals = (rack_proposal(wheel, row, turn, slide) for turn, slide in pairs)
+            found += [each for each in proposals if each][:1]
     return tuple(found)
 
 
@@ -110,25 +80,6 @@ def _has_flanks(part: Part) -> bool:
     return len(part.triangles) >= MIN_TRIANGLES and not (exact and len(part.faces) < MIN_FACES)
 
 
-def _turns(mechanism: Mechanism, body: Mapping[str, str]) -> dict[str, list[_Turn]]:
-    """List the turns of each body about the axes of its revolute and cylindrical joints."""
-    found: dict[str, list[_Turn]] = {}
-    for joint in mechanism.all_joints:
-        if joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL):
-            first, second = (body[part] for part in joint.parts)
-            point, axis = _line(joint)
-            name = f"{joint.name}.phi"
-            found.setdefault(second, []).append(_Turn(name, first, point, axis))
-            found.setdefault(first, []).append(_Turn(name, second, point, -axis))
-    return found
-
-
-def _line(joint: Joint) -> tuple[Points, Points]:
-    """Find the axis of a joint: a point of it, and its direction."""
-    pose = np.asarray(joint.frames_1, float)[0]
-    return pose[:3, 3], pose[:3, 2]
-
-
 def _boxes_meet(one: Part, other: Part) -> bool:
     return bool(np.all(one.box[0] <= other.box[1]) and np.all(other.box[0] <= one.box[1]))
 
@@ -136,9 +87,9 @@ def _boxes_meet(one: Part, other: Part) -> bool:
 def _proposed(
     one: Part,
     other: Part,
-    turns_1: list[_Turn],
-    turns_2: list[_Turn],
-    turns: Mapping[str, list[_Turn]],
+    turns_1: list[Turn],
+    turns_2: list[Turn],
+    turns: Mapping[str, list[Turn]],
     largest: float,
 ) -> GearProposal | None:
     """Propose a gear of two parts, about the first axes that fit; None where none do."""
@@ -147,7 +98,8 @@ def _proposed(
         if ties and (pair := _pair(one, other, turn_1, turn_2, COAXIAL * largest)):
             n_1, n_2 = (each.number for each in pair.teeth)
             coupling = _coupling(turn_1, turn_2, ties[0], n_1, pair.senses * n_2)
-            return GearProposal((one.name, other.name), (n_1, n_2), pair.meshing, pair.module, coupling)
+            counted = (pair.teeth[0].counted, pair.teeth[1].counted)
+            return GearProposal((one.name, other.name), (n_1, n_2), pair.meshing, pair.module, coupling, counted)
     return None
 
 
@@ -156,7 +108,7 @@ Tie = dict[str, float]
 of wheel 2; empty where both wheels are on one carrier."""
 
 
-def _ties(turn_1: _Turn, turn_2: _Turn, turns: Mapping[str, list[_Turn]], near: float) -> Iterator[tuple[Tie, Tie]]:
+def _ties(turn_1: Turn, turn_2: Turn, turns: Mapping[str, list[Turn]], near: float) -> Iterator[tuple[Tie, Tie]]:
     """Find how the carriers of two wheels are connected, such that one of them carries both axes."""
     if turn_1.carrier == turn_2.carrier:
         yield {}, {}
@@ -168,7 +120,7 @@ def _ties(turn_1: _Turn, turn_2: _Turn, turns: Mapping[str, list[_Turn]], near: 
             yield {}, {between.coordinate: -sense}
 
 
-def _same_line(one: _Turn, other: _Turn, near: float) -> float:
+def _same_line(one: Turn, other: Turn, near: float) -> float:
     """Return 1 or -1, the sense of one axis in terms of the other, where both are one line; 0 where they are not."""
     if np.linalg.norm(np.cross(one.axis, other.axis)) > PARALLEL:
         return 0.0
@@ -177,7 +129,7 @@ def _same_line(one: _Turn, other: _Turn, near: float) -> float:
     return float(np.sign(one.axis @ other.axis))
 
 
-def _coupling(turn_1: _Turn, turn_2: _Turn, tie: tuple[Tie, Tie], n_1: float | int, n_2: float | int) -> Coupling:
+def _coupling(turn_1: Turn, turn_2: Turn, tie: tuple[Tie, Tie], n_1: float | int, n_2: float | int) -> Coupling:
     """Write that both wheels pass as many teeth, `n_1 w_1 = n_2 w_2` with turns against the body that carries both."""
     if tie == ({}, {}):
         return gear(turn_1.coordinate, turn_2.coordinate, n_1 / n_2)
@@ -188,7 +140,7 @@ def _coupling(turn_1: _Turn, turn_2: _Turn, tie: tuple[Tie, Tie], n_1: float | i
     return relation(factors, name=f"gear {turn_1.coordinate} {turn_2.coordinate}")
 
 
-def _pair(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> _Pair | None:
+def _pair(one: Part, other: Part, turn_1: Turn, turn_2: Turn, near: float) -> _Pair | None:
     """Find outlines of two parts about two axes whose pitch circles touch; None where there are none."""
     low, high = np.maximum(one.box[0], other.box[0]), np.minimum(one.box[1], other.box[1])
     corners = np.stack(np.meshgrid(*zip(low, high, strict=True), indexing="ij"), axis=-1).reshape(-1, 3)
@@ -199,7 +151,7 @@ def _pair(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> 
     if parallel and not _can_touch(one, other, turn_1, turn_2, near):
         return None
     wheels = ((one, turn_1), (other, turn_2))
-    if not all(_is_around(part, turn) for part, turn in wheels):
+    if not all(is_around(part, turn) for part, turn in wheels):
         return None
     outlines = []
     for part, turn in wheels:
@@ -218,7 +170,7 @@ def _pair(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> 
     return None
 
 
-def _can_touch(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float) -> bool:
+def _can_touch(one: Part, other: Part, turn_1: Turn, turn_2: Turn, near: float) -> bool:
     """Tell whether two wheels on parallel axes reach each other: before teeth are counted, which takes longer.
 
     Wheels on one axis do not mesh, and of two others at least one reaches half the way to the other axis.
@@ -231,17 +183,7 @@ def _can_touch(one: Part, other: Part, turn_1: _Turn, turn_2: _Turn, near: float
     return bool(near < apart <= reach)
 
 
-def _is_around(part: Part, turn: _Turn) -> bool:
-    """Tell whether an axis passes through the bounding box of a part, as that of a wheel does."""
-    low, high = part.box[0] - turn.point, part.box[1] - turn.point
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ends = np.sort(np.stack([low, high]) / turn.axis, axis=0)
-    within = np.where(turn.axis == 0, (low <= 0) & (high >= 0), True)
-    ends = np.where(turn.axis == 0, [[-np.inf], [np.inf]], ends)
-    return bool(np.all(within) and ends[0].max() <= ends[1].min())
-
-
-def _on_parallel_axes(teeth_1: Teeth, teeth_2: Teeth, turn_1: _Turn, turn_2: _Turn) -> _Pair | None:
+def _on_parallel_axes(teeth_1: Teeth, teeth_2: Teeth, turn_1: Turn, turn_2: Turn) -> _Pair | None:
     apart = turn_2.point - turn_1.point
     apart = apart - (apart @ turn_1.axis) * turn_1.axis
     n_1, n_2 = teeth_1.number, teeth_2.number
@@ -265,7 +207,7 @@ def _of_module(teeth: Teeth, module: float) -> bool:
     return abs(2 * teeth.pitch_radius / teeth.number - module) < MODULE * module
 
 
-def _bevel(teeth_1: Teeth, teeth_2: Teeth, turn_1: _Turn, turn_2: _Turn, apex: Points) -> _Pair | None:
+def _bevel(teeth_1: Teeth, teeth_2: Teeth, turn_1: Turn, turn_2: Turn, apex: Points) -> _Pair | None:
     """Bevel wheels roll on pitch cones whose common line, from the apex, has distances from the axes as the teeth."""
     if {teeth_1.side, teeth_2.side} != {"outer"}:
         return None
@@ -285,7 +227,7 @@ def _bevel(teeth_1: Teeth, teeth_2: Teeth, turn_1: _Turn, turn_2: _Turn, apex: P
     return _Pair((teeth_1, teeth_2), "bevel", 2 * teeth_1.pitch_radius / teeth_1.number, senses)
 
 
-def _meeting(turn_1: _Turn, turn_2: _Turn, near: float) -> Points | None:
+def _meeting(turn_1: Turn, turn_2: Turn, near: float) -> Points | None:
     """Find the point where two axes meet; None where they miss each other."""
     normal = np.cross(turn_1.axis, turn_2.axis)
     apart = turn_2.point - turn_1.point

@@ -73,8 +73,7 @@ def print_gears(mechanism: Mechanism, verbose: bool) -> None:
     say(f"\n{gears} may mesh, of which nothing is coupled yet; {_TAKE_GEARS}")
     shown = found if verbose else found[:_GEARS]
     for each in shown:
-        one, other = each.teeth
-        say(f"  {each}; ratio {other / one:.4g}")
+        say(f"  {each}" + ("" if each.ratio is None else f"; ratio {each.ratio:.4g}"))
     if len(shown) < len(found):
         say(f"  and {len(found) - len(shown)} more (all: jaxkin inspect --verbose)")
 

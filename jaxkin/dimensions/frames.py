@@ -1,4 +1,4 @@
-"""Replace frames and points of joints, on both of their parts or on one part only, and the points of profiles."""
+"""Replace frames and points of joints, on both of their parts or on one part only; those of profiles and surfaces."""
 
 from __future__ import annotations
 
@@ -11,16 +11,18 @@ import numpy as np
 
 from jaxkin._names import by_name, nearest
 from jaxkin._traced import traced
+from jaxkin.geometry.patches import Patch
 from jaxkin.geometry.pose import RIGID_TOLERANCE, is_rigid
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.patch_contact import placed_patch
 from jaxkin.joints.profiles import check_simple, placed_profile
 from jaxkin.linkage.linkage import Linkage
 
 Place = str | tuple[str, str]
 
-_PROFILES = (("profile",), ("profile2",))
-"""How the keys of the profiles of a joint end."""
+_PROFILES = {("profile",): 0, ("profile2",): 1, ("surface",): 0}
+"""How the keys of the profiles and of the surface of a joint end, and which of those that it has is meant."""
 
 
 def with_frames(linkage: Linkage, frames: Mapping[Any, Any]) -> Linkage:
@@ -52,16 +54,16 @@ def with_points(linkage: Linkage, points: Mapping[Any, Any]) -> Linkage:
 
 
 def find_profile(linkage: Linkage, place: object) -> tuple[int, int] | None:
-    """Find the column of a joint and the number of its movement for a key (joint, "profile") or (joint, "profile2").
+    """Find the column of a joint and the number of its movement for a key (joint, "profile"), "profile2" or "surface".
 
-    None for keys that name no profile; ValueError for a joint without one.
+    None for keys that name neither a profile nor a surface; ValueError for a joint without one.
     """
     names = linkage.structure.joints
     if not isinstance(place, tuple) or place[1:] not in _PROFILES or place[0] not in names or place[1] in names:
         return None
     joint = linkage.joints[names.index(place[0])]
-    wanted = _PROFILES.index(place[1:])
-    having = [number for number, curve in enumerate(joint.curves) if curve is not None]
+    wanted, over = _PROFILES[place[1:]], place[1:] == ("surface",)
+    having = [n for n, curve in enumerate(joint.curves) if curve is not None and isinstance(curve, Patch) == over]
     if wanted >= len(having):
         has = f"{len(having)} of them" if having else "none"
         raise ValueError(f"there is no {place[1]} of joint {joint.name!r} ({joint.kind}), which has {has}")
@@ -69,7 +71,10 @@ def find_profile(linkage: Linkage, place: object) -> tuple[int, int] | None:
 
 
 def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points: Any) -> Linkage:
-    """Replace the points of a profile by as many others in the same axes; ValueError for points that make none."""
+    """Replace the points of a profile, or of a surface, by as many others in the same axes.
+
+    ValueError for points that make none.
+    """
     joint = linkage.joints[column]
     curve = joint.curves[number]
     if curve is None:
@@ -79,7 +84,10 @@ def _with_profile(linkage: Linkage, place: Any, column: int, number: int, points
             f"the points of {place!r} must be as many as before, of shape {np.shape(curve.points)}, got shape "
             f"{np.shape(points)}; another number of points is another joint, made anew"
         )
-    if not traced(points):
+    if isinstance(curve, Patch):
+        if not traced(points):
+            points = np.asarray(placed_patch(joint.name, points, curve.closed).patch.points)
+    elif not traced(points):
         checked = placed_profile(joint.name, place[1], points, np.zeros(3), curve.closed)
         if joint.kind is not JointKind.POINT_ON_CURVE:
             check_simple(joint.name, place[1], checked)

@@ -1,4 +1,4 @@
-"""Where joints along curves could not be what they are: undercut, profiles in the way, ends of curves passed.
+"""Where joints along curves and over surfaces could not be what they are: undercut, in the way, past an end.
 
 A joint along a curve keeps one point of contact, as the paper's contacts are kept (assumption 4), and all its poses
 are CLOSED. A real follower cannot pass through the profile beside that point, and a curve ends.
@@ -6,17 +6,17 @@ are CLOSED. A real follower cannot pass through the profile beside that point, a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from jaxkin._traced import traced
-from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
+from jaxkin.effects.surface_contact import contacts_on_surface
 from jaxkin.geometry.curves import CurvePoint, Spline
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.patches import BicubicSpline
 from jaxkin.joints.joint import Joint
 
 if TYPE_CHECKING:
@@ -24,108 +24,17 @@ if TYPE_CHECKING:
 
 SAMPLES = 8
 """Samples of each piece of a profile: what is in the way of a follower is longer than an eighth of a piece."""
-IN_THE_WAY = 1e-6
-"""Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
-made."""
-
-Poses = Float[np.ndarray, " poses"]
-
-
-@dataclass(frozen=True, eq=False)
-class CurveContact:
-    """The contact of one joint along a curve at each pose, NaN where the pose is not closed; lengths in its unit."""
-
-    joint: str
-    what: str
-    """What follows the curve: "a point", "a roller", "a flat face", "a curve"."""
-    parameter: Poses
-    """How far the contact is along the curve from the first of its points."""
-    curvature: Poses
-    """Curvature of the profile at the contact, over one length: positive where it bends away from what follows it."""
-    clearance: Poses
-    """1 + radius times curvature of a roller, the sum of both curvatures, times the size of the profile, of a curve:
-    negative where the profile is undercut, where it bends towards what follows it more than that is bent itself. Of
-    a flat face curvature times size; 1 for a point."""
-    depth: Poses
-    """How deep what follows would have to pass through the profile, anywhere; 0 where it need not."""
-    beyond: Poses
-    """How far the contact is beyond an end of an open curve; 0 on the curve, and of closed ones."""
-
-    @property
-    def lost(self) -> Bool[np.ndarray, " poses"]:
-        """The poses that what follows cannot be in."""
-        return (self.clearance < 0) | (self.depth > 0) | (self.beyond > 0)
-
-
-@dataclass(frozen=True, eq=False)
-class CurveContacts:
-    """The contacts of all joints along curves over a motion. Prints, draws and saves itself."""
-
-    contacts: tuple[CurveContact, ...]
-    unit: str
-    """Unit of all lengths."""
-
-    @property
-    def holds(self) -> bool:
-        """Whether all contacts are possible at all closed poses."""
-        return not any(each.lost.any() for each in self.contacts)
-
-    def __str__(self) -> str:
-        lines = [line for each in self.contacts for line in self._of(each)]
-        return "\n".join(lines or [f"{len(self.contacts)} contacts on curves: all are possible at all closed poses"])
-
-    def _of(self, each: CurveContact) -> list[str]:
-        """Tell what is wrong with one contact: how bad, at which pose, and where on its curve."""
-        lines = []
-        undercut = each.clearance < 0
-        told = (
-            (undercut, -each.clearance, "is undercut"),
-            (each.depth > 0, each.depth, f"would have {each.what} pass through the profile"),
-            (each.beyond > 0, each.beyond, "leaves the end of its curve"),
-        )
-        for where, size, said in told:
-            if not where.any():
-                continue
-            worst = int(np.nanargmax(np.where(where, size, -np.inf)))
-            poses = np.flatnonzero(where)
-            how_far = f"up to {self._length(size[worst])}"
-            if where is undercut:
-                radius = 1 / abs(each.curvature[worst])
-                how_far = f"radius of curvature {self._length(radius)} in a hollow or an edge too sharp for {each.what}"
-            lines.append(
-                f"curve contact: joint {each.joint!r} {said} at {len(poses)} of {len(where)} poses, {poses[0]} to "
-                f"{poses[-1]}: {how_far}, worst at pose {worst} with the contact {self._length(each.parameter[worst])} "
-                "from the first point"
-            )
-        return lines
-
-    def _length(self, value: float) -> str:
-        return f"{value:.4g} {self.unit}".rstrip()
-
-    def plot(self, path: str | Path) -> Path:
-        """Draw how deep followers pass through profiles, and beyond ends, over the poses; returns the path."""
-        names, rows = self._rows(("depth", "beyond"))
-        title = "contacts on curves" if self.holds else "contacts on curves that are not possible"
-        label = f"depth, distance beyond ends ({self.unit})" if self.unit else "depth, distance beyond ends"
-        return draw_lines(names, rows, label, title, Path(path))
-
-    def save(self, path: str | Path) -> Path:
-        """Write all numbers as comma-separated values, a row a pose; returns the path."""
-        return save_rows(*self._rows(("parameter", "curvature", "clearance", "depth", "beyond")), Path(path))
-
-    def _rows(self, fields: tuple[str, ...]) -> tuple[list[str], Float[np.ndarray, "rows poses"]]:
-        names = [f"{each.joint} {field}" for each in self.contacts for field in fields]
-        return names, np.array([getattr(each, field) for each in self.contacts for field in fields])
 
 
 def curve_contacts(motion: Motion) -> CurveContacts:
     """Check at each closed pose of a motion whether what follows curves could be there.
 
     A roller must not meet its profile anywhere but at the contact, nor be larger than a hollow of the profile (undercut
-    of the pitch curve); a flat face must have all of the profile on one side; of two curves that touch neither may pass
-    through the other (looked for where the one of part 1 is closed). A point passes everywhere. Nobody may leave the
-    ends of an open curve. Only the joint itself is looked at, and of parts only their profiles; the rest tells
-    `jk.clashes`. Raises ValueError for a mechanism without joints along curves, and inside `jit`, `vmap` and `grad`.
+    of the pitch curve), nor a ball its surface (looked for at samples of the surface); a flat face must have all of the
+    profile on one side; of two curves that touch neither may pass through the other (looked for where the one of part 1
+    is closed). A point passes everywhere. Nobody may leave the ends of an open curve or surface. Only the joint itself
+    is looked at, and of parts only their profiles; the rest tells `jk.clashes`. Raises ValueError for a mechanism
+    without joints along curves or over surfaces, and inside `jit`, `vmap` and `grad`.
     """
     if traced(motion):
         raise ValueError("curve_contacts is for numbers: call it outside of jit, vmap and grad")
@@ -135,16 +44,17 @@ def curve_contacts(motion: Motion) -> CurveContacts:
         if joint.curves:
             found += _of_joint(joint, np.where(closed[:, None], np.asarray(q, float), np.nan))
     if not found:
-        raise ValueError("the mechanism has no joints along curves, such as jk.cam")
+        raise ValueError("the mechanism has no joints along curves or over surfaces, such as jk.cam")
     return CurveContacts(tuple(found), motion.mechanism.unit)
 
 
 def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
-    second = joint.splines[-1]
-    spline = joint.splines[0]
-    if spline is None:
+    spline, second = joint.splines[0], joint.splines[-1]
+    if isinstance(spline, BicubicSpline):
+        return contacts_on_surface(joint.name, spline, q)
+    if not isinstance(spline, Spline):
         return []
-    if second is not None:
+    if isinstance(second, Spline):
         return _of_two(joint, spline, second, q)
     finite = np.isfinite(q[:, 0])
     at = spline.at(np.where(finite, q[:, 0], 0.0))
@@ -170,7 +80,7 @@ def _of_joint(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> list[Curv
         clearance = 1.0 - height * bend
     else:
         what, side, clearance = "a point", -1.0, np.ones(len(q))
-    return [_contact(joint, what, spline, q[:, 0], -side * bend, clearance, depth, size)]
+    return [_contact(joint.name, what, spline, q[:, 0], -side * bend, clearance, depth, size)]
 
 
 def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "poses freedoms"]) -> list[CurveContact]:
@@ -199,26 +109,16 @@ def _of_two(joint: Joint, one: Spline, other: Spline, q: Float[np.ndarray, "pose
         area = float(np.sum(curve[:, 0] * np.roll(curve[:, 1], -1) - curve[:, 1] * np.roll(curve[:, 0], -1)))
         side = np.sign(area) * (1.0 if inside else -1.0)  # +1 where the second part is to the left of the first curve
     clearance = side * (bends[1] - bends[0]) * size if side else np.ones(len(q))
-    shared = _contact(joint, "a curve", one, q[:, 0], -(side or 1.0) * bends[0], clearance, depth, size)
-    own = _contact(joint, "a curve", other, q[:, 1], (side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
+    shared = _contact(joint.name, "a curve", one, q[:, 0], -(side or 1.0) * bends[0], clearance, depth, size)
+    own = _contact(joint.name, "a curve", other, q[:, 1], (side or 1.0) * bends[1], np.ones(len(q)), 0 * depth, size)
     return [shared, own]
 
 
 def _contact(
-    joint: Joint, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
+    joint: str, what: str, spline: Spline, q: Poses, curvature: Poses, clearance: Poses, depth: Poses, size: float
 ) -> CurveContact:
-    finite = np.isfinite(q)
-    s = float(spline.start) + np.where(finite, q, 0.0)
-    whole = float(spline.knots[-1])
-    beyond = np.zeros(len(q)) if spline.closed else np.maximum(np.maximum(-s, s - whole), 0.0)
-    numbers = (
-        np.mod(s, whole) if spline.closed else s,
-        curvature,
-        np.where(np.abs(clearance) <= IN_THE_WAY, 0.0, clearance),
-        np.where(depth > IN_THE_WAY * size, depth, 0.0),
-        np.where(beyond > IN_THE_WAY * size, beyond, 0.0),
-    )
-    return CurveContact(joint.name, what, *(np.where(finite, values, np.nan) for values in numbers))
+    place = float(spline.start) + q, float(spline.knots[-1]), spline.closed
+    return made_contact(joint, what, "curve", place, (curvature, clearance, depth), size)
 
 
 def _sampled(spline: Spline) -> Float[np.ndarray, "samples 2"]:

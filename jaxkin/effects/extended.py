@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.curves import CurvePoint, Spline, curve_point
+from jaxkin.geometry.curves import Spline, curve_point
 from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.patches import FollowedPoint, FollowedSpline, bicubic, patch_point
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.topology.structure import LoopGroup
@@ -126,7 +127,7 @@ class Extended:
             movement = MOVEMENTS[name]
             pose = pose * self._matrix(joint.frames_1[frame])
             spline = joint.splines[frame]
-            point = None if spline is None else self._point(spline, q[first])
+            point = None if spline is None else self._point(spline, q[first : first + len(movement.coordinates)])
             for element in movement.elements:
                 pose = self._displaced(pose, element, q[first + element.coordinate], float(joint.pitch), point)
             pose = pose * self._inverse(self._matrix(joint.frames_2[frame]))
@@ -134,7 +135,7 @@ class Extended:
         return pose
 
     def _displaced(
-        self, pose: Any, element: ElementaryMotion, value: Any, pitch: float, point: CurvePoint | None
+        self, pose: Any, element: ElementaryMotion, value: Any, pitch: float, point: FollowedPoint | None
     ) -> Any:
         turns = self.mp.mpf(pitch) * 2 * np.pi / (2 * self.mp.pi)  # `amount` divides by 2 pi of float64
         how_far = amount(element, value, turns, point, lambda angle: (self.mp.cos(angle), self.mp.sin(angle)))
@@ -142,14 +143,24 @@ class Extended:
             pose[:, number] = column
         return pose
 
-    def _point(self, spline: Spline, q: Any) -> CurvePoint:
-        """Evaluate a curve, whose coefficients are taken as exact."""
-        s = self.mp.mpf(float(spline.start)) + q
-        if spline.closed:
-            s -= self.mp.mpf(float(spline.knots[-1])) * self.mp.floor(s / self.mp.mpf(float(spline.knots[-1])))
-        piece = int(np.clip(np.searchsorted(spline.knots, float(s), side="right") - 1, 0, spline.table.shape[1] - 1))
-        coefficients = [[self.mp.mpf(float(c)) for c in power] for power in spline.table[:, piece]]
-        return curve_point(coefficients, s - self.mp.mpf(float(spline.knots[piece])), self.mp.sqrt)
+    def _point(self, spline: FollowedSpline, q: list) -> FollowedPoint:
+        """Evaluate a curve or a surface, whose coefficients are taken as exact."""
+        if isinstance(spline, Spline):
+            piece, behind = self._piece(spline.knots, spline.start, spline.closed, q[0])
+            coefficients = [[self.mp.mpf(float(c)) for c in power] for power in spline.table[:, piece]]
+            return curve_point(coefficients, behind, self.mp.sqrt)
+        (i, s), (j, t) = (self._piece(*each) for each in zip(spline.knots, spline.start, spline.closed, q, strict=True))
+        powers = [[[self.mp.mpf(float(c)) for c in each] for each in power] for power in spline.table[:, :, i, j]]
+        height = None if spline.height is None else self.mp.mpf(float(spline.height))
+        return patch_point(bicubic(powers, s, t), height, self.mp.sqrt)
+
+    def _piece(self, knots: Any, start: Any, closed: bool, q: Any) -> tuple[int, Any]:
+        """Find the piece of a spline at a coordinate, and how far that is behind the beginning of the piece."""
+        s = self.mp.mpf(float(start)) + q
+        if closed:
+            s -= self.mp.mpf(float(knots[-1])) * self.mp.floor(s / self.mp.mpf(float(knots[-1])))
+        piece = int(np.clip(np.searchsorted(knots, float(s), side="right") - 1, 0, len(knots) - 2))
+        return piece, s - self.mp.mpf(float(knots[piece]))
 
     def _matrix(self, pose) -> Any:
         return self.mp.matrix(np.asarray(pose, float).tolist())

@@ -59,15 +59,12 @@ class Curve:
         widths = xp.sqrt(xp.sum(chords**2, axis=1))
         knots = xp.concatenate([xp.zeros_like(widths[:1]), xp.cumsum(widths)])
         rise = chords / widths[:, None]
-        slopes = (_periodic_slopes if self.closed else _open_slopes)(xp, widths, rise)
+        slopes = slopes_at_knots(xp, widths, rise, self.closed)
         begin, end = slopes[:-1], slopes[1:]
         width = widths[:, None]
         table = [local[:-1], begin, (3 * rise - 2 * begin - end) / width, (begin + end - 2 * rise) / width**2]
         number = xp.asarray(self.start, float)
-        start = xp.interp(number, xp.arange(len(local), dtype=knots.dtype), knots)
-        if not self.closed:  # beyond an end in lengths of the last chord
-            beyond = xp.maximum(number - (len(local) - 1), 0.0)
-            start = start + xp.minimum(number, 0.0) * widths[0] + beyond * widths[-1]
+        start = length_at(xp, number, knots, self.closed)
         return Spline(knots, xp.stack(table), xp.asarray(start), self.closed)
 
     def counted_from(self, q: float) -> Curve:
@@ -78,13 +75,7 @@ class Curve:
         cos, sin = float(at.cos[0]), float(at.sin[0])
         dx, dy = x - float(at.x[0]), y - float(at.y[0])
         place = np.array([cos * dx + sin * dy, cos * dy - sin * dx, angle - np.arctan2(sin, cos)])
-        s = spline.start + q
-        if self.closed:
-            s = s % spline.knots[-1]
-        start = np.interp(s, spline.knots, np.arange(len(spline.knots)))
-        if not self.closed:
-            first, last = spline.knots[1], spline.knots[-1] - spline.knots[-2]
-            start += min(s, 0.0) / first + max(s - spline.knots[-1], 0.0) / last
+        start = number_at(float(spline.start + q), spline.knots, self.closed)
         return replace(self, start=np.asarray(start), place=place)
 
 
@@ -135,6 +126,11 @@ class Spline:
     closed: bool
 
     @property
+    def periods(self) -> tuple[Any, ...]:
+        """For its only coordinate the length after which the curve repeats; None where it is open."""
+        return (self.knots[-1] if self.closed else None,)
+
+    @property
     def begins_at_contact(self) -> bool:
         """Whether the curve is at the origin for the parameter 0, along x, to rounding: numbers only."""
         at = self.at(0.0)
@@ -169,6 +165,30 @@ def curve_point(coefficients: Any, t: Any, sqrt: Any) -> CurvePoint:
 jax.tree_util.register_dataclass(Spline, data_fields=["knots", "table", "start"], meta_fields=["closed"])
 
 
+def length_at(xp: Any, number: Any, knots: Any, closed: bool) -> Any:
+    """Compute the length of the chords up to a number of points, beyond an end in lengths of the last chord."""
+    last = len(knots) - 1
+    found = xp.interp(number, xp.arange(last + 1, dtype=knots.dtype), knots)
+    if closed:
+        return found
+    return found + xp.minimum(number, 0.0) * knots[1] + xp.maximum(number - last, 0.0) * (knots[-1] - knots[-2])
+
+
+def number_at(s: float, knots: Any, closed: bool) -> float:
+    """Compute the number of points at a length of the chords, the inverse of `length_at`: host numbers."""
+    if closed:
+        s = s % float(knots[-1])
+    number = float(np.interp(s, knots, np.arange(len(knots))))
+    if closed:
+        return number
+    return number + min(s, 0.0) / float(knots[1]) + max(s - float(knots[-1]), 0.0) / float(knots[-1] - knots[-2])
+
+
+def slopes_at_knots(xp: Any, widths: Any, rise: Any, closed: bool) -> Any:
+    """Compute the derivatives of cubic splines at all knots, (knots, splines), from the rise on each chord."""
+    return (_periodic_slopes if closed else _open_slopes)(xp, widths, rise)
+
+
 def _periodic_slopes(xp: Any, widths: Any, rise: Any) -> Any:
     """Compute the derivatives at all knots of a closed spline, those of the last knot being those of the first.
 
@@ -185,7 +205,7 @@ def _periodic_slopes(xp: Any, widths: Any, rise: Any) -> Any:
     v_last = -behind[0] / corner
     diagonal = diagonal + xp.where(first, corner, xp.where(last, before[-1] * behind[0] / corner, 0.0))
     solved = _tridiagonal(xp, behind, diagonal, before, xp.concatenate([right, u[:, None]], axis=1))
-    y, z = solved[:, :2], solved[:, 2:]
+    y, z = solved[:, :-1], solved[:, -1:]
     slopes = y - z * (y[:1] + v_last * y[-1:]) / (1.0 + z[0] + v_last * z[-1])
     return xp.concatenate([slopes, slopes[:1]])
 

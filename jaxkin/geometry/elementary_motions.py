@@ -1,7 +1,8 @@
 """Elementary motions of a local frame, of which movements are products: slides, turns and screws along one axis.
 
-A motion is as far as its coordinate says, or as a law of the curve of its joint says: x, y or the angle of the tangent
-at the parameter that is the coordinate.
+A motion is as far as its coordinate says, or as a law says of the curve or the surface that its joint follows: x, y, z
+or the angle of the tangent there. Of the slides over a surface those that belong to the coordinate v have a rate and no
+length: those of u have gone all of it.
 """
 
 from __future__ import annotations
@@ -12,7 +13,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from jaxkin.geometry.curves import CurvePoint
+from jaxkin.geometry.patches import FollowedPoint
+
+Law = Literal["x", "y", "z", "x_v", "y_v", "z_v", "turn"]
+"""A function of what a joint follows: a coordinate of the point there, or the angle of the tangent. `_v` are those of
+the second coordinate of a surface."""
 
 
 @dataclass(frozen=True)
@@ -26,45 +31,59 @@ class ElementaryMotion:
     coordinate: int
     """Index of the coordinate in `Movement.coordinates` that is the angle or length of the motion. Several motions may
     have the same coordinate."""
-    law: Literal["x", "y", "turn"] | None = None
-    """Which function of the curve at the parameter q the motion follows; None where q itself is its angle or length."""
+    law: Law | None = None
+    """Which function of the curve or the surface the motion follows; None where q itself is its angle or length."""
     sense: Literal[1, -1] = 1
     """-1 where the motion is the inverse of what `law` says."""
 
 
 def amount(
-    element: ElementaryMotion, q: Any, pitch: Any, point: CurvePoint | None, cos_sin: Callable[[Any], Any]
+    element: ElementaryMotion, q: Any, pitch: Any, point: FollowedPoint | None, cos_sin: Callable[[Any], Any]
 ) -> tuple[Any, tuple[Any, Any] | None]:
     """Compute how far a motion goes: its length along the axis, and (cosine, sine) of its angle; None for none.
 
-    `pitch` is the advance of a screw per turn, `point` the point of the curve at the parameter, for motions with a law.
+    `pitch` is the advance of a screw per turn, `point` is where the joint is on what it follows, for
+    motions with a law.
     """
     if element.law is not None:
-        point = _known(point)
         if element.law == "turn":
-            return None, (point.cos, element.sense * point.sin)
-        return element.sense * (point.x if element.law == "x" else point.y), None
+            cos, sin = law_turn(point)
+            return None, (cos, element.sense * sin)
+        return element.sense * law_length(element.law, point), None
     advance = None
     if element.kind != "rotate":
         advance = q if element.kind == "translate" else q * pitch / (2 * np.pi)
     return advance, None if element.kind == "translate" else tuple(cos_sin(q))
 
 
-def rates(element: ElementaryMotion, pitch: Any, point: CurvePoint | None) -> tuple[Any, Any]:
+def rates(element: ElementaryMotion, pitch: Any, point: FollowedPoint | None) -> tuple[Any, Any]:
     """Compute the derivatives of the length and of the angle of a motion with respect to its coordinate."""
     if element.law is not None:
-        point = _known(point)
-        if element.law == "turn":
-            return 0.0, element.sense * point.turning
-        return element.sense * (point.dx if element.law == "x" else point.dy), 0.0
+        rate = element.sense * law_rate(element.law, point)
+        return (0.0, rate) if element.law == "turn" else (rate, 0.0)
     advance = 0.0 if element.kind == "rotate" else 1.0 if element.kind == "translate" else pitch / (2 * np.pi)
     return advance, 0.0 if element.kind == "translate" else 1.0
 
 
-def _known(point: CurvePoint | None) -> CurvePoint:
+def law_length(law: Law, point: FollowedPoint | None) -> Any:
+    """Look up the length that a law other than "turn" says."""
+    return 0.0 if law.endswith("_v") else _of(law, point)
+
+
+def law_turn(point: FollowedPoint | None) -> tuple[Any, Any]:
+    """Look up the cosine and the sine of the angle of the tangent."""
+    return _of("cos", point), _of("sin", point)
+
+
+def law_rate(law: Law, point: FollowedPoint | None) -> Any:
+    """Look up the derivative of the length, or the angle, of a law with respect to its coordinate."""
+    return _of("turning" if law == "turn" else f"d{law}", point)
+
+
+def _of(name: str, point: FollowedPoint | None) -> Any:
     if point is None:
-        raise ValueError("a motion along a curve needs the curve")
-    return point
+        raise ValueError("a motion along a curve, or over a surface, needs the curve, or the surface")
+    return getattr(point, name)
 
 
 def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None) -> list[Any]:

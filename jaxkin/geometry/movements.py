@@ -5,8 +5,8 @@ A movement displaces a local frame. Its coordinates x, y, z are translations alo
 rotation about z, as the paper prints it. Each movement is one row of `MOVEMENTS`, the only table that is keyed by
 movements. A row holds the movement as a product of elementary motions, from which displacements, screws and
 closure equations follow, and all else that depends on the movement. `T_screw`, the helical pair,
-`T_theta_phi_theta`, the constant velocity joint, `T_s` and `T_s_back`, which travel along a curve, and `I`, the
-identity, are not in the paper.
+`T_theta_phi_theta`, the constant velocity joint, `T_s` and `T_s_back`, which travel along a curve, `T_uv`, which
+travels over a surface, and `I`, the identity, are not in the paper.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from typing import Literal, NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.curves import Curve
-from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns
+from jaxkin.geometry.elementary_motions import ElementaryMotion, Law, amount, displaced_columns
 from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, Figure
+from jaxkin.geometry.patches import Followed
 from jaxkin.geometry.rigid import Rigid
 from jaxkin.geometry.trig import cos_sin
 
@@ -90,12 +90,13 @@ class Movement:
 
     @property
     def repeats(self) -> bool:
-        """Whether a coordinate drives more than one of the elementary motions, each by itself and not by a curve."""
-        return len(self.elements) > len(self.coordinates) and not self.has_curve
+        """Whether a coordinate drives more than one of the elementary motions, each by itself and not by a law."""
+        return len(self.elements) > len(self.coordinates) and not self.follows
 
     @property
-    def has_curve(self) -> bool:
-        """Whether the movement travels along a curve of the joint; its only coordinate is the parameter."""
+    def follows(self) -> bool:
+        """Whether the movement travels along a curve or over a surface of the joint, whose parameters are all of its
+        coordinates."""
         return any(element.law is not None for element in self.elements)
 
     @property
@@ -126,6 +127,15 @@ _ALONG_CURVE = (
     ElementaryMotion("rotate", 2, 0, law="turn"),
 )
 """The elementary motions of a frame that travels along a curve, with its x axis along the tangent."""
+
+_SURFACE_LAWS: tuple[tuple[Law, ...], ...] = (("x", "y", "z"), ("x_v", "y_v", "z_v"))
+"""For u and for v the laws of the slides along x, y and z."""
+_OVER_SURFACE = tuple(
+    ElementaryMotion("translate", axis, coordinate, law=law)
+    for coordinate, laws in enumerate(_SURFACE_LAWS)
+    for axis, law in enumerate(laws)
+)
+"""The elementary motions of a frame that travels over a surface and keeps its directions."""
 
 MOVEMENTS: dict[str, Movement] = {
     "I": Movement(pair="fixed"),
@@ -214,6 +224,12 @@ MOVEMENTS: dict[str, Movement] = {
         feature=InvariantFeature("axis", marked=True),
         aligned=frozenset({"direction"}),
     ),
+    "T_uv": Movement(
+        coordinates=("u", "v"),
+        elements=_OVER_SURFACE,
+        letter="F",
+        feature=InvariantFeature("point"),  # the contact as assembled
+    ),
     "T_theta_phi_psi": Movement(
         coordinates=("theta", "phi", "psi"),
         elements=(_rotate(2, 2), _rotate(1, 1), _rotate(0, 0)),
@@ -236,8 +252,8 @@ def symmetry_of(surface: str) -> str:
 
 
 def is_length(coordinate: str) -> bool:
-    """Check by its name, such as "z" or "phi2", whether a coordinate is a length (x, y, z, s) and no angle."""
-    return coordinate.rstrip("0123456789") in ("x", "y", "z", "s")
+    """Check by its name, such as "z" or "phi2", whether a coordinate is a length (x, y, z, s, u, v) and no angle."""
+    return coordinate.rstrip("0123456789") in ("x", "y", "z", "s", "u", "v")
 
 
 def displaced(
@@ -245,16 +261,16 @@ def displaced(
     movement: str,
     q: Float[Array, "k *#poses"],
     pitch: Float[Array, ""] | float = 0.0,
-    curve: Curve | None = None,
+    curve: Followed | None = None,
 ) -> Rigid:
     """Multiply frames F by a movement T from the right, F T, one elementary motion after the other.
 
     `q` has one row for each of `MOVEMENTS[movement].coordinates`: radians, or lengths in the unit of the mechanism.
-    `pitch` is the advance per turn of `T_screw`, and `curve` the curve that a movement follows, in the same unit. The
-    frames, or `q`, may have a last axis of length one, for all poses. An elementary motion changes at most two columns
-    of F, which costs less than a matrix product.
+    `pitch` is the advance per turn of `T_screw`, and `curve` the curve, or the surface, that a movement follows, in the
+    same unit. The frames, or `q`, may have a last axis of length one, for all poses. An elementary
+    motion changes at most two columns of F, which costs less than a matrix product.
     """
-    point = None if curve is None else curve.spline(jnp).at(q[0], jnp)
+    point = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
     for element in MOVEMENTS[movement].elements:
         how_far = amount(element, q[element.coordinate], pitch, point, cos_sin)
         columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far)

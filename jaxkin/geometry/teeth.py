@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import Points
+from jaxkin.geometry.tooth_rows import DEPTH, ToothRow, row_of_teeth
 
 Side = Literal["outer", "inner"]
 Triangles = Float[np.ndarray, "triangles 3 3"]
@@ -19,9 +20,10 @@ MIN_TEETH, MAX_TEETH = 6, 400
 PURITY = 0.75
 """Least share of the power of an outline that is in the harmonics of its teeth. Drawn wheels have 0.97 to 1; keyways,
 bores, and triangles that do not repeat with the teeth take the rest."""
-DEPTH = (1.2, 3.2)
-"""Depth of teeth, in modules (pitch diameter over number of teeth). Standard teeth are 2.25 deep and stub teeth 1.8;
-the corners of a hexagon 0.4, the lobes of a knob less than 1."""
+_CANDIDATES = 40
+"""Numbers of teeth from which a sector is searched, evenly by their ratios: 11 % apart."""
+_WHOLE = 0.2
+"""How far the teeth of a full turn, from the distance of those of a sector, may be from a whole number."""
 MAX_SECTIONS = 9
 """Sections that are made of a part at most: teeth are seen in all sections between two faces of a rim."""
 
@@ -30,12 +32,15 @@ class Teeth(NamedTuple):
     """A toothed outline about an axis."""
 
     number: int
+    """Teeth on a full turn."""
     side: Side
     """Whether the teeth stand out from a rim, or into a ring."""
     pitch_radius: float
     """Radius halfway between the tips and the roots: about that of the pitch circle."""
     height: float
     """Where on the axis the section is, measured from the origin."""
+    counted: int
+    """Teeth that are there: fewer on a sector."""
 
 
 def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple[float, float]) -> list[Teeth]:
@@ -47,22 +52,26 @@ def find_teeth(triangles: Triangles, point: Points, axis: Points, between: tuple
     found = []
     levels = triangles @ axis
     lowest, highest = levels.min(axis=1), levels.max(axis=1)
-    for height in _heights(levels, between):
+    for height in section_heights(levels, between):
         cut = (lowest < height) & (height < highest)
-        x, y = _section(triangles[cut], point, axis, levels[cut] - height)
-        outer, inner = _outline(x, y, "outer"), _outline(x, y, "inner")
+        x, y = section(triangles[cut], point, axis, levels[cut] - height)
+        far: dict[Side, np.ndarray] = {side: _farthest(x, y, side) for side in ("outer", "inner")}
+        outer, inner = (_outline(far[side], side) for side in far)
         if outer is None or inner is None:
+            found += [teeth for side in far if (teeth := _on_sector(far[side], side, height))]
             continue
         # a wheel without a bore has one outline, with the material inside; in bins on steep flanks its ends differ
         single = np.median(outer - inner) < 0.1 * np.ptp(outer)
         outlines: dict[Side, np.ndarray] = {"outer": outer}
         if not single:
             outlines["inner"] = inner
-        found += [teeth for side, radii in outlines.items() if (teeth := _counted(radii, side, height))]
+        for side, radii in outlines.items():
+            if teeth := _counted(radii, side, height) or _on_sector(far[side], side, height):
+                found.append(teeth)
     return found
 
 
-def _heights(levels: Float[np.ndarray, "triangles 3"], between: tuple[float, float]) -> list[float]:
+def section_heights(levels: Float[np.ndarray, "triangles 3"], between: tuple[float, float]) -> list[float]:
     """Choose heights between those of corners, where a section cuts triangles and does not touch them."""
     low, high = between
     if not high > low:
@@ -78,12 +87,17 @@ def _heights(levels: Float[np.ndarray, "triangles 3"], between: tuple[float, flo
     return np.unique(middles[np.abs(middles[:, None] - wanted).argmin(axis=0)]).tolist()
 
 
-def _section(
-    corners: Triangles, point: Points, axis: Points, above: Float[np.ndarray, "triangles 3"]
+def section(
+    corners: Triangles,
+    point: Points,
+    axis: Points,
+    above: Float[np.ndarray, "triangles 3"],
+    along: Points | None = None,
 ) -> tuple[Float[np.ndarray, "segments 2"], Float[np.ndarray, "segments 2"]]:
     """Cut triangles by a plane across the axis: coordinates x, y of both ends of each segment, from the axis.
 
-    `above` are heights of corners over the plane, which goes through all the triangles.
+    `above` are heights of corners over the plane, which goes through all the triangles; x is along `along`, by default
+    some direction across the axis.
     """
     # the corner that is alone on its side of the plane comes first
     positive = above > 0
@@ -92,7 +106,7 @@ def _section(
     corners, above = corners[np.arange(len(corners))[:, None], order], np.take_along_axis(above, order, axis=1)
     share = above[:, :1] / (above[:, :1] - above[:, 1:])
     ends = corners[:, :1] + share[..., None] * (corners[:, 1:] - corners[:, :1])
-    along = np.eye(3)[np.argmin(np.abs(axis))]
+    along = np.eye(3)[np.argmin(np.abs(axis))] if along is None else along
     e1 = along - (along @ axis) * axis
     e1 /= np.linalg.norm(e1)
     e2 = np.cross(axis, e1)
@@ -110,31 +124,64 @@ def _counted(radii: Float[np.ndarray, " bins"], side: Side, height: float) -> Te
     pure = power[number::number].sum() > PURITY * power.sum()
     if not pure or not DEPTH[0] < (tip - root) * number / (2 * middle) < DEPTH[1]:
         return None
-    return Teeth(number, side, float(middle), height)
+    return Teeth(number, side, float(middle), height, number)
 
 
-def _outline(
+def _farthest(
     x: Float[np.ndarray, "segments 2"], y: Float[np.ndarray, "segments 2"], side: Side
-) -> Float[np.ndarray, " bins"] | None:
-    """Sample the largest (outer) or the smallest (inner) distance of a section from the axis, over a full turn.
+) -> Float[np.ndarray, " bins"]:
+    """Sample the largest distance (outer) of a section from the axis, or the smallest one (inner) times -1, by angle.
 
-    None where the axis is outside of the section, or the section is open.
+    -inf where there is no section.
     """
+    far = np.full(BINS, -np.inf)
     if not len(x):
-        return None
+        return far
     # points on the segments, as close as the bins are
     turn = np.abs(np.angle((x[:, 1] + 1j * y[:, 1]) * (x[:, 0] - 1j * y[:, 0])))
     count = np.minimum(np.ceil(turn * BINS / (2 * np.pi)).astype(int) + 1, BINS)
+    px, py = along_segments(x, y, count)
+    bins = ((np.arctan2(py, px) / (2 * np.pi) + 1.0) * BINS).astype(int) % BINS
+    np.maximum.at(far, bins, (1.0 if side == "outer" else -1.0) * np.hypot(px, py))
+    return far
+
+
+def along_segments(
+    x: Float[np.ndarray, "segments 2"], y: Float[np.ndarray, "segments 2"], count: np.ndarray
+) -> tuple[Float[np.ndarray, " points"], Float[np.ndarray, " points"]]:
+    """Sample segments evenly, each at as many points as `count` says."""
     segment = np.repeat(np.arange(len(x)), count)
     place = np.arange(len(segment)) - np.repeat(np.cumsum(count) - count, count)
     share = (place + 0.5) / count[segment]
-    px = x[segment, 0] + share * (x[segment, 1] - x[segment, 0])
-    py = y[segment, 0] + share * (y[segment, 1] - y[segment, 0])
-    bins = ((np.arctan2(py, px) / (2 * np.pi) + 1.0) * BINS).astype(int) % BINS
-    sign = 1.0 if side == "outer" else -1.0
-    far = np.full(BINS, -np.inf)
-    np.maximum.at(far, bins, sign * np.hypot(px, py))
+    return tuple(each[segment, 0] + share * (each[segment, 1] - each[segment, 0]) for each in (x, y))
+
+
+def _outline(far: Float[np.ndarray, " bins"], side: Side) -> Float[np.ndarray, " bins"] | None:
+    """Complete the distances of `_farthest` over a full turn; None where the axis is outside, or the section open."""
     known = np.flatnonzero(np.isfinite(far))
     if len(known) < BINS // 2 or np.diff(np.append(known, known[0] + BINS)).max() > BINS // (2 * MIN_TEETH):
         return None
-    return sign * np.interp(np.arange(BINS), known, far[known], period=BINS)
+    return (1.0 if side == "outer" else -1.0) * np.interp(np.arange(BINS), known, far[known], period=BINS)
+
+
+def _on_sector(far: Float[np.ndarray, " bins"], side: Side, height: float) -> Teeth | None:
+    """Count the teeth of a sector, and how many a full turn would have, from their distance; None where it has none.
+
+    A sector has a whole number of teeth on a full turn, since it is a piece of a wheel.
+    """
+    sign = 1.0 if side == "outer" else -1.0
+    turned = np.roll(far, -int(np.argmin(far)))  # begin where no teeth are
+    tip = sign * float(far.max())
+
+    def module_of(spacing: float, level: float) -> float:
+        return sign * level * spacing / np.pi
+
+    modules = 2 * tip / (np.geomspace(MIN_TEETH, MAX_TEETH, _CANDIDATES) + 2 * sign)
+    row: ToothRow | None = row_of_teeth(turned, 2 * np.pi / BINS, modules, module_of) if np.isfinite(tip) else None
+    if row is None:
+        return None
+    whole = 2 * np.pi / row.spacing
+    number = round(whole)
+    if not MIN_TEETH <= number <= MAX_TEETH or abs(whole - number) > _WHOLE:
+        return None
+    return Teeth(number, side, sign * row.level, height, row.count)

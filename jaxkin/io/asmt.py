@@ -15,9 +15,11 @@ import numpy as np
 
 from jaxkin._files import check_file
 from jaxkin._names import nearest
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose, is_rigid
 from jaxkin.io.marker_joints import CHAINS, KINDS, Marker, MarkerJoints
 from jaxkin.io.marker_ties import GEAR, RACK, SCREW, TIES, Bodies, add_tie
+from jaxkin.io.robot_inertials import inertial
 from jaxkin.io.robot_model import WORLD, RobotLink, RobotModel, numbers, placed
 
 FIRST_LINES = ("OndselSolver", "freeCAD: 3D CAD with Motion Simulation  by  askoh.com")
@@ -40,6 +42,9 @@ SIZES = {
 
 SIZES_OF = {GEAR: ("radius_i", "radius_j"), RACK: ("radius",), SCREW: ("pitch",)}
 """Joints that tie others -> the sizes that they must have."""
+
+UNKNOWN_MASS = 1.0
+"""Mass, and each moment of inertia, of a part of which these are not known: the solver asks for some."""
 
 MOTIONS = {"RotationalMotion": "phi", "TranslationalMotion": "z"}
 """Motions -> the coordinate of a joint that they drive."""
@@ -127,7 +132,7 @@ class _Reader:
             if name in made.links:
                 raise ValueError(f"{self.file}, line {each.number}: another part is called {name!r}")
             pose = ground @ self._pose(each)
-            made.links[name] = RobotLink(name, pose)
+            made.links[name] = RobotLink(name, pose, inertial=self._inertial(each, name))
             self._markers(each, name, pose, f"/{self.name}/{name}")
         if len(made.links) == 1:
             raise ValueError(f"{self.file}: there are no Parts in it")
@@ -169,6 +174,18 @@ class _Reader:
             raise ValueError(f"{where}: expected a RotationMatrix of three rows, got {turn.tolist()}")
         left, _, right = np.linalg.svd(turn)
         return placed(turn if is_rigid(placed(turn, point)) else left @ right, point)
+
+    def _inertial(self, node: Node, name: str) -> Inertial | None:
+        """Read the mass of a part, its centre and its principal moments; None for the placeholder of unknown ones."""
+        found = node.find("PrincipalMassMarker")
+        if found is None or not found.said("Mass"):
+            return None
+        where = f"{self.file}: Part {name!r}: PrincipalMassMarker"
+        mass = float(numbers(found.said("Mass"), 1, f"{where}: Mass")[0])
+        moments = numbers(found.said("MomentOfInertias"), 3, f"{where}: MomentOfInertias")
+        if mass == UNKNOWN_MASS and np.all(moments == UNKNOWN_MASS):
+            return None
+        return inertial(mass, self._pose(found), (*moments, 0.0, 0.0, 0.0), where)
 
     def _markers(self, node: Node, link: str, pose: Pose, path: str) -> None:
         for point in node.every("RefPoints"):

@@ -7,7 +7,7 @@ a graph there, so that loops need nothing of their own.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,8 +15,10 @@ import numpy as np
 
 from jaxkin._files import whole
 from jaxkin._names import listed
+from jaxkin.geometry.inertial import Inertial
 from jaxkin.geometry.pose import Pose
-from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS
+from jaxkin.geometry.units import METRES
+from jaxkin.io.asmt import FIRST_LINES, LIMITS, MOTIONS, UNKNOWN_MASS
 from jaxkin.io.asmt_ties import tie
 from jaxkin.io.marker_joints import COORDINATES, KINDS
 from jaxkin.io.marker_ties import SCREW
@@ -24,11 +26,13 @@ from jaxkin.io.names import unique
 from jaxkin.io.robot_model import WORLD, along, placed
 from jaxkin.io.single_motions import BALL, HINGE, SLIDE, coordinate_names, single_motions
 from jaxkin.io.writable import check_writable
+from jaxkin.io.written_masses import principal_axes, written_inertials
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.linkage.coordinates import coordinate
 
 if TYPE_CHECKING:
+    from jaxkin.effects.forces.masses import Masses
     from jaxkin.mechanism.mechanism import Mechanism
 
 JOINT_OF = {kind: name for name, kind in KINDS.items()}
@@ -62,21 +66,25 @@ LAST = (
 """What the solver expects behind the joints: how it is to simulate, which no mechanism says."""
 
 
-def write_asmt(mechanism: Mechanism, path: str | os.PathLike[str]) -> Path:
+def write_asmt(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Masses | None = None) -> Path:
     """Write a mechanism as an assembly of FreeCAD's solver (.asmt), in its own unit, and return its path.
 
     The file holds parts, joints, limits, gears, racks and screws, and motors as motions that hold still; it names no
     unit, and has no place for solids. Joints that the format does not have are chains of joints of one coordinate each,
     named "joint_phi". The file appears whole or not at all.
 
+    Parts weigh what the file says that the mechanism was read from, or what `masses`, found by `jk.masses`, say: in
+    kilograms, with centres and moments in the unit of the mechanism. The solver asks for the mass of every part: one
+    that is not known is written as 1 with the moments 1, 1, 1, as FreeCAD does, and read back as unknown.
+
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
     pose, for couplings that are no gear, rack or screw of two joints on one other part, and for a joint with a
-    coordinate that turns or slides twice, as a constant velocity joint.
+    coordinate that turns or slides twice, as a constant velocity joint; and for `masses` of another mechanism.
     """
     target = Path(path)
     if target.suffix.lower() != ".asmt":
         raise ValueError(f"an assembly of FreeCAD's solver is an .asmt file, got {str(target)!r}")
-    text = _Writer(mechanism, target.stem).text()
+    text = _Writer(mechanism, target.stem, written_inertials(mechanism, masses)).text()
     with whole(target) as draft:
         draft.write_text(text, encoding="utf-8")
     return target
@@ -95,9 +103,13 @@ class _Written(NamedTuple):
 class _Writer:
     """What one file holds."""
 
-    def __init__(self, mechanism: Mechanism, name: str) -> None:
+    def __init__(self, mechanism: Mechanism, name: str, inertials: Mapping[str, Inertial]) -> None:
         check_writable(mechanism.all_joints, "assembly")
         self.name = name
+        metres = METRES[mechanism.unit]
+        self.inertials = {
+            part: Inertial(own.mass, own.centre / metres, own.inertia / metres**2) for part, own in inertials.items()
+        }
         self.parts = [part for part in mechanism.parts if part != WORLD]
         self.motors = {coordinate(mechanism.linkage, motor): motor for motor in mechanism.motors}
         self.joints: list[_Written] = []
@@ -192,8 +204,8 @@ class _Writer:
                 said += _node(4, f"Marker{side}", self._path(part, marker))
             joints += f"\t\t\t{each.kind}\n{said}{''.join(_node(4, *pair) for pair in each.more)}"
         parts = "".join(
-            f"\t\tPart\n{_node(3, 'Name', part)}{_place(3, np.eye(4))}{_at_rest(3)}\t\t\tFeatureOrder\n{_mass(3)}"
-            f"{_markers(3, markers[part])}"
+            f"\t\tPart\n{_node(3, 'Name', part)}{_place(3, np.eye(4))}{_at_rest(3)}\t\t\tFeatureOrder\n"
+            f"{self._mass(3, part)}{_markers(3, markers[part])}"
             for part in self.parts
         )
         return (
@@ -202,6 +214,20 @@ class _Writer:
             f"\tConstraintSets\n\t\tJoints\n{joints}\t\tMotions\n{self._motions(path)}{self._limits(path)}"
             f"\t\tGeneralConstraintSets\n{LAST}"
         )
+
+    def _mass(self, depth: int, part: str) -> str:
+        """Write the mass of a part, which the solver asks for: a placeholder where it is not known."""
+        own, inner = self.inertials.get(part), depth + 1
+        mass, moments, place = UNKNOWN_MASS, (UNKNOWN_MASS,) * 3, np.eye(4)
+        if own is not None:
+            from scipy.spatial.transform import Rotation
+
+            moments, quaternion = principal_axes(own.inertia)
+            place = placed(Rotation.from_quat(quaternion, scalar_first=True).as_matrix(), own.centre)
+            mass = own.mass
+        said = _node(inner, "Name", "MassMarker") + _place(inner, place) + _node(inner, "Mass", _number(mass))
+        said += _node(inner, "MomentOfInertias", "\t".join(map(_number, moments))) + _node(inner, "Density", "1")
+        return "\t" * depth + "PrincipalMassMarker\n" + said
 
     def _path(self, part: str, marker: str) -> str:
         return f"/{self.name}/{marker}" if part == WORLD else f"/{self.name}/{part}/{marker}"
@@ -244,14 +270,6 @@ def _place(depth: int, pose: Pose) -> str:
 
 def _at_rest(depth: int) -> str:
     return "".join(_node(depth, key, "0\t0\t0") for key in ("Velocity3D", "Omega3D"))
-
-
-def _mass(depth: int) -> str:
-    """Write the mass of a part, which the solver asks for: 1, since a mechanism has none."""
-    inner = depth + 1
-    said = _node(inner, "Name", "MassMarker") + _place(inner, np.eye(4)) + _node(inner, "Mass", "1")
-    said += _node(inner, "MomentOfInertias", "1\t1\t1") + _node(inner, "Density", "1")
-    return "\t" * depth + "PrincipalMassMarker\n" + said
 
 
 def _markers(depth: int, markers: Sequence[tuple[str, Pose]]) -> str:

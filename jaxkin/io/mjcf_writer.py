@@ -53,8 +53,8 @@ def write_mjcf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     others MuJoCo computes the masses from their meshes, as shells.
 
     Raises ValueError for traced numbers, for a mechanism whose lengths were changed, whose parts are not in a closed
-    pose, for a joint along a curve, for a coupling that MuJoCo cannot say (a polynomial in several coordinates, or of a
-    power above four), and for `masses` of another mechanism.
+    pose, for a joint along a curve or over a surface, for a coupling that MuJoCo cannot say (a polynomial in several
+    coordinates, or of a power above four), and for `masses` of another mechanism.
     """
     target = Path(path)
     if target.suffix.lower() != ".xml":

@@ -41,12 +41,12 @@ def single_motions(joint: Joint, names: Sequence[str], metres: float, sign: int 
 
     `names` are those of its coordinates (`coordinate_names`), `metres` the length of the unit of the mechanism. A
     motion that repeats the displacement of another one, as the advance of a screw does, follows it. Raises ValueError
-    for a joint along a curve, which is no product of turns and slides.
+    for a joint along a curve or over a surface, which is no product of turns and slides.
     """
     if joint.curves:
         raise ValueError(
-            f"the format has no joints along curves, as {joint.name!r} ({joint.kind}) is one: leave it out, and drive "
-            "what follows the curve by what jaxkin computes"
+            f"the format has no joints along curves and over surfaces, as {joint.name!r} ({joint.kind}) is one: leave "
+            "it out, and drive what follows by what jaxkin computes"
         )
     made: list[SingleMotion] = []
     first = 0

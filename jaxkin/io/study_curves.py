@@ -1,4 +1,7 @@
-"""Joints along curves as studies write them: the arguments of the functions in `jaxkin.joints.curve_joints`."""
+"""Joints along curves and over surfaces as studies write them.
+
+These are the arguments of the functions in `jaxkin.joints.curve_joints` and `jaxkin.joints.surface_joints`.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from jaxkin.geometry.curves import Curve
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.patches import Followed, Patch
 from jaxkin.geometry.pose import Pose
 from jaxkin.joints.curve_joints import FOLLOWERS
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
 
-def _curve(joint: Joint, number: int) -> Curve:
+def _curve(joint: Joint, number: int) -> Followed:
     curve = joint.curves[number]
     if curve is None:
         raise ValueError(f"movement {number} of joint {joint.name!r} has no curve")
@@ -22,21 +25,37 @@ def _curve(joint: Joint, number: int) -> Curve:
 
 
 def axes_of(joint: Joint, number: int = 0) -> Pose:
-    """Compute the axes in which the points of a curve of a joint are given, in the world as assembled."""
-    x, y, angle = np.asarray(_curve(joint, number).place, float)
+    """Compute the axes in which the points of a curve or a surface are given, in the world as assembled."""
+    curve = _curve(joint, number)
+    if isinstance(curve, Patch):
+        origin = np.eye(4)
+        origin[:3, 3] = curve.place
+        return np.asarray(joint.frames_1[number], float) @ origin
+    x, y, angle = np.asarray(curve.place, float)
     cos, sin = np.cos(angle), np.sin(angle)
     place = np.array([[cos, -sin, 0.0, x], [sin, cos, 0.0, y], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
     return np.asarray(joint.frames_1[number], float) @ place
+
+
+def _closed(curve: Followed) -> bool | list[bool]:
+    return list(curve.closed) if isinstance(curve, Patch) else curve.closed
 
 
 def _follower(joint: Joint) -> str:
     knife, roller, flat = FOLLOWERS
     if MOVEMENTS[joint.movements[-1]].only_slides:
         return flat
-    return roller if _radius(joint) else knife
+    return roller if _beside(joint) else knife
 
 
-def _radius(joint: Joint) -> float:
+def _radius(joint: Joint) -> float | None:
+    """The radius of a ball or a roller; None for a point, and for other followers."""
+    if isinstance(patch := _curve(joint, 0), Patch):
+        return None if patch.height is None else abs(float(patch.height))
+    return _beside(joint) if _follower(joint) == FOLLOWERS[1] else None
+
+
+def _beside(joint: Joint) -> float:
     frames = np.asarray(joint.frames_1, float)
     return float(np.linalg.norm(frames[1, :3, 3] - frames[0, :3, 3]))
 
@@ -56,9 +75,10 @@ def _direction2(joint: Joint) -> list[float] | None:
 
 CURVE_ARGUMENTS: dict[str, Callable[[Joint, Pose], object]] = {
     "profile": lambda joint, _: np.asarray(_curve(joint, 0).points, float).tolist(),
-    "closed": lambda joint, _: _curve(joint, 0).closed,
+    "surface": lambda joint, _: np.asarray(_curve(joint, 0).points, float).tolist(),
+    "closed": lambda joint, _: _closed(_curve(joint, 0)),
     "follower": lambda joint, _: _follower(joint),
-    "radius": lambda joint, _: _radius(joint) if _follower(joint) == FOLLOWERS[1] else None,
+    "radius": lambda joint, _: _radius(joint),
     "point2": lambda joint, _: _on_part2(joint)[:3, 3].tolist(),
     "direction2": lambda joint, _: _direction2(joint),
     "profile2": lambda joint, _: np.asarray(_curve(joint, 1).points, float).tolist(),

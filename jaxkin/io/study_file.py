@@ -88,7 +88,8 @@ class JointTable(BaseModel):
     centre: Triple | None = None
     pitch: Number | None = None
     profile: list[Place] | None = None
-    closed: bool | None = None
+    surface: list[list[Triple]] | None = None
+    closed: bool | Annotated[list[bool], Field(min_length=2, max_length=2)] | None = None
     follower: Annotated[str, BeforeValidator(partial(one_of, FOLLOWERS))] | None = None
     radius: Number | None = None
     point2: Triple | None = None
@@ -118,7 +119,10 @@ class JointTable(BaseModel):
     def arguments(self) -> dict[str, Any]:
         """Return the keys that were said beside the kind and the parts, as arguments of the function of the kind."""
         said = self.model_dump(exclude_none=True, exclude={"kind", "parts", "limits", "off"})
-        return {name: np.array(value, float) if isinstance(value, list) else value for name, value in said.items()}
+        return {
+            name: np.array(value, float) if isinstance(value, list) and name != "closed" else value
+            for name, value in said.items()
+        }
 
     def limited(self, joint: Joint) -> Joint:
         """Make the joint with its limits, which a study has in degrees and lengths."""

@@ -22,8 +22,9 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
-from jaxkin.geometry.curves import Curve, Spline
+from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.patches import BicubicSpline, Followed
 from jaxkin.joints.evidence import BY_HAND, Evidence
 from jaxkin.joints.kinds import JointKind
 
@@ -59,8 +60,9 @@ class Joint:
     """What the joint is known from; None after JAX has flattened and rebuilt the joint."""
     limits: Limits = ()
     """Limits of the coordinates, as they were given or read: see `Limits`. Poses beyond them are computed too."""
-    curves: tuple[Curve | None, ...] = ()
-    """For each movement the curve that it travels along, None for others; empty where no movement has one."""
+    curves: tuple[Followed | None, ...] = ()
+    """For each movement the curve or the surface that it follows, None for others; empty where none follows
+    one."""
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -84,8 +86,8 @@ class Joint:
         return tuple(groups)
 
     @cached_property
-    def splines(self) -> tuple[Spline | None, ...]:
-        """For each movement the spline of its curve, computed on the host; None for movements without a curve."""
+    def splines(self) -> tuple[Spline | BicubicSpline | None, ...]:
+        """For each movement the spline that it follows, computed on the host; None for movements that follow none."""
         curves = self.curves or (None,) * len(self.movements)
         return tuple(None if curve is None else curve.spline() for curve in curves)
 
@@ -143,7 +145,7 @@ def joint(
     pitch: float | int | Array = 0.0,
     evidence: Evidence = BY_HAND,
     limits: Limits = (),
-    curves: tuple[Curve | None, ...] = (),
+    curves: tuple[Followed | None, ...] = (),
 ) -> Joint:
     """Make a joint whose frames coincide on both parts: the paper's form, closed at the assembled pose.
 

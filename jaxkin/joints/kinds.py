@@ -22,6 +22,7 @@ class JointKind(StrEnum):
     POINT_ON_CURVE = "point on curve"
     CAM = "cam"
     CURVE_ON_CURVE = "curve on curve"
+    POINT_ON_SURFACE = "point on surface"
     CONTACT_A = "contact a"
     CONTACT_B = "contact b"
     CONTACT_C = "contact c"

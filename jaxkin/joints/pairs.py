@@ -22,6 +22,7 @@ from jaxkin.joints.curve_joints import cam, curve_on_curve, point_on_curve
 from jaxkin.joints.joint import Joint, joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.joints.limits import GivenLimits, with_limits
+from jaxkin.joints.surface_joints import point_on_surface
 
 __all__ = [  # noqa: RUF022 - what users import from `jaxkin`, in the order of the documents
     "revolute",
@@ -38,6 +39,7 @@ __all__ = [  # noqa: RUF022 - what users import from `jaxkin`, in the order of t
     "point_on_curve",
     "cam",
     "curve_on_curve",
+    "point_on_surface",
     "contact_joint",
 ]
 
@@ -280,6 +282,7 @@ JOINTS_BY_HAND: dict[str, Callable[..., Joint]] = {
     JointKind.POINT_ON_CURVE: point_on_curve,
     JointKind.CAM: cam,
     JointKind.CURVE_ON_CURVE: curve_on_curve,
+    JointKind.POINT_ON_SURFACE: point_on_surface,
 }
 """Kind of a joint that is no contact state -> the function that makes it. Studies are read and written by this table:
 keyword arguments of the function are keys of the joint in the file."""

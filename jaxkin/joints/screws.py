@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.elementary_motions import amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.pose import Pose, cross, inverse, skew
 from jaxkin.joints.joint import Joint
 
@@ -35,20 +35,20 @@ def chain(
     q: Float[np.ndarray, "freedoms"],
     pitch: float = 0.0,
     frames_2: Frames | None = None,
-    splines: Sequence[Spline | None] = (),
+    splines: Sequence[FollowedSpline | None] = (),
 ) -> tuple[Pose, Screws]:
     """Compute the displacement D of part 2 relative to part 1 in world coordinates, and the screws of its freedoms.
 
     `q` holds the coordinates of the movements, one after the other. Column k of the screws is the twist S_k with
     dD/dq_k = [S_k] D. `pitch` is the advance of a screw per turn; `frames_2` are the frames on the side of part 2, by
-    default those of part 1; `splines` the curves of the movements, where they have some.
+    default those of part 1; `splines` what the movements follow, where they follow something.
     """
     pose, screws = np.eye(4), np.zeros((6, len(q)))
     first = 0
     leaves = frames if frames_2 is None else frames_2
     for movement, frame, leave, spline in zip(movements, frames, leaves, splines or repeat(None), strict=False):
         pose = pose @ frame
-        point = None if spline is None else spline.at(q[first])
+        point = None if spline is None else spline.at(*q[first : first + len(MOVEMENTS[movement].coordinates)])
         for element in MOVEMENTS[movement].elements:
             k = first + element.coordinate
             axis = pose[:3, element.axis]
@@ -68,13 +68,14 @@ def displacements(joint: Joint, q: Float[np.ndarray, "poses freedoms"]) -> Float
     frames = zip(joint.movements, joint.frames_1, joint.frames_2, joint.splines, strict=True)
     for movement, frame_1, frame_2, spline in frames:
         found = np.einsum("ikn,kj->ijn", found, np.asarray(frame_1, float))
-        point = None if spline is None else spline.at(q[:, first])
+        count = len(MOVEMENTS[movement].coordinates)
+        point = None if spline is None else spline.at(*q[:, first : first + count].T)
         for element in MOVEMENTS[movement].elements:
             how_far = amount(element, q[:, first + element.coordinate], float(joint.pitch), point, _cos_sin)
             columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = np.stack(np.broadcast_arrays(*columns), axis=1)
         found = np.einsum("ikn,kj->ijn", found, inverse(np.asarray(frame_2, float)))
-        first += len(MOVEMENTS[movement].coordinates)
+        first += count
     return np.broadcast_to(found, (3, 4, len(q)))
 
 

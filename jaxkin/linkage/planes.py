@@ -96,7 +96,7 @@ Axes = list[tuple[int, np.ndarray, np.ndarray]]
 
 def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
     """List the axes of rotations and the axes of translations; None where a joint is a ball or a
-    screw, or has a curve, along which its axes are no straight lines."""
+    screw, or follows a curve or a surface, where its axes are no straight lines."""
     turning: Axes = []
     sliding: Axes = []
     column = 0
@@ -104,7 +104,7 @@ def _axes(joints: Sequence[Joint]) -> tuple[Axes, Axes] | None:
         sides = np.asarray(joint.frames_1, float), np.asarray(joint.frames_2, float)
         for frame, name in enumerate(joint.movements):
             movement = MOVEMENTS[name]
-            if movement.ball or movement.has_pitch or movement.has_curve:
+            if movement.ball or movement.has_pitch or movement.follows:
                 return None
             for element in movement.elements:
                 first, second = (side[frame][:3, element.axis] for side in sides)

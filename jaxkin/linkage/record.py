@@ -11,6 +11,7 @@ import numpy as np
 
 from jaxkin._traced import traced
 from jaxkin.geometry.curves import Curve
+from jaxkin.geometry.patches import Followed, Patch
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
@@ -109,18 +110,30 @@ def _joint(record: Mapping[str, Any]) -> Joint:
     )
 
 
-def _of_curve(curve: Curve) -> dict[str, Any]:
-    return {
+def _of_curve(curve: Followed) -> dict[str, Any]:
+    found: dict[str, Any] = {
         "points": np.asarray(curve.points, float).tolist(),
-        "start": float(curve.start),
+        "start": np.asarray(curve.start, float).tolist(),
         "place": np.asarray(curve.place, float).tolist(),
         "closed": curve.closed,
     }
+    if isinstance(curve, Patch):
+        found["closed"] = list(curve.closed)
+        if curve.height is not None:
+            found["height"] = float(curve.height)
+    return found
 
 
-def _curve(record: Mapping[str, Any]) -> Curve:
-    start, place = np.asarray(record["start"], float), np.asarray(record["place"], float).reshape(3)
-    return Curve(np.asarray(record["points"], float).reshape(-1, 2), start, place, bool(record["closed"]))
+def _curve(record: Mapping[str, Any]) -> Followed:
+    """Read a curve; a surface is closed, or not, in two directions."""
+    place, closed = np.asarray(record["place"], float).reshape(3), record["closed"]
+    points, start = np.asarray(record["points"], float), np.asarray(record["start"], float)
+    if not isinstance(closed, list):
+        return Curve(points.reshape(-1, 2), start.reshape(()), place, bool(closed))
+    closed_u, closed_v = map(bool, closed)
+    height = record.get("height")
+    height = None if height is None else np.asarray(height, float).reshape(())
+    return Patch(points.reshape(len(points), -1, 3), start.reshape(2), place, height, (closed_u, closed_v))
 
 
 def _frames(record: Mapping[str, Any], side: str) -> np.ndarray:

@@ -96,7 +96,7 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
     Each frame goes along with all elementary motions of its movement but the last one: from there on the movement is
     what it was, whatever the last one has turned or shifted. Where a coordinate drives several motions, as in a
     constant velocity joint, the frame goes along with half of the rotation: its z axis bisects the shafts again. That
-    of a curve goes along to the contact where the curve belongs to part 1, and the curve counts from there.
+    of a curve or a surface goes along to the contact where it belongs to part 1, and counts from there.
     """
     frames, start = [], 0
     curves = list(joint.curves)
@@ -107,7 +107,7 @@ def _placed(joint: Joint, place: Place, q: Float[np.ndarray, " _"]) -> Joint:
         most, splines = own.copy(), joint.splines[number : number + 1]
         curve = joint.curves[number] if joint.curves else None
         if curve is not None:
-            curves[number] = curve.counted_from(float(own[0]))
+            curves[number] = curve.counted_from(*map(float, own))
             most *= MOVEMENTS[name].elements[0].sense > 0
         elif MOVEMENTS[name].elements and not MOVEMENTS[name].repeats:
             most[MOVEMENTS[name].elements[-1].coordinate] = 0.0

@@ -9,8 +9,8 @@ import jax
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.pose import Pose, inverse
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Joint
@@ -46,7 +46,7 @@ class ScaledChain(NamedTuple):
     frames_1: Float[np.ndarray, "frames 4 4"]
     frames_2: Float[np.ndarray, "frames 4 4"]
     pitch: float
-    splines: tuple[Spline | None, ...]
+    splines: tuple[FollowedSpline | None, ...]
     """The curves of the movements; empty where no movement has one."""
 
     def displaced(self, q: Float[np.ndarray, " _"]) -> tuple[Pose, Screws]:

@@ -11,7 +11,7 @@ from jaxkin.geometry.rigid import as_matrices, as_rigid
 from reference.movements import matrix
 
 
-@pytest.mark.parametrize("movement", [name for name, each in MOVEMENTS.items() if not each.has_curve])
+@pytest.mark.parametrize("movement", [name for name, each in MOVEMENTS.items() if not each.follows])
 def test_a_frame_is_displaced_by_the_papers_matrix(movement):
     """Whatever the frame: the movement is about its own axes. Tolerance: some roundings of numbers below ten."""
     rng = np.random.default_rng(1)
@@ -25,5 +25,5 @@ def test_a_frame_is_displaced_by_the_papers_matrix(movement):
 
 def test_lengths_are_told_from_angles_by_their_names():
     names = [name for movement in MOVEMENTS.values() for name in movement.coordinates]
-    assert [name for name in names if is_length(name)] == list("zzxyss")
+    assert [name for name in names if is_length(name)] == list("zzxyssuv")
     assert is_length("z2") and not is_length("phi2")

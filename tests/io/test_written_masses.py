@@ -129,9 +129,43 @@ def test_fixed_parts_keep_their_masses_and_bodies_of_the_world_have_none(tmp_pat
 
 def test_masses_of_another_mechanism_are_refused(tmp_path):
     mechanism = planar_fourbar()
-    for write, file in ((jk.write_urdf, "robot.urdf"), (jk.write_mjcf, "model.xml")):
+    for write, file in ((jk.write_urdf, "robot.urdf"), (jk.write_mjcf, "model.xml"), (jk.write_asmt, "model.asmt")):
         with pytest.raises(ValueError, match=r"masses are what jk\.masses\(mechanism, \.\.\.\) finds .* got float"):
             write(mechanism, tmp_path / file, masses=1.0)
         with pytest.raises(ValueError, match="got those of ground, crank"):
             write(mechanism, tmp_path / file, masses=weighed(slider_crank()))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("make", [planar_fourbar, slider_crank, cardan_shafts, press])
+def test_masses_come_back_from_the_solver_of_freecad(make, tmp_path):
+    """The format names no unit: what comes back counts in the unit that it was written in."""
+    mechanism = make()
+    masses, metres = weighed(mechanism), METRES[mechanism.unit]
+    jk.write_asmt(mechanism, tmp_path / "model.asmt", masses=masses)
+    again = jk.load(tmp_path / "model.asmt").mechanism()
+    found = {part.name: part.inertial for part in again.solids}
+    for number, part in enumerate(mechanism.parts):
+        if part in mechanism.fixed:
+            continue
+        assert found[part].mass == float(masses.mass[number])
+        if found[part].mass:
+            # rounding of places, some units from the origin
+            np.testing.assert_allclose(found[part].centre, masses.centre[number], rtol=0, atol=1e-12)
+        # turned to principal axes and back
+        np.testing.assert_allclose(
+            found[part].inertia, masses.inertia[number] / metres**2, rtol=0, atol=1e-13 / metres**2
+        )
+
+
+def test_unknown_masses_are_unknown_again_to_the_solver_of_freecad(tmp_path):
+    text = jk.write_asmt(planar_fourbar(), tmp_path / "model.asmt").read_text()
+    assert "MomentOfInertias\n\t\t\t\t\t1.0\t1.0\t1.0\n" in text
+    again = jk.load(tmp_path / "model.asmt").mechanism()
+    assert all(part.inertial is None for part in again.solids)
+    (tmp_path / "bad.asmt").write_text(text.replace("\t\t\t\tMass\n\t\t\t\t\t1.0", "\t\t\t\tMass\n\t\t\t\t\t-2.0", 1))
+    with pytest.raises(ValueError, match=r"bad\.asmt: Part .*PrincipalMassMarker: expected a mass from 0 on, got -2"):
+        jk.load(tmp_path / "bad.asmt")
+    (tmp_path / "bad.asmt").write_text(text.replace("1.0\t1.0\t1.0\n", "1.0\tx\t1.0\n", 1))
+    with pytest.raises(ValueError, match="MomentOfInertias"):
+        jk.load(tmp_path / "bad.asmt")

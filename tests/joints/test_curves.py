@@ -248,6 +248,6 @@ def test_what_has_no_curve_has_no_curve_in_its_program():
     "write, name", [(jk.write_mjcf, "cam.xml"), (jk.write_urdf, "cam.urdf"), (jk.write_asmt, "cam.asmt")]
 )
 def test_formats_without_curves_refuse_them(write, name, oval, tmp_path):
-    with pytest.raises(ValueError, match="no joints along curves, as 'contact'"):
+    with pytest.raises(ValueError, match="no joints along curves and over surfaces, as 'contact'"):
         write(oval, tmp_path / name)
     assert not list(tmp_path.iterdir())

@@ -20,7 +20,8 @@ from jaxkin.joints.pairs import JOINTS_BY_HAND
 from jaxkin.view.sticks import stick_parts
 
 PACKAGE = Path(jk.__file__).parent
-NAMED_IN = {"geometry/movements.py", "contacts/states.py", "joints/pairs.py", "joints/curve_joints.py"}
+NAMED_IN = {"geometry/movements.py", "contacts/states.py", "joints/pairs.py"}
+NAMED_IN |= {"joints/curve_joints.py", "joints/surface_joints.py"}
 """The rows themselves, and where joints and contact states are made of them."""
 
 

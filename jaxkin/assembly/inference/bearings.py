@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.inference import Inference
 from jaxkin.geometry.part import Part
-from jaxkin.joints import pairs
-from jaxkin.joints.evidence import Evidence, EvidenceKind
-
-if TYPE_CHECKING:
-    from jaxkin.assembly.inference.known import Known
 
 THICKEST = 0.45
 """Radius of the inner ring over that of the hole of the outer one, at least: rings of catalogues have 0.6 to 0.9, and
@@ -75,40 +68,6 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
     return found
 
 
-def bearing_bodies(known: Known, found: Sequence[Bearing]) -> list[Inference]:
-    """Join the inner ring of each bearing with its shaft and what is between the rings; the outer one with its
-    housing."""
-    result = []
-    for each in found:
-        if each.between:
-            result.append(Inference((each.inner, *each.between), _evidence(each, "they turn with the inner ring")))
-        shafts = [pair for pair in known.axes if pair.other.part == each.inner and not pair.virtual]
-        housings = [pair for pair in known.axes if pair.one.part == each.outer and not pair.virtual]
-        for seats, ring in ((shafts, each.inner), (housings, each.outer)):
-            if seats:
-                seat = max(seats, key=engaged)
-                parts = tuple(sorted(seat.parts, key=known.order.__getitem__))
-                result.append(Inference(parts, _evidence(each, f"{ring!r} sits on the other one")))
-    return result
-
-
-def bearing_joints(known: Known, found: Sequence[Bearing]) -> list[Inference]:
-    """Make a revolute joint for each two bodies that bearings join, however many of them are on their common axis."""
-    body, lines, result = known.body, {}, []
-    for each in found:
-        owners = frozenset((body[each.outer], body[each.inner]))
-        if len(owners) < 2 or owners in {frozenset(body[part] for part in pair) for pair in known.by_hand}:
-            continue
-        if any(each.axis.on_axis_of(line) for line in lines.setdefault(owners, [])):
-            continue
-        lines[owners].append(each.axis)
-        parts = (each.outer, each.inner)
-        joint = pairs.revolute("-".join(parts), *parts, point=each.axis.point, axis=each.axis.axis)
-        evidence = _evidence(each, "turns in the outer ring")
-        result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
-    return result
-
-
 def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[CommonAxis]:
     """Leave out common axes that only bearings have: between the parts of one, and of what is between its rings."""
     of = {name: number for number, each in enumerate(found) for name in (each.outer, each.inner, *each.between)}
@@ -118,13 +77,6 @@ def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[Com
         for pair in axes
         if not {*pair.parts} & hidden and (pair.one.part not in of or of[pair.one.part] != of.get(pair.other.part))
     ]
-
-
-def _evidence(bearing: Bearing, what: str) -> Evidence:
-    of = f"with {bearing.rolling} balls or rollers" if bearing.rolling else "of two rings of one width"
-    text = f"a bearing {of}, {bearing.inner!r} inside of {bearing.outer!r}: {what}"
-    sizes = (("radius", bearing.axis.radius), ("balls or rollers", float(bearing.rolling)))
-    return Evidence(EvidenceKind.BEARING, sizes, text)
 
 
 def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
+from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
+from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints

@@ -74,13 +74,13 @@ def _motions(joint: Joint, q: Float[Array, "poses _"]) -> list[list[tuple[int, t
     for number, movement in enumerate(joint.movements):
         curve = joint.curves[number] if joint.curves else None
         spline = None if curve is None else curve.spline(jnp)
+        count = len(MOVEMENTS[movement].coordinates)
+        point = None if spline is None else spline.at(*q[:, first : first + count].T, xp=jnp)
         own = []
         for element in MOVEMENTS[movement].elements:
-            value = q[:, first + element.coordinate]
-            point = None if spline is None else spline.at(value, jnp)
-            own.append((element.axis, amount(element, value, pitch, point, cos_sin)))
+            own.append((element.axis, amount(element, q[:, first + element.coordinate], pitch, point, cos_sin)))
         found.append(own)
-        first += len(MOVEMENTS[movement].coordinates)
+        first += count
     return found
 
 

@@ -18,9 +18,9 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.curves import Spline
 from jaxkin.geometry.elementary_motions import ElementaryMotion, amount, displaced_columns, rates
 from jaxkin.geometry.movements import MOVEMENTS, is_length
+from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.rigid import Rigid, as_rigid, inverse, product
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.joints.joint import Joint
@@ -63,8 +63,9 @@ class Motions(NamedTuple):
     """The origin of the last frame, on part 2, from the middle over the size."""
     twists: tuple[Twist, ...]
     """Unit twist of each, from part 1 to part 2; their coordinates are those of `driven_by`."""
-    bends: tuple[Twist | None, ...]
-    """Change of each unit twist with its own coordinate, as a curve bends; None where it does not change."""
+    bends: tuple[dict[int, Twist], ...]
+    """Change of each unit twist with the coordinates of its own movement, as a curve or a surface bends, by number of
+    the coordinate; empty where it does not change."""
 
     def coordinates(self, joint: Joint) -> list[Twist]:
         """Unit twists of the coordinates: a coordinate may drive several motions, whose twists add up."""
@@ -122,7 +123,7 @@ def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale
     """Find the elementary motions of a joint in each pose, and the displacement of part 2, from that of part 1."""
     found = jnp.broadcast_to(part_1, (3, 4, q.shape[0]))
     twists: list[Twist] = []
-    bends: list[Twist | None] = []
+    bends: list[dict[int, Twist]] = []
     units, pitch = scale.of_coordinates(joint), jnp.asarray(joint.pitch, float)
     first = 0
     for number, (movement, frame) in enumerate(zip(joint.movements, joint.frames_1, strict=True)):
@@ -131,19 +132,23 @@ def joint_motions(joint: Joint, q: Float[Array, "poses _"], part_1: Rigid, scale
         found = product(found, as_rigid(jnp.asarray(frame, float)))
         curve = joint.curves[number] if joint.curves else None
         spline = None if curve is None else curve.spline(jnp)
+        count = len(MOVEMENTS[movement].coordinates)
+        values = tuple(q[:, first : first + count].T)
+        point = None if spline is None else spline.at(*values, xp=jnp)
         for element in MOVEMENTS[movement].elements:
-            value = q[:, first + element.coordinate]
-            unit, point = units[first + element.coordinate], None if spline is None else spline.at(value, jnp)
+            unit = units[first + element.coordinate]
             twists.append(_twist(found, element, scale, unit, rates(element, pitch, point)))
-            bends.append(None)
+            bends.append({})
             if element.law is not None and spline is not None:
-                along = partial(_curve_rates, element, spline)
-                changes = jax.jvp(along, (value,), (jnp.full_like(value, unit),))[1]
-                bends[-1] = _twist(found, element, scale, unit, changes)
-            how_far = amount(element, value, pitch, point, cos_sin)
+                along = partial(_followed_rates, element, spline)
+                for k in range(count):
+                    by_k = tuple(jnp.full_like(each, units[first + k] * (j == k)) for j, each in enumerate(values))
+                    changes = jax.jvp(along, values, by_k)[1]
+                    bends[-1][first + k] = _twist(found, element, scale, unit, changes)
+            how_far = amount(element, values[element.coordinate], pitch, point, cos_sin)
             columns = displaced_columns([found[:, column] for column in range(4)], element.axis, *how_far)
             found = jnp.stack(columns, axis=1)
-        first += len(MOVEMENTS[movement].coordinates)
+        first += count
     last = as_rigid(jnp.asarray(joint.frames_2[-1], float)) if len(joint.frames_2) else as_rigid(jnp.eye(4))
     # found once: XLA would find the whole chain anew wherever it is used
     motions = Motions(scale.arm(found[:, 3]), tuple(twists), tuple(bends))
@@ -157,10 +162,12 @@ def _twist(frame: Rigid, element: ElementaryMotion, scale: Scale, unit: Any, by_
     return jnp.concatenate([turns * axis, turns * cross(scale.arm(frame[:, 3]), axis) + slides / scale.size * axis])
 
 
-def _curve_rates(element: ElementaryMotion, spline: Spline, q: Float[Array, " poses"]) -> tuple[Array, Array]:
-    """Derivatives of the length and of the angle of a motion along a curve by its parameter."""
-    slides, turns = rates(element, None, spline.at(q, jnp))
-    return slides * jnp.ones_like(q), turns * jnp.ones_like(q)
+def _followed_rates(
+    element: ElementaryMotion, spline: FollowedSpline, *q: Float[Array, " poses"]
+) -> tuple[Array, Array]:
+    """Derivatives of the length and of the angle of a motion along a curve, or over a surface, by its coordinate."""
+    slides, turns = rates(element, None, spline.at(*q, xp=jnp))
+    return slides * jnp.ones_like(q[0]), turns * jnp.ones_like(q[0])
 
 
 def relative_twist(joint: Joint, own: Motions, rates: Float[Array, "poses _"], scale: Scale) -> Twist:
@@ -193,7 +200,8 @@ def twists_of_parts(
         for k, twist, bend in zip(driven_by(joint), own.twists, own.bends, strict=True):
             rate = first[number][:, k] / units[k]
             change = change + twist * (second[number][:, k] / units[k]) + bracket(here, twist) * rate
-            change = change if bend is None else change + bend * rate**2
+            for j, by_j in bend.items():
+                change = change + by_j * (first[number][:, j] / units[j]) * rate
             here = here + twist * rate
         changes[part] = lax.optimization_barrier(changes.get(parent, none) + sign * change)
     return twists, changes

@@ -13,7 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.curves import Curve
+from jaxkin.geometry.patches import Followed
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
 from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
@@ -73,7 +73,7 @@ def loop_geometry(
     frames_2: tuple[Given, ...],
     pitch: tuple[Given, ...],
     couplings: tuple[CouplingNumbers, ...] = (),
-    curves: tuple[tuple[Curve | None, ...], ...] = (),
+    curves: tuple[tuple[Followed | None, ...], ...] = (),
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
 

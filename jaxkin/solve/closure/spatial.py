@@ -25,7 +25,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.curves import Spline
+from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
@@ -51,7 +51,7 @@ class Spatial(NamedTuple):
     """Lines of the idle spins, unit vectors: see `rod_spin`."""
     centres: Float[Array, "3 spherical"]
     """Points about which the spherical loops turn, of `LoopSystem.sections`."""
-    curves: tuple[Spline, ...] = ()
+    curves: tuple[FollowedSpline, ...] = ()
     """The curves of `LoopSystem.curves`."""
 
 
@@ -244,7 +244,7 @@ def spatial_geometry(
     system: LoopSystem,
     frames: Float[Array, "frames 4 4"],
     pitch: Float[Array, " joints"],
-    curves: tuple[Spline, ...] = (),
+    curves: tuple[FollowedSpline, ...] = (),
 ) -> Spatial:
     """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
     table = chain_tables(system)

@@ -105,15 +105,15 @@ def _sample(system: LoopSystem, samples: BranchSamples, number: Int[Array, " pos
 def winding(system: LoopSystem, geometry: Geometry, state: State) -> Float[Array, " columns"]:
     """Compute the whole turns that each coordinate of the second of two fronts has gained on the first.
 
-    Radians; for the parameter of a closed curve, whole lengths of the curve.
+    Radians; for the parameters of closed curves and surfaces, whole lengths of these.
     """
     gained = state.x[:, 1] - state.x[:, 0]
     turns = jnp.where(np.array(system.is_length), 0.0, TURN * jnp.round(gained / TURN))
     if isinstance(geometry.loops, Spatial):
         for (joint, frame), curve in zip(system.curves, geometry.loops.curves, strict=True):
-            if curve.closed:
-                column, whole = system.chains[joint][frame].column, curve.knots[-1]
-                turns = turns.at[column].set(whole * jnp.round(gained[column] / whole))
+            for column, whole in enumerate(curve.periods, start=system.chains[joint][frame].column):
+                if whole is not None:
+                    turns = turns.at[column].set(whole * jnp.round(gained[column] / whole))
     return turns
 
 

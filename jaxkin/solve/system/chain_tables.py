@@ -10,18 +10,20 @@ from __future__ import annotations
 
 from functools import lru_cache
 from itertools import accumulate
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 
+from jaxkin.geometry.elementary_motions import Law
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.solve.system.loop_system import LoopSystem
 
 AXES = np.stack([np.roll(np.eye(3), axis + 1, axis=0) for axis in range(3)])
 """For each axis a rotation matrix that carries z to it, a cyclic permutation of the axes: (3, 3, 3)."""
 
-LAWS = (None, "x", "y", "turn")
-"""The functions of a curve that elementary motions follow (`ElementaryMotion.law`), by their numbers in the tables."""
+LAWS: tuple[Law | None, ...] = (None, *get_args(Law))
+"""The functions of curves and surfaces that elementary motions follow (`ElementaryMotion.law`), by their numbers in the
+tables."""
 
 Z_AXIS = 2
 """Number of the z axis, which `AXES` does not move: for rows without an axis of their own."""
@@ -44,7 +46,8 @@ class ChainRow(NamedTuple):
     screw: int
     """1 if the coordinate is an angle that also advances by the pitch of the joint, else 0."""
     law: int
-    """Number of the function of a curve (`LAWS`) that is the angle or length; 0 where it is the coordinate itself."""
+    """Number of the function (`LAWS`) of a curve or a surface that is the angle or length; 0 where it is the coordinate
+    itself."""
     curve: int
     """Number of that curve in `LoopSystem.curves`; 0 for none."""
     ball: int

@@ -10,7 +10,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.curves import Curve
+from jaxkin.geometry.patches import Followed
 
 Frames = Float[Array | np.ndarray, "_ 4 4"]
 
@@ -30,7 +30,7 @@ class Joints(NamedTuple):
     frames_2: tuple[Float[Array, "frames 4 4"], ...]
     pitch: tuple[Float[Array, ""], ...]
     couplings: tuple[CouplingNumbers, ...] = ()
-    curves: tuple[tuple[Curve | None, ...], ...] = ()
+    curves: tuple[tuple[Followed | None, ...], ...] = ()
     """For each joint the curves of its movements, empty where it has none: see `Joint.curves`."""
 
 

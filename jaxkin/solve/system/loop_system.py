@@ -147,12 +147,12 @@ class LoopSystem:
 
     @cached_property
     def curves(self) -> tuple[tuple[int, int], ...]:
-        """(joint, frame) of each movement that travels along a curve, in order."""
+        """(joint, frame) of each movement that travels along a curve or over a surface, in order."""
         return tuple(
             (joint, frame)
             for joint, movements in enumerate(self.movements)
             for frame, name in enumerate(movements)
-            if MOVEMENTS[name].has_curve
+            if MOVEMENTS[name].follows
         )
 
     @property

@@ -1,0 +1,143 @@
+"""What the contacts of joints along curves and over surfaces are in each pose, and what is wrong with them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool, Float
+
+from jaxkin.effects.pose_plot import draw_lines, save_rows
+
+IN_THE_WAY = 1e-6
+"""Depth, over the size of a profile, from which on something is in the way: far above rounding, and below what can be
+made."""
+
+Poses = Float[np.ndarray, " poses"]
+
+
+@dataclass(frozen=True, eq=False)
+class CurveContact:
+    """The contact of one joint along a curve, or over a surface along one of its coordinates, at each pose.
+
+    NaN where the pose is not closed; lengths in the unit of the mechanism.
+    """
+
+    joint: str
+    what: str
+    """What follows the curve: "a point", "a roller", "a flat face", "a curve", "a ball"."""
+    of: str
+    """What is followed: "curve", or "surface along u" and "surface along v", a contact for each."""
+    parameter: Poses
+    """How far the contact is along the curve from the first of its points."""
+    curvature: Poses
+    """Curvature of the profile at the contact, over one length: positive where it bends away from what follows it. Of a
+    surface the least of its two principal curvatures."""
+    clearance: Poses
+    """1 + radius times curvature of a roller, the sum of both curvatures, times the size of the profile, of a curve:
+    negative where the profile is undercut, where it bends towards what follows it more than that is bent itself. Of
+    a flat face curvature times size; 1 for a point."""
+    depth: Poses
+    """How deep what follows would have to pass through the profile or surface, anywhere; 0 where it need not."""
+    beyond: Poses
+    """How far the contact is beyond an end of an open curve; 0 on the curve, and of closed ones."""
+
+    @property
+    def over(self) -> str:
+        """What is followed, as what it is of a part: "profile" or "surface"."""
+        return "profile" if self.of == "curve" else "surface"
+
+    @property
+    def lost(self) -> Bool[np.ndarray, " poses"]:
+        """The poses that what follows cannot be in."""
+        return (self.clearance < 0) | (self.depth > 0) | (self.beyond > 0)
+
+
+@dataclass(frozen=True, eq=False)
+class CurveContacts:
+    """The contacts of all joints along curves over a motion. Prints, draws and saves itself."""
+
+    contacts: tuple[CurveContact, ...]
+    unit: str
+    """Unit of all lengths."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether all contacts are possible at all closed poses."""
+        return not any(each.lost.any() for each in self.contacts)
+
+    def __str__(self) -> str:
+        lines = [line for each in self.contacts for line in self._of(each)]
+        return "\n".join(lines or [f"{len(self.contacts)} contacts on curves: all are possible at all closed poses"])
+
+    def _of(self, each: CurveContact) -> list[str]:
+        """Tell what is wrong with one contact: how bad, at which pose, and where on its curve."""
+        lines = []
+        undercut = each.clearance < 0
+        told = (
+            (undercut, -each.clearance, "is undercut"),
+            (each.depth > 0, each.depth, f"would have {each.what} pass through the {each.over}"),
+            (each.beyond > 0, each.beyond, f"leaves the end of its {each.of}"),
+        )
+        for where, size, said in told:
+            if not where.any():
+                continue
+            worst = int(np.nanargmax(np.where(where, size, -np.inf)))
+            poses = np.flatnonzero(where)
+            how_far = f"up to {self._length(size[worst])}"
+            if where is undercut:
+                radius = 1 / abs(each.curvature[worst])
+                how_far = f"radius of curvature {self._length(radius)} in a hollow or an edge too sharp for {each.what}"
+            lines.append(
+                f"curve contact: joint {each.joint!r} {said} at {len(poses)} of {len(where)} poses, {poses[0]} to "
+                f"{poses[-1]}: {how_far}, worst at pose {worst} with the contact {self._length(each.parameter[worst])} "
+                "from the first point"
+            )
+        return lines
+
+    def _length(self, value: float) -> str:
+        return f"{value:.4g} {self.unit}".rstrip()
+
+    def plot(self, path: str | Path) -> Path:
+        """Draw how deep followers pass through profiles, and beyond ends, over the poses; returns the path."""
+        names, rows = self._rows(("depth", "beyond"))
+        title = "contacts on curves" if self.holds else "contacts on curves that are not possible"
+        label = f"depth, distance beyond ends ({self.unit})" if self.unit else "depth, distance beyond ends"
+        return draw_lines(names, rows, label, title, Path(path))
+
+    def save(self, path: str | Path) -> Path:
+        """Write all numbers as comma-separated values, a row a pose; returns the path."""
+        return save_rows(*self._rows(("parameter", "curvature", "clearance", "depth", "beyond")), Path(path))
+
+    def _rows(self, fields: tuple[str, ...]) -> tuple[list[str], Float[np.ndarray, "rows poses"]]:
+        names = [f"{each.joint} {field}" for each in self.contacts for field in fields]
+        return names, np.array([getattr(each, field) for each in self.contacts for field in fields])
+
+
+def made_contact(
+    joint: str,
+    what: str,
+    of: str,
+    place: tuple[Poses, float, bool],
+    numbers: tuple[Poses, Poses, Poses],
+    size: float,
+) -> CurveContact:
+    """Make a contact from what is known of it at each pose.
+
+    `place` is the coordinate from the first of the points, NaN where the pose is not closed, the whole length of the
+    curve or surface, and whether that is closed; `numbers` are curvature, clearance and depth; `size` that of the
+    profile.
+    """
+    s, whole, closed = place
+    finite = np.isfinite(s)
+    curvature, clearance, depth = numbers
+    beyond = np.zeros(len(s)) if closed else np.maximum(np.maximum(-s, s - whole), 0.0)
+    kept = (
+        np.mod(s, whole) if closed else s,
+        curvature,
+        np.where(np.abs(clearance) <= IN_THE_WAY, 0.0, clearance),
+        np.where(depth > IN_THE_WAY * size, depth, 0.0),
+        np.where(beyond > IN_THE_WAY * size, beyond, 0.0),
+    )
+    return CurveContact(joint, what, of, *(np.where(finite, values, np.nan) for values in kept))
