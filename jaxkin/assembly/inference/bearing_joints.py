@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from jaxkin.assembly.inference.axes import engaged
 from jaxkin.assembly.inference.bearings import Bearing
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
