@@ -147,6 +147,8 @@ def clashes(
     Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
     inside `jit`, `vmap` and `grad`.
     """
+    if not isinstance(motion, Motion):
+        raise ValueError(f"clashes are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     if traced(motion):
         raise ValueError("clashes are found on the host: call clashes outside of jit, vmap and grad")
     mechanism = motion.mechanism

@@ -247,3 +247,6 @@ def test_a_mechanism_without_solids_says_what_to_do():
     motion = jk.Mechanism.build(fixed=["base"], joints=[slide]).sweep({"slide": np.array([0.0, 1.0])})
     with pytest.raises(ValueError, match=r"clashes needs solids, .* make it from files, jk\.load"):
         jk.clashes(motion)
+    for effect in (jk.clashes, jk.contact_validity):
+        with pytest.raises(ValueError, match=r"those of a motion, mechanism\.sweep\(drive\), got Mechanism"):
+            effect(motion.mechanism)
