@@ -207,7 +207,7 @@ def _within_limits(
     if Status.LIMITED.value not in status or status[start] != Status.CLOSED.value:
         return status
     closed = status == Status.CLOSED.value
-    pieces = label(closed)[0]  # along the edges of the grid, as the map is filled
+    pieces = np.asarray(label(closed)[0])  # pyright: ignore[reportIndexIssue]  # along the edges of the grid, as the map is filled
     return np.where(closed & (pieces != pieces[start]), Status.JUMPED.value, status)
 
 

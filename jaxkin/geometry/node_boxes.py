@@ -42,7 +42,7 @@ class NodeBoxes(NamedTuple):
         middle1, half1 = one.middles[:, node1], one.halves[:, node1]
         middle2, half2 = other.middles[:, node2], other.halves[:, node2]
         between = _times(turn, middle2) + shift - middle1
-        swept1, swept2 = np.zeros((2, *between.shape))
+        swept1, swept2 = np.zeros_like(between), np.zeros_like(between)
         (several,) = np.nonzero(~intervals.is_one[which])
         if len(several):
             which = which[several]

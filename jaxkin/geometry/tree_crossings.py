@@ -49,7 +49,7 @@ def crossings(one: TriangleTree, other: TriangleTree, displaced: Displaced, slac
     while stack:
         items = stack.pop()
         if len(items) > _MAX_ITEMS:
-            stack += np.arraysplit(items, len(items) // _MAX_ITEMS + 1)
+            stack += np.array_split(items, len(items) // _MAX_ITEMS + 1)
             continue
         label1, label2 = one.label[items[:, 1]], other.label[items[:, 2]]
         known1, known2 = label1 >= 0, label2 >= 0
