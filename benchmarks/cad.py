@@ -1,7 +1,7 @@
 """Joints found in assemblies that others drew, against those of their CAD systems: `python benchmarks/cad.py DIR`.
 
-DIR holds assemblies as NAME.step, NAME.step.xz or NAME.xml (an export for Simscape Multibody, its solids beside it or
-in a folder of DIR) and, where the CAD system's own joints are known, NAME.joints.json:
+DIR holds assemblies as NAME.step or NAME.step.xz, and exports for Simscape Multibody as NAME.xml, these at any depth,
+as repositories hold them. Where the CAD system's own joints are known, NAME.joints.json lies beside the file:
 `instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres). Without
 known joints the part to fix comes from `assembly.proposals`.
 
@@ -17,7 +17,7 @@ import lzma
 import os
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -190,15 +190,29 @@ def row(path: Path, verbose: bool) -> str:
     return "| " + " | ".join(map(str, cells)) + " |"
 
 
-def main(folder: str, names: Iterable[str]) -> None:
+def assemblies(folder: Path, names: Collection[str]) -> list[Path]:
+    """List the assemblies in a folder, or those of some names; says what is wrong where there are none."""
+    if not folder.is_dir():
+        sys.exit(f"{folder} is no folder")
+    found = sorted([*folder.glob("*.step"), *folder.glob("*.step.xz"), *folder.rglob("*.xml")])
+    known = [path.name.split(".")[0] for path in found]
+    if not found:
+        sys.exit(f"{folder} holds no .step, .step.xz or .xml; exports are looked for in its folders, too")
+    if unknown := [name for name in names if name not in known]:
+        sys.exit(f"{folder} holds no {', '.join(unknown)}; it holds {', '.join(known)}")
+    return [path for path, name in zip(found, known, strict=True) if not names or name in names]
+
+
+def main(folder: str, names: Collection[str]) -> None:
     """Print the table of all assemblies in a folder, or of those named."""
+    paths = assemblies(Path(folder), names)
     head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "processor seconds"]
     print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
-    chosen = set(names)
-    for path in sorted([*Path(folder).glob("*.step"), *Path(folder).glob("*.step.xz"), *Path(folder).glob("*.xml")]):
-        if not chosen or path.name.split(".")[0] in chosen:
-            print(row(path, verbose=bool(chosen)), flush=True)
+    for path in paths:
+        print(row(path, verbose=bool(names)), flush=True)
 
 
 if __name__ == "__main__":
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
     main(sys.argv[1], sys.argv[2:])

@@ -22,6 +22,7 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
+from jaxkin.topology.bodies import bodies
 from jaxkin.topology.components import connected
 
 if TYPE_CHECKING:
@@ -53,20 +54,26 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
     ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
 
-    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference]]:
+    def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], int]:
+        """Make the mechanism with its inferences; and count what is of use before slides are stopped."""
         rigid = [*said.rigid, *(each.parts for each in seats)]
         found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
-        return _stopped(assembly, contacts, said, [*seats, *found], levels)
+        found = [*seats, *found]
+        plain = from_words(assembly, contacts, said, found)
+        return *_stopped(assembly, contacts, said, plain, found, levels), _not_idle(plain)
 
-    mechanism, found = made(())
+    mechanism, found, plainly = made(())
     inexact = bool(found)
     seats: list[Inference] = []
     for _ in range(_ROUNDS):
         seats += (new := _seats(mechanism, inexact))
-        other, more = made(seats) if new else (mechanism, found)
-        if not new or _not_idle(other) != _not_idle(mechanism):
+        if not new:
             break
-        mechanism, found = other, more
+        other, more, count = made(seats)
+        # seats may take nothing of use; that slides can be stopped then which were not before is no objection
+        if _not_idle(other) != _not_idle(mechanism) and not (useful_freedoms(other) and count == plainly):
+            break
+        mechanism, found, plainly = other, more, count
     unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
     return unlocked or _counted(mechanism, found)
 
@@ -80,22 +87,29 @@ def _stopped(
     assembly: Assembly,
     contacts: Sequence[Contact],
     said: Said,
+    mechanism: Mechanism,
     found: list[Inference],
     levels: Sequence[Sequence[Inference]],
 ) -> tuple[Mechanism, list[Inference]]:
-    """Find the mechanism, and its inferences: with as many levels of what would stop slides as leave it freedoms, if
-    these are fewer then, or those of parts that only spin are."""
-    mechanism = from_words(assembly, contacts, said, found)
+    """Find the mechanism that stops slides, and its inferences: with as many levels of what would stop them as leave it
+    freedoms, if these are fewer then, or those of parts that only spin are; `mechanism` is that without any."""
     useful = useful_freedoms(mechanism) if any(levels) else 0
     for count in range(len(levels), 0, -1) if useful else ():
         if not levels[count - 1]:
             continue
-        more = [*found, *(each for level in levels[:count] for each in level)]
+        more = _without_inner(assembly, said, [*found, *(each for level in levels[:count] for each in level)])
         other = from_words(assembly, contacts, said, more)
         fewer = useful_freedoms(other)
         if 0 < fewer < useful or (fewer == useful and other.mobility().spins < mechanism.mobility().spins):
             return other, more
     return mechanism, found
+
+
+def _without_inner(assembly: Assembly, said: Said, found: Sequence[Inference]) -> list[Inference]:
+    """Leave out joints of parts that are one body by other inferences."""
+    groups = [each.parts for each in found if each.joint is None]
+    body = bodies(assembly.names, said.fixed, [*said.rigid, *groups])
+    return [each for each in found if each.joint is None or len({body[part] for part in each.parts}) > 1]
 
 
 def _unlocked(

@@ -53,6 +53,11 @@ class Proposal:
         return f"with {lines} it has {count} in {self.bodies} bodies, and {names} can be driven; {moves}"
 
 
+MIN_MOVING = 0.5
+"""Joints that move with several fixed parts over those that move with one, at least: brackets on a wall close loops and
+leave most joints moving (lift table: all of 7), the fixed ends of a machine with tools and wheels leave one of 8."""
+
+
 def proposals(
     assembly: Assembly,
     fixed: Sequence[str] | None = None,
@@ -64,6 +69,8 @@ def proposals(
     `fixed` are the parts to fix, by default each of a few that may be meant: those of the bodies that are large and
     joined to many others. `drive` are coordinates that are driven, by default those which leave nothing but idle
     motions. One freedom comes before several, more joints that move before fewer, and what cannot move comes last.
+    Several fixed parts that still most of what moves with one are no brackets on a wall, but what the machine moves:
+    they come after single ones.
     `progress(done, total)` is called after each choice that was tried.
 
     Raises ValueError for names that do not exist, and for an assembly without parts.
@@ -82,7 +89,13 @@ def proposals(
         found.append(_tried(assembly.mechanism(fixed=choice), choice, drive))
         if progress:
             progress(done, 1 + len(choices))
-    return tuple(sorted(found, key=lambda each: (bool(each.problem), each.freedoms, len(each.fixed), -each.moving)))
+    most = max(each.moving for each in found if len(each.fixed) == 1)
+
+    def rank(each: Proposal) -> tuple[bool, bool, int, int, int]:
+        stills = len(each.fixed) > 1 and each.moving < MIN_MOVING * most
+        return bool(each.problem), stills, each.freedoms, len(each.fixed), -each.moving
+
+    return tuple(sorted(found, key=rank))
 
 
 def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[str]]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-from jaxtyping import Float
+from typing import NamedTuple
 
-from jaxkin.contacts.boxes import Boxes, boxes_of, crossing
+import numpy as np
+from jaxtyping import Float, Int
+
+from jaxkin.contacts.boxes import Boxes, Pairs, boxes_of, crossing
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.part import Part
 
@@ -16,23 +18,108 @@ _PARALLEL_SQUARE = 1e-12
 """Squared sine of the angle between two edges up to which they count as parallel; then a corner is as near."""
 
 
+_AT_ONCE = 100_000
+"""Number of pairs of triangles compared at once: bounds the memory to a hundred megabytes."""
+
+_MEASURED = 2_000
+"""Number of pairs of triangles measured exactly at once: few, since each lot may spare all that are farther apart."""
+
+_ROUNDING = 1e-9
+"""Rounding of a lower bound of a distance, over the coordinates that it is computed from: far above that of double
+precision, far below any tolerance."""
+
+_FLAT = 1e-9
+"""Height of a triangle over its longest side, below which the direction across its plane is rounding."""
+
+
 def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
     """Name the nearest faces of two parts without a contact in a message, if they touch; None if the parts are apart.
 
     Faces count as touching where their triangles are no farther apart than `tolerance` (a length) and the lengths by
     which the true surfaces bulge over the triangles.
     """
-    (triangles1, face1, bulge1), (triangles2, face2, bulge2) = (_all_triangles(part) for part in (one, two))
-    pairs = crossing(_inflated(triangles1, bulge1), _inflated(triangles2, bulge2), tolerance)
-    if not len(pairs):
+    sides = (_all_triangles(one), _all_triangles(two))
+    found = _nearest(*sides, tolerance)
+    if found is None:
         return None
-    i, j = pairs.T
-    beyond = distances(triangles1[i], triangles2[j]) - bulge1[i] - bulge2[j]
-    nearest = int(np.argmin(beyond))
-    if beyond[nearest] > tolerance:
-        return None
-    names = f"{one.name} {one.faces[face1[i[nearest]]].name} and {two.name} {two.faces[face2[j[nearest]]].name}"
-    return f"{names} meet at an edge or a corner only: none of the sixteen contact states, so no joint"
+    each = zip((one, two), sides, found, strict=True)
+    names = [f"{part.name} {part.faces[side.faces[triangle]].name}" for part, side, triangle in each]
+    return f"{' and '.join(names)} meet at an edge or a corner only: none of the sixteen contact states, so no joint"
+
+
+class _Side(NamedTuple):
+    """The triangles of a part."""
+
+    triangles: Solid
+    faces: Int[np.ndarray, " triangles"]
+    """The index of the face of each triangle."""
+    bulges: Float[np.ndarray, " triangles"]
+    """By how much the true surface bulges over each triangle, a length."""
+
+
+def _nearest(one: _Side, two: _Side, tolerance: float) -> tuple[int, int] | None:
+    """Find the two triangles that are the nearest to each other less their bulges; None if that is above `tolerance`.
+
+    Pairs are measured in the order of a lower bound of their distance, until all others are farther apart.
+    """
+    along = _directions(one, two)
+    pairs = crossing(_inflated(one, along), _inflated(two, along), tolerance)
+    bounds = _least_distances(one.triangles, two.triangles, pairs) - one.bulges[pairs[:, 0]] - two.bulges[pairs[:, 1]]
+    near = np.flatnonzero(bounds <= tolerance)
+    near = near[np.argsort(bounds[near], kind="stable")]
+    best, least = -1, np.inf
+    for start in range(0, len(near), _MEASURED):
+        some = near[start : start + _MEASURED]
+        if bounds[some[0]] > min(least, tolerance):
+            break
+        i, j = pairs[some].T
+        beyond = distances(one.triangles[i], two.triangles[j]) - one.bulges[i] - two.bulges[j]
+        if (here := float(beyond.min())) <= least:
+            first = int(some[beyond == here].min())  # the first of those that are alike, in the order of the faces
+            best, least = first if here < least else min(first, best), here
+    return (int(pairs[best, 0]), int(pairs[best, 1])) if least <= tolerance else None
+
+
+def _least_distances(one: Solid, two: Solid, pairs: Pairs) -> Float[np.ndarray, " pairs"]:
+    """Compute lower bounds of the distances between pairs of triangles, by their indices in `one` and in `two`.
+
+    Each triangle has a box of its own, along its longest side and across its plane, which a thin triangle fills as it
+    does not fill a box along the axes: the other triangle is as far away as its box along these directions.
+    """
+    frames1, frames2 = _frames(one), _frames(two)
+    result = np.empty(len(pairs))
+    for start in range(0, len(pairs), _AT_ONCE):
+        i, j = pairs[start : start + _AT_ONCE].T
+        apart = np.maximum(_apart(one[i], two[j], frames1[i]), _apart(one[i], two[j], frames2[j]))
+        result[start : start + _AT_ONCE] = apart
+    return result - _ROUNDING * max((float(np.abs(side).max()) for side in (one, two) if len(side)), default=0.0)
+
+
+def _apart(a: Solid, b: Solid, frames: Float[np.ndarray, "pairs 3 3"]) -> Float[np.ndarray, " pairs"]:
+    """Compute the distances between the boxes of two triangles along the columns of a frame, pair by pair."""
+    (low1, high1), (low2, high2) = _ends(a @ frames), _ends(b @ frames)
+    return np.linalg.norm(np.maximum(np.maximum(low2 - high1, low1 - high2), 0.0), axis=-1)
+
+
+def _ends(corners: Solid) -> tuple[Float[np.ndarray, "_ 3"], Float[np.ndarray, "_ 3"]]:
+    """Find the lowest and the highest coordinates of triangles; by pairs, since reductions over three are slow."""
+    first, second, third = corners[:, 0], corners[:, 1], corners[:, 2]
+    return np.minimum(np.minimum(first, second), third), np.maximum(np.maximum(first, second), third)
+
+
+def _frames(triangles: Solid) -> Float[np.ndarray, "triangles 3 3"]:
+    """Find unit vectors along the longest side of each triangle, across that in its plane, and across its plane.
+
+    They are the columns of (triangles, 3, 3); those that a degenerate triangle lacks are zero, and tell no distance.
+    """
+    edges = np.roll(triangles, -1, axis=1) - triangles
+    longest = np.take_along_axis(edges, np.argmax(np.sum(edges**2, axis=-1), axis=1)[:, None, None], axis=1)[:, 0]
+    length = np.linalg.norm(longest, axis=-1, keepdims=True)
+    along = longest / np.maximum(length, TINY)
+    across = np.cross(along, edges[:, 0] + edges[:, 1] / 2)
+    height = np.linalg.norm(across, axis=-1, keepdims=True)
+    across = np.where(height > _FLAT * length, across / np.maximum(height, TINY), 0.0)
+    return np.stack([along, np.cross(across, along), across], axis=-1)
 
 
 def distances(a: Solid, b: Solid) -> Float[np.ndarray, "_"]:
@@ -71,13 +158,22 @@ def _crossing_edges(a: Solid, b: Solid) -> np.ndarray:
     return np.where(within, apart, np.inf).min(axis=(1, 2))
 
 
-def _all_triangles(part: Part) -> tuple[Solid, np.ndarray, np.ndarray]:
-    """List the triangles of all faces with, for each, the index of its face and the bulge of that face (a length)."""
+def _all_triangles(part: Part) -> _Side:
+    """List the triangles of all faces of a part."""
     numbers = np.repeat(np.arange(len(part.faces)), [len(face.triangles) for face in part.faces])
     bulges = np.array([face.bulge for face in part.faces])
-    return np.concatenate([face.triangles for face in part.faces]), numbers, bulges[numbers]
+    return _Side(np.concatenate([face.triangles for face in part.faces]), numbers, bulges[numbers])
 
 
-def _inflated(triangles: Solid, by: np.ndarray) -> Boxes:
-    """Compute the bounding box of each triangle, enlarged on all sides by a length of its own."""
-    return boxes_of(triangles) + by[:, None, None] * np.array([[-1.0], [1.0]])
+def _directions(*sides: _Side) -> Float[np.ndarray, "3 3"]:
+    """Find three directions, the columns, along which the long sides of triangles lie: their boxes are small there.
+
+    They are the principal axes of the sides, by the squares of their lengths.
+    """
+    edges = np.concatenate([(side.triangles - np.roll(side.triangles, 1, axis=1)).reshape(-1, 3) for side in sides])
+    return np.linalg.eigh(edges.T @ edges)[1]
+
+
+def _inflated(side: _Side, along: Float[np.ndarray, "3 3"]) -> Boxes:
+    """Compute the bounding box of each triangle along some directions, enlarged on all sides by its bulge."""
+    return boxes_of(side.triangles @ along) + side.bulges[:, None, None] * np.array([[-1.0], [1.0]])

@@ -15,7 +15,7 @@ from jaxkin.effects.limit_search import CoordinateRange, LimitKind, find_limit, 
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
 from jaxkin.effects.pose_plot import save_rows
-from jaxkin.effects.workspace import Workspace
+from jaxkin.effects.workspace import Workspace, drawn
 from jaxkin.effects.workspace_plot import draw_workspace
 from jaxkin.geometry.pose import apply
 from jaxkin.linkage.coordinates import coordinate
@@ -49,7 +49,7 @@ class Singularities:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the points over the workspace into a picture file; returns its path."""
-        return draw_workspace(self.workspace.map, Path(path), self.values, self.points)
+        return draw_workspace(drawn(self.workspace), Path(path), self.values, self.points)
 
     def save(self, path: str | Path) -> Path:
         """Write inputs and places as comma-separated values, a row a point; returns the path."""

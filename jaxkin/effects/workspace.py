@@ -103,14 +103,7 @@ class Workspace:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the map over the inputs, and the places of the point, into a picture file; returns its path."""
-        return draw_workspace(self.map, Path(path))
-
-    @property
-    def map(self) -> WorkspaceMap:
-        """What `plot` draws."""
-        return WorkspaceMap(
-            self.inputs, self.part, self.status, self.reached, self.sigma_min, self.condition, self.points
-        )
+        return draw_workspace(drawn(self), Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write inputs, status, point, sigma_min and condition as comma-separated values, a row a pose."""
@@ -118,6 +111,13 @@ class Workspace:
         rows = [first, second, self.status, *np.moveaxis(self.points, -1, 0), self.sigma_min, self.condition]
         names = [*self.inputs, "status", "x", "y", "z", "sigma_min", "condition"]
         return save_rows(names, np.array([np.ravel(row) for row in rows], float), Path(path))
+
+
+def drawn(found: Workspace) -> WorkspaceMap:
+    """Collect what is drawn of a workspace."""
+    return WorkspaceMap(
+        found.inputs, found.part, found.status, found.reached, found.sigma_min, found.condition, found.points
+    )
 
 
 def workspace(

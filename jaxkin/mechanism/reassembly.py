@@ -160,15 +160,15 @@ def _close_group(
     """Close loops from the given pose; where the steps end at a residual, by the nearest of those from other starts."""
     loops = ClosedLoops(linkage.joints, linkage.structure, loop_group, linkage.couplings)
     q, held = np.zeros(len(loops.columns)), [k for k, column in enumerate(loops.columns) if column in fixed]
-    before = loops.travel(q).gap
+    before = loops.travel(q).residual_norm
     if loops.coincide or before <= loops.thresholds.residual:
         return _ClosedGroup(loops, q, held, before, before, True)
     q, found = loops.closed(q, held)
     size = extent([linkage.joints[index] for index in loop_group.joints])
     enough = max(noise * size / loops.length, loops.thresholds.residual)
-    if found.gap > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
+    if found.residual_norm > enough and (others := closed_from_elsewhere(loops, q, enough, held)):
         q, found = min(others, key=lambda other: float(np.linalg.norm(other[0])))
-    return _ClosedGroup(loops, q, held, before, found.gap, found.gap <= enough)
+    return _ClosedGroup(loops, q, held, before, found.residual_norm, found.residual_norm <= enough)
 
 
 def _rounding(unit: str, moved: Sequence[_ClosedGroup]) -> list[str]:

@@ -39,9 +39,9 @@ def closed_from_elsewhere(
 ) -> list[tuple[Row, Travel]]:
     """Close the loops from other starts, as far from the given pose as the closed coordinates `q`.
 
-    Returns the coordinates whose `Travel.residual_norm` is at most `enough`, with what is met on the way around the loops
-    there. In the given pose all coordinates are zero; the columns `held` stay zero. The starts are the same in each
-    call.
+    Returns the coordinates whose `Travel.residual_norm` is at most `enough`, with what is met on the way around the
+    loops there. In the given pose all coordinates are zero; the columns `held` stay zero. The starts are the same in
+    each call.
     """
     rng, found, free = np.random.default_rng(0), [], np.ones(len(q))
     free[list(held)] = 0.0
@@ -85,11 +85,8 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
         nearer = _differences(there.places, home)
         # a step that jumped to another assembly mode would prove nothing
         stayed = np.linalg.norm(trial - q) <= 2.0 * np.linalg.norm(step) + APART
-        if (
-            stayed
-            and there.residual_norm <= loops.thresholds.residual
-            and np.linalg.norm(nearer) < np.linalg.norm(apart)
-        ):
+        closed = there.residual_norm <= loops.thresholds.residual
+        if stayed and closed and np.linalg.norm(nearer) < np.linalg.norm(apart):
             q, found, apart, stride = trial, there, nearer, min(2.0 * stride, _STRIDE)
         else:
             stride /= 4.0

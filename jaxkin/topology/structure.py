@@ -156,16 +156,7 @@ class Structure:
         """
         from jaxkin.view.structure import plot_structure
 
-        return plot_structure(self.diagram)
-
-    @property
-    def diagram(self) -> Diagram:
-        """What `plot` draws."""
-        from jaxkin.view.structure import Diagram
-
-        ends = tuple((self.row_of[part1], self.row_of[part2]) for part1, part2 in self.joint_parts)
-        fixed = self.row_of[self.fixed[0]]
-        return Diagram(self.parts, self.joints, ends, fixed, self.loops, self.elements)
+        return plot_structure(diagram(self))
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)
@@ -189,6 +180,14 @@ class Structure:
     def _loop(self, circuit: Circuit) -> Loop:
         places = ((self.parts[self._graph.tail(step)], self.joints[step.joint]) for step in circuit)
         return Loop(tuple(name for place in places for name in place), circuit)
+
+
+def diagram(found: Structure) -> Diagram:
+    """Collect what is drawn of a structure."""
+    from jaxkin.view.structure import Diagram
+
+    ends = tuple((found.row_of[part1], found.row_of[part2]) for part1, part2 in found.joint_parts)
+    return Diagram(found.parts, found.joints, ends, found.row_of[found.fixed[0]], found.loops, found.elements)
 
 
 def merged_by_couplings(groups: Sequence[LoopGroup], couplings: Sequence[tuple[int, ...]]) -> tuple[LoopGroup, ...]:

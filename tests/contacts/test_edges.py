@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from jaxkin.contacts.detect import find_contacts
-from jaxkin.contacts.edges import distances
+from jaxkin.contacts.edges import _nearest, _Side, distances
 from jaxkin.geometry.pose import rotation, unit
 from jaxkin.geometry.surfaces import Cylinder, Plane
 
@@ -63,3 +63,26 @@ def test_a_cube_on_its_edge_a_corner_or_a_pin_on_its_rim_is_named(solids):
 def test_parts_in_contact_are_not_named(pair, solids):
     contacts = find_contacts((solids.part("one", pair.face1), solids.part("two", pair.face2)))
     assert len(contacts) == 1 and not contacts.notes
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1.0, 1e-3, 0.0]), st.sampled_from([0.0, 0.02, 0.3]))
+def test_the_nearest_pair_is_that_of_all_pairs(seed, thin, bulge):
+    """Sparing pairs spares none that is the nearest, of long thin triangles, degenerate ones and bulges too."""
+    rng = np.random.default_rng(seed)
+
+    def side(count, middle):
+        start = rng.uniform(-1, 1, (count, 1, 3)) + middle
+        along, across = rng.normal(size=(2, count, 1, 3))
+        corners = start + along * np.array([[0.0], [1.0], [0.5]]) + thin * across * np.array([[0.0], [0.0], [1.0]])
+        return _Side(corners, np.zeros(count, int), rng.uniform(0, bulge, count) if bulge else np.zeros(count))
+
+    one, two = side(30, np.zeros(3)), side(40, 2 * X)
+    i, j = (index.ravel() for index in np.indices((30, 40)))
+    beyond = distances(one.triangles[i], two.triangles[j]) - one.bulges[i] - two.bulges[j]
+    for tolerance in (0.0, 0.1, 10.0):
+        found = _nearest(one, two, tolerance)
+        assert (found is None) == (beyond.min() > tolerance)
+        if found is not None:
+            # equal but for rounding: where a triangle of no height is the nearest, two distances differ by that
+            assert beyond[found[0] * 40 + found[1]] <= beyond.min() + 1e-12

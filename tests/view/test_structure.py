@@ -7,7 +7,7 @@ import pytest
 from matplotlib.text import Annotation
 
 from jaxkin._files import save_figure
-from jaxkin.topology.structure import Structure, structure
+from jaxkin.topology.structure import Structure, diagram, structure
 from jaxkin.view.layout import layout
 from jaxkin.view.tree import boxes
 
@@ -107,7 +107,7 @@ def _crossing(a, b, c, d) -> bool:
 def test_elements_of_the_tree_keep_apart() -> None:
     parts = ["p0", *(f"q{k}" for k in range(6)), *(f"r{k}" for k in range(6))]
     joints = [(f"j{k}", "p0", f"q{k}") for k in range(6)] + [(f"i{k}", f"q{k}", f"r{k}") for k in range(6)]
-    places = boxes(structure(parts, joints, ["p0"]).diagram)
+    places = boxes(diagram(structure(parts, joints, ["p0"])))
     for level in {box.y for box in places}:
         row = sorted((box for box in places if box.y == level), key=lambda box: box.x)
         for left, right in pairwise(row):

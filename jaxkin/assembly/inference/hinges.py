@@ -19,6 +19,7 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
 
 CENTRED = 0.02
 """Distance between the middles of a pin and of its holes, over the radius, that counts as none."""
@@ -48,11 +49,57 @@ class Stop(IntEnum):
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
     SHORT = 4
     """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
+    TIGHT = 5
+    """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
+
+
+class Line(NamedTuple):
+    """What two bodies have about a common axis."""
+
+    owners: Pair
+    found: list[CommonAxis]
+    touching: list[Contact]
+    """Their exact contacts."""
+
+    @property
+    def pins(self) -> list[bool]:
+        """Whether each contact is one of a pin in a hole."""
+        return [contact.contact_state.is_pin for contact in self.touching]
+
+    @property
+    def first(self) -> CommonAxis:
+        """That with a pin, the tightest first."""
+        return min(self.found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether exact contacts of pins, if there are some, are about the axes that were found."""
+        pins, first = self.pins, self.first
+        return not any(pins) or (all(pins) and all(each.other.on_axis_of(first.other) for each in self.found))
 
 
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
     """Infer joints of two bodies about common axes, by default all that are known; some are those of exact contacts but
-    for the slide."""
+    for the slide.
+
+    What no face stops at first may be stopped by a third body that turns about the same axis and is kept there, as a
+    sun between its bearing and the planet carrier.
+    """
+    some = lines(known, axes)
+    joined = {line.owners: _joined(known, line, fastening, ()) for line in some}
+    kept = [line for line in some if any(_is_kept(each) for each in joined[line.owners])]
+    for line in some:
+        if kept and not any(_is_kept(each) for each in joined[line.owners]):
+            joined[line.owners] = _joined(known, line, fastening, kept)
+    return [each for some in joined.values() for each in some]
+
+
+def _is_kept(hinge: Hinge) -> bool:
+    return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.REVOLUTE
+
+
+def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
+    """Find the bodies that have axes in common, but those that joints join already."""
     axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
     body, between = known.body, {}
     given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
@@ -64,24 +111,23 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     exact: dict[Pair, list[Contact]] = {}
     for contact in known.contacts:
         exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
-    result = []
-    for owners, found in between.items():
-        touching = exact.get(owners, [])
-        pins = [contact.contact_state.is_pin for contact in touching]
-        pair = min(found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
-        if not any(pins) or (all(pins) and all(each.other.on_axis_of(pair.other) for each in found)):
-            faces = [contact.surfaces[0] for contact in touching if contact.contact_state.is_flat]
-            planes = [face for face in faces if isinstance(face, Plane)]
-            across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
-            if not all(across):
-                continue  # faces along the axis keep it from turning: exact contacts say what is left
-            pinned = [each.one for each in found if not each.virtual]
-            guided = not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:])
-            if guided:
-                result.append(_guided(known, pair))
-            else:
-                result += _hinge(known, pair, found, owners, any(pins), any(across), pair.one.part in fastening)
-    return result
+    return [Line(owners, found, exact.get(owners, [])) for owners, found in between.items()]
+
+
+def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[Hinge]:
+    """Make the joint of two bodies about their axis; `kept` are pairs of bodies that do not slide on each other."""
+    pair, pins = line.first, line.pins
+    if not line.is_alone:
+        return []
+    faces = [contact.surfaces[0] for contact in line.touching if contact.contact_state.is_flat]
+    planes = [face for face in faces if isinstance(face, Plane)]
+    across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
+    if not all(across):
+        return []  # faces along the axis keep it from turning: exact contacts say what is left
+    pinned = [each.one for each in line.found if not each.virtual]
+    if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
+        return [_guided(known, pair)]
+    return _hinge(known, line, any(across), pair.one.part in fastening, kept)
 
 
 def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:
@@ -108,23 +154,16 @@ def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[Com
     return [pair for pair in axes if id(pair) in kept]
 
 
-def _hinge(
-    known: Known,
-    pair: CommonAxis,
-    found: Sequence[CommonAxis],
-    owners: Pair,
-    exact: bool,
-    touching: bool,
-    fastened: bool,
-) -> list[Hinge]:
+def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
     """
-    body, hole = known.body, pair.other
+    body, owners, found, pair, exact = known.body, line.owners, line.found, line.first, any(line.pins)
+    hole = pair.other
     one, other = (
-        [stop for part in known.parts if body[part.name] == owner for stop in known.measured.stops(part, hole)]
-        for owner in owners
+        [stop for part in known.parts if body[part.name] in group for stop in known.measured.stops(part, hole)]
+        for group in (_kept_with(owner, line, kept) for owner in owners)
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
     ends = [end for each in found for end in each.other.reach(pair.one.axis)]
@@ -148,9 +187,9 @@ def _hinge(
             return []
     parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
     make = pairs.cylindrical if free is None else pairs.revolute
-    line = _line(known, pair, owners)
-    middle = line.point + ((hole.point - line.point) @ line.axis) * line.axis
-    joint = make("-".join(parts), *parts, point=middle, axis=line.axis)
+    axis = _line(known, pair, owners)
+    middle = axis.point + ((hole.point - axis.point) @ axis.axis) * axis.axis
+    joint = make("-".join(parts), *parts, point=middle, axis=axis.axis)
     sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
     ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
     if exact and stop is Stop.ONE_FACE:
@@ -168,6 +207,12 @@ def _hinge(
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
     return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+
+
+def _kept_with(owner: str, line: Line, kept: Sequence[Line]) -> set[str]:
+    """Find a body with all that turn on it about the axis of a line without a slide, but the other body of the line."""
+    about = [each for each in kept if each.first.other.on_axis_of(line.first.other) and owner in each.owners]
+    return {owner, *(other for each in about for other in each.owners if other not in line.owners)}
 
 
 def _is_last(known: Known, owner: str, owners: Pair) -> bool:

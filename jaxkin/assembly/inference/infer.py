@@ -6,6 +6,7 @@ from collections.abc import Collection, Sequence
 
 from jaxkin.assembly.inference.bearings import bearing_bodies, bearing_joints, outside_of
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
+from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
@@ -25,8 +26,9 @@ from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
+from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
-from jaxkin.assembly.inference.slides import loose_slides
+from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
@@ -56,6 +58,7 @@ def infer(
     known.add(bearing_bodies(known, rolling))
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
+    known.add(collets(known))
     set_in = sleeves(known)
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
@@ -84,6 +87,7 @@ def infer(
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     joined = hinges(known, fastening)
+    joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.add(screwed_flat(known))

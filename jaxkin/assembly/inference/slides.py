@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from jaxkin.assembly.inference.hinges import Hinge, Stop
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -48,6 +49,50 @@ def loose_slides(known: Known) -> list[Inference]:
                 result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
                 tied.add(owners)
     return result
+
+
+def guided_on_faces(known: Known) -> list[Hinge]:
+    """Infer prismatic joints of bodies that lie flat on each other, with walls of one on both sides of the other, which
+    leave it a play: a jaw on its ways. Exact contacts let it slide both ways and turn.
+
+    Bodies that have an axis in common are left to that: a plate that turns on a pin is also between its cheeks.
+    """
+    body, result = known.body, []
+    flat: dict[Pair, list[Vector]] = {}
+    others = {frozenset(body[part] for part in each.parts) for each in (*known.axes, *known.tapped)}
+    others |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    others |= {frozenset(body[part] for part in pair) for pair in known.by_hand}
+    for contact in known.contacts:
+        owners, surface = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
+        if isinstance(surface, Plane) and contact.contact_state.is_flat:
+            flat.setdefault(owners, []).append(surface.normal)
+        else:
+            others.add(owners)
+    for owners, normals in flat.items():
+        if len(owners) < 2 or owners in others or any(_are_across(normal, normals[0]) for normal in normals):
+            continue
+        one, other = ([part for part in known.parts if body[part.name] == owner] for owner in owners)
+        walls = [
+            (part, *wall)
+            for first, second in ((one, other), (other, one))
+            for part in first
+            for wall in between_faces(part, *second)
+            if abs(float(wall[0] @ normals[0])) < ACROSS
+        ]
+        if walls and not any(_are_across(wall, walls[0][1]) for _, wall, _ in walls):
+            part, wall, play = min(walls, key=lambda each: each[2])
+            axis = np.cross(wall, normals[0])
+            parts = tuple(sorted(owners, key=known.order.__getitem__))
+            text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
+            evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
+            joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
+            result.append(Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.FACES))
+    return result
+
+
+def _are_across(one: Vector, other: Vector) -> bool:
+    """Tell whether two normals are not parallel."""
+    return bool(np.linalg.norm(np.cross(one, other)) > ACROSS)
 
 
 def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:

@@ -4,6 +4,7 @@ import pytest
 
 import jaxkin as jk
 from jaxkin.examples import path
+from reference.round_parts import assembly, block, part, pin, ring
 
 
 @pytest.fixture(scope="module")
@@ -44,3 +45,20 @@ def test_many_coordinates_are_counted():
     drive = tuple(f"j{number}.phi" for number in range(18))
     told = str(jk.Proposal(("base",), drive, 18, 19, 18))
     assert "'j0.phi'" in told and "and 13 more can be driven" in told and "'j17.phi'" not in told
+
+
+def test_several_fixed_parts_that_still_most_of_what_moves_come_after_single_ones():
+    """Levers are what a machine moves, and no brackets on a wall: fixed, they leave the shaft two freedoms of seven."""
+    places = [(40.0, 0.0), (80.0, 0.0), (120.0, 0.0)]
+    posts = [pin(5.0, -60, -20, at) for at in places]
+    base = part("base", block((-60, -60, -100), (160, -50, 100)), ring(5.0, 12.0, -60, -20), *posts)
+    shaft = part("shaft", pin(5.0, -80, 60), block((-30, -2, -75), (4, 2, -70)))
+    wheel = part("wheel", ring(5.0, 9.0, 20, 50), block((8, -3, 20), (30, 3, 50)))
+    levers = [
+        part(f"lever {k}", ring(5.0, 9.0, -45, -15, at), block((at[0] - 2, 8, -45), (at[0] + 2, 30, -15)))
+        for k, at in enumerate(places)
+    ]
+    found = assembly(base, shaft, wheel, *levers).proposals()
+    assert found[0].fixed == ("base",)
+    several = next(each for each in found if len(each.fixed) > 1)
+    assert several.freedoms < found[0].freedoms  # it would come first by its freedoms

@@ -1,0 +1,71 @@
+"""Split rings that grip a shaft: halves with the steps of its groove inside, and the ring that closes them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import shared_length
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MIN_GAP = np.deg2rad(150.0)
+"""The widest angle around a shaft that a half of a split ring leaves open, at least."""
+FITTED = 0.05
+"""Radius of a step inside of a split ring less that of the shaft there, over the radius, at most."""
+
+
+def collets(known: Known) -> list[Inference]:
+    """Join split rings with the shaft that they grip, and with the part that holds their pieces together.
+
+    A piece has two radii inside, those of a groove of the shaft and of the shaft beside it: it is laid on from the side
+    and cannot slide, and nothing would close it that did not press it on. A shell of a plain bearing, of which the
+    shaft turns, has one radius.
+    """
+    result = []
+    for pair in known.axes:
+        piece, shaft = pair.other, pair.one
+        if pair.virtual or piece.part in known.fixed or not _is_piece(known, piece):
+            continue
+        if not _has_steps(known, piece, shaft) or any(piece.part in each.parts for each in result):
+            continue
+        around = [each for each in known.bores[piece.part] if not each.hole and each.on_axis_of(piece)]
+        rings = [
+            each
+            for name in known.names
+            if name not in (piece.part, shaft.part)
+            for each in known.bores[name]
+            if each.hole and any(_closes(each, outside) for outside in around)
+        ]
+        # what also holds other pieces comes first; the hole that the shaft itself is in, too, is no closing ring
+        for ring in rings[:1]:
+            text = f"the split ring {piece.part!r} is in a groove of {shaft.part!r}, and {ring.part!r} closes it"
+            parts = tuple(sorted((piece.part, shaft.part, ring.part), key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", piece.radius),), text)))
+    return result
+
+
+def _is_piece(known: Known, bore: Bore) -> bool:
+    """Tell whether a part leaves half of the way around an axis open."""
+    corners = known.solids[bore.part].triangles.reshape(-1, 3) - bore.point
+    x = np.cross(bore.axis, np.eye(3)[np.argmin(np.abs(bore.axis))])
+    angles = np.sort(np.arctan2(corners @ np.cross(bore.axis, x), corners @ x))
+    return bool(np.diff(angles, append=angles[0] + 2 * np.pi).max() >= MIN_GAP)
+
+
+def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:
+    """Tell whether a piece has holes of two radii about a shaft, each on a pin of the shaft that fits it."""
+    fitted = set()
+    for hole in known.bores[piece.part]:
+        for pin in known.bores[shaft.part]:
+            fits = abs(hole.radius - pin.radius) <= FITTED * hole.radius and hole.on_axis_of(pin)
+            if hole.hole and not pin.hole and fits and shared_length(hole, pin) > 0:
+                fitted.add(id(pin))
+    return len(fitted) > 1
+
+
+def _closes(hole: Bore, outside: Bore) -> bool:
+    """Tell whether a hole holds the outside of a piece."""
+    fits = abs(hole.radius - outside.radius) <= FITTED * hole.radius
+    return bool(fits and hole.on_axis_of(outside) and shared_length(hole, outside) > outside.radius * FITTED)

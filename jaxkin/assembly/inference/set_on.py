@@ -1,0 +1,89 @@
+"""Bodies that are set on a pin though nothing drawn holds them there: brackets that would jam, what fits exactly beside
+what has play."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge, Line, Stop, lines
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import SAME_FIT
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
+    """Find bodies that do not move on the pin that they fit exactly, though exact contacts let them slide.
+
+    What is `joined` by a hinge already is left to that.
+    """
+    body, result = known.body, []
+    hinged = {frozenset(body[part] for part in each.inference.parts) for each in joined}
+    for line in lines(known):
+        pair = line.first
+        if pair.virtual or not any(line.pins) or line.owners in hinged:
+            continue
+        if length := _jams(known, line):
+            text = (
+                f"a face keeps it from turning on the pin of {pair.one.part!r}, and it holds no more than {length:.3g}"
+            )
+            text += f" of a radius of {pair.other.radius:.4g}: it would jam on a slide"
+            result.append(_held(known, pair, text, ("length", length), Stop.SHORT))
+        elif all(line.pins) and (play := _looser(known, pair)):
+            text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
+            result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
+    return result
+
+
+def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], stop: Stop) -> Hinge:
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    evidence = Evidence(EvidenceKind.FASTENER, (("radius", pair.other.radius), length), f"{pair.other.part!r}: {text}")
+    return Hinge(Inference(parts, evidence), stop)
+
+
+def _jams(known: Known, line: Line) -> float | None:
+    """Find the length along a pin by which faces and holes guide a body that faces keep from turning; None if it could
+    slide, or turn.
+
+    A plate on a rod between rails is long enough, the ear of a bracket is not.
+    """
+    pair, axis = line.first, line.first.one.axis
+    flat = [(contact, contact.surfaces[0]) for contact in line.touching if contact.contact_state.is_flat]
+    if not flat or not all(contact.contact_state.is_flat or contact.contact_state.is_pin for contact in line.touching):
+        return None
+    if any(not isinstance(face, Plane) or abs(float(face.normal @ axis)) > ACROSS for _, face in flat):
+        return None  # a face across the axis stops the slide
+    holes = [end for each in line.found for end in each.other.reach(axis)]
+    shared = [_shared(known, contact, axis) for contact, _ in flat]
+    guided = max([max(holes) - min(holes), *(high - low for low, high in shared)])
+    return guided if guided < MIN_GUIDED * pair.other.radius else None
+
+
+def _shared(known: Known, contact: Contact, axis: Vector) -> tuple[float, float]:
+    """Find where along an axis two faces in contact are both."""
+    spans = []
+    for part, name in zip(contact.parts, contact.faces, strict=True):
+        face = next(face for face in known.solids[part].faces if face.name == name)
+        along = face.triangles.reshape(-1, 3) @ axis
+        spans.append((float(along.min()), float(along.max())))
+    return max(low for low, _ in spans), min(high for _, high in spans)
+
+
+def _looser(known: Known, pair: CommonAxis) -> float | None:
+    """Find the play of another body on the same pin, where that of a pair is none; None where all fit alike.
+
+    The pin is held by the hole of another part, as a column in its base: a pin that is alone may turn in what it fits,
+    and pass through the others.
+    """
+    body, fit = known.body, SAME_FIT * pair.other.radius
+    on = [each for each in known.axes if each.one is pair.one and not each.virtual]
+    owner = body[pair.one.part]
+    if abs(pair.clearance) > fit or not any(body[each.other.part] == owner for each in on):
+        return None
+    others = [each.clearance for each in on if body[each.other.part] not in (owner, body[pair.other.part])]
+    return max((each for each in others if each > fit), default=None)
