@@ -82,3 +82,13 @@ def test_distances_and_crossings_are_those_of_all_pairs_of_triangles(seed):
     none = [np.zeros(len(each.triangles)) for each in (ONE, OTHER)]
     found = crossings(ONE, OTHER, moved, Slack(0.0, *none, np.zeros((1, 1), bool)))
     np.testing.assert_array_equal(np.unique(found.pose), np.flatnonzero(expected == 0))
+
+
+def test_what_is_split_piece_by_piece_is_the_same(monkeypatch):
+    moved, none = path(21, 3, 4.0), [np.zeros(len(each.triangles)) for each in (ONE, OTHER)]
+    slack = Slack(0.0, *none, np.zeros((1, 1), bool))
+    whole = crossings(ONE, OTHER, moved, slack)
+    monkeypatch.setattr("jaxkin.geometry.tree_crossings._MAX_ITEMS", 64)
+    pieces = crossings(ONE, OTHER, moved, slack)
+    assert len(whole.pose) > 100
+    assert sorted(zip(*whole, strict=True)) == sorted(zip(*pieces, strict=True))
