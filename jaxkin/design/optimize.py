@@ -118,11 +118,9 @@ def optimize(
         weight *= STIFFER
     bar.close()
     vector = vectors[best]
+    motion, found, misfits = problem.motion(vector)
     if violations[best] > MET:
-        reason += (
-            f"; the best design still violates by {violations[best]:.1g} (closure, fit of lengths, or constraints)"
-        )
-    motion, found, _ = problem.motion(vector)
+        reason += f"; the best design violates {_violated(problem.violations(motion, found, misfits))}"
     values = chosen.values(vector)
     return Optimum(
         mechanism=motion.mechanism,
@@ -195,6 +193,14 @@ def _search(downhill: Solver, vectors, weight: float, stop: Optimiser, history, 
             )
     improving = f"{active.sum()} starts were" if active.sum() > 1 else "1 start was"
     return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
+
+
+def _violated(violations: list[tuple[str, Any]]) -> str:
+    """Say what a design violates, the most first, and what may be done."""
+    most = {name: float(np.max(rows, initial=0.0)) for name, rows in violations}
+    order = sorted((name for name in most if most[name] > 0), key=lambda name: -most[name])
+    said = ", ".join(f"{name} by up to {most[name]:.3g}" for name in order)
+    return f"{said}: give more starts, wider bounds, or a larger penalty= of the solver"
 
 
 def _rank(losses, violations) -> int:

@@ -65,10 +65,23 @@ class Problem:
     def judge(self, vector) -> Judged:
         """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
-        rows = self.of_motion(motion, extras)
-        lacking = [jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0)) for each in self.constraints]
-        fits = [jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,)) for misfit in misfits.values()]
-        return Judged(rows, jnp.concatenate([closure_gaps(motion), *fits, *lacking]))
+        violations = self.violations(motion, extras, misfits)
+        return Judged(self.of_motion(motion, extras), jnp.concatenate([rows for _, rows in violations]))
+
+    def violations(
+        self, motion: Motion, extras: dict[str, Any], misfits: dict[str, Any]
+    ) -> list[tuple[str, Float[Array, " violations"]]]:
+        """Compute what a design violates, each with the name of what it violates; zero where all is well."""
+        found = [("closure", closure_gaps(motion))]
+        for part, misfit in misfits.items():
+            found.append((f"fit of the lengths of {part}", jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,))))
+        for number, each in enumerate(self.constraints):
+            # the constraints of jaxkin.design are functions `margins` within those that made them
+            whole = getattr(each, "__qualname__", type(each).__name__)
+            name = whole.removesuffix(".<locals>.margins").rsplit(".", 1)[-1]
+            lack = jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0))
+            found.append((f"constraint {number} ({name})", lack))
+        return found
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
         """Compute residuals of a sum of squares, or the loss alone."""

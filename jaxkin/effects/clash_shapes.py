@@ -8,8 +8,10 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from jaxkin.geometry.part import Part
-from jaxkin.geometry.tree_pairs import Displaced
+from jaxkin.contacts.whole_face import is_whole
+from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.surfaces import Cone, Plane, Sphere
 from jaxkin.geometry.triangle_tree import TriangleTree, aligned_axes, triangle_tree
 
 _SAME_PLACE = 1e-7
@@ -30,6 +32,12 @@ class Shape:
     def bulges(self) -> Float[np.ndarray, " labels"]:
         """How far the surface of each label is from its triangles; 0 for faces whose surface is not known."""
         return np.array([*(face.bulge for face in self.part.faces), 0.0])
+
+    @cached_property
+    def axis_points(self) -> dict[int, Float[np.ndarray, "_ 3"]]:
+        """By the labels of whole faces of revolution, points of their axes, in the axes of the shape."""
+        found = {label: axis_points(face) for label, face in enumerate(self.part.faces)}
+        return {label: points @ self.axes.T for label, points in found.items() if points is not None}
 
     @cached_property
     def corners(self) -> tuple[Float[np.ndarray, "corners 3"], Int[np.ndarray, "triangles 3"]]:
@@ -63,6 +71,19 @@ def _ray(triangles: np.ndarray, start: np.ndarray, direction: np.ndarray) -> Flo
         v = (turned @ direction) / determinant
         place = np.sum(edge2 * turned, axis=-1) / determinant
     return np.compress((u >= 0) & (v >= 0) & (u <= 1 - v) & np.isfinite(place), place)
+
+
+def axis_points(face: Face) -> Float[np.ndarray, "_ 3"] | None:
+    """Find points of the axis of a whole face of revolution, at its ends, or its centre; None for all other faces."""
+    surface = face.surface
+    if isinstance(surface, Plane) or not is_whole(face):
+        return None
+    if isinstance(surface, Sphere):
+        return surface.centre[None]
+    point = surface.apex if isinstance(surface, Cone) else surface.point
+    middle, half = face.box.mean(axis=0), float(np.linalg.norm(np.ptp(face.box, axis=0))) / 2
+    foot = point + ((middle - point) @ surface.axis) * surface.axis
+    return np.stack([foot - half * surface.axis, foot + half * surface.axis])
 
 
 def shape_of(part: Part) -> Shape:

@@ -13,10 +13,13 @@ from jaxtyping import Bool, Float
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
-from jaxkin.effects.penetration import depths, inverse
+from jaxkin.effects.invariant_faces import SAME_PLACE, invariant
+from jaxkin.effects.penetration import depths
 from jaxkin.effects.pose_plot import draw_lines, save_rows
+from jaxkin.geometry.displaced import Displaced
 from jaxkin.geometry.part import size
-from jaxkin.geometry.tree_pairs import Displaced, Slack, crossings, distances
+from jaxkin.geometry.tree_crossings import Slack, crossings
+from jaxkin.geometry.tree_distances import distances
 from jaxkin.mechanism.lost_contacts import FaceSetting
 from jaxkin.mechanism.motion import Motion
 
@@ -144,6 +147,8 @@ def clashes(
     Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
     inside `jit`, `vmap` and `grad`.
     """
+    if not isinstance(motion, Motion):
+        raise ValueError(f"clashes are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     if traced(motion):
         raise ValueError("clashes are found on the host: call clashes outside of jit, vmap and grad")
     mechanism = motion.mechanism
@@ -156,6 +161,7 @@ def clashes(
             raise ValueError(f"{name} is a length, zero or more in the unit of the mechanism, got {given!r}")
     setting = FaceSetting(mechanism)
     within = WITHIN * size(mechanism.solids) if within is None else float(within)
+    still = SAME_PLACE * setting.length
     least = setting.length if tolerance is None else float(tolerance)
     (closed,) = np.nonzero(np.asarray(motion.closed))
     places = [np.asarray(motion.transforms[part.name], float)[closed] for part in mechanism.solids]
@@ -171,7 +177,9 @@ def clashes(
         row = np.full(len(motion), np.nan)
         row[closed] = np.inf
         moved = displaced(shapes[i], shapes[j], places[i][near], places[j][near])
-        row[closed[near]] = _clearances(shapes[i], shapes[j], moved, slack, 0.0 if is_joined else within, is_joined)
+        row[closed[near]] = _clearances(
+            shapes[i], shapes[j], moved, slack, 0.0 if is_joined else within, is_joined, still
+        )
         if is_joined or np.any(row <= within):
             pairs.append(names)
             joined.append(is_joined)
@@ -223,16 +231,18 @@ def _slack(one: Shape, other: Shape, misfits: dict, least: float) -> Slack:
 
 
 def _clearances(
-    one: Shape, other: Shape, moved: Displaced, slack: Slack, within: float, joined: bool
+    one: Shape, other: Shape, moved: Displaced, slack: Slack, within: float, joined: bool, still: float
 ) -> Float[np.ndarray, " poses"]:
     """Measure the clearance of two shapes at each displacement."""
     count = len(moved.shift)
     reach = max(1.0, float(np.abs(moved.shift).max()))
     change = max(np.ptp(moved.rotation, axis=0).max(), np.ptp(moved.shift, axis=0).max() / reach)
     if count > 1 and change <= _AT_REST:
-        return np.repeat(_clearances(one, other, moved.at(np.array([0])), slack, within, joined), count)
+        return np.repeat(_clearances(one, other, moved.at(np.array([0])), slack, within, joined, still), count)
+    if joined and not len(crossings(one.tree, other.tree, moved.at(np.array([0])), slack).pose):
+        slack = slack._replace(ignored=slack.ignored | invariant(one, other, moved, still))
     crossed = crossings(one.tree, other.tree, moved, slack)
-    inside = np.maximum(_middle_depths(one, other, inverse(moved)), _middle_depths(other, one, moved))
+    inside = np.maximum(_middle_depths(one, other, moved.inverse()), _middle_depths(other, one, moved))
     suspects = np.union1d(crossed.pose, np.flatnonzero(inside > slack.least))
     result = np.zeros(count)
     if len(suspects):

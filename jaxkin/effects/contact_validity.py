@@ -118,6 +118,8 @@ def contact_validity(motion: Motion) -> ContactValidity:
     Contacts are those that the joints of a mechanism were read from: raises ValueError where it has none, and inside
     `jit`, `vmap` and `grad`.
     """
+    if not isinstance(motion, Motion):
+        raise ValueError(f"contacts are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
     if traced(motion):
         raise ValueError("contacts are checked on the host: call contact_validity outside of jit, vmap and grad")
     mechanism = motion.mechanism

@@ -11,7 +11,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from jaxkin.effects.clash_shapes import Shape
-from jaxkin.geometry.tree_pairs import Crossings, Displaced, Slack
+from jaxkin.geometry.displaced import Displaced
+from jaxkin.geometry.tree_crossings import Crossings, Slack
 from jaxkin.geometry.triangle_distance import edge_places
 
 
@@ -19,19 +20,13 @@ def depths(
     one: Shape, other: Shape, displaced: Displaced, crossed: Crossings, slack: Slack
 ) -> Float[np.ndarray, " poses"]:
     """Measure the depth at each displacement, a length; 0 where no point is deeper than the slack of where it is."""
-    back = inverse(displaced)
+    back = displaced.inverse()
     turned = Crossings(crossed.pose, crossed.second, crossed.first)
     exchanged = Slack(slack.least, slack.second, slack.first, slack.ignored.T)
     return np.maximum(
         _of_first(one, other, back, displaced, crossed, slack),
         _of_first(other, one, displaced, back, turned, exchanged),
     )
-
-
-def inverse(displaced: Displaced) -> Displaced:
-    """Compute the displacements of solid 1 relative to solid 2."""
-    turn = np.swapaxes(displaced.rotation, 1, 2)
-    return Displaced(turn, -np.einsum("pij,pj->pi", turn, displaced.shift))
 
 
 def _of_first(

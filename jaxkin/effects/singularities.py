@@ -22,6 +22,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.placed_at import part_places
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.solve.status import Status
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,10 +60,10 @@ class Singularities:
 def singularities(workspace: Workspace) -> Singularities:
     """Find points of the singularity curves that bound a workspace, one on each edge of its grid that they cut.
 
-    From each CLOSED node beside one that is not, one input is moved on, the other at rest, until the mechanism locks
-    (as in `jk.limits`): there the loops can move while both inputs rest. A point is right to rounding, some 1e-13
-    radians, or lengths over the size. Singular poses within the workspace, at which two branches meet without an end,
-    are not looked for: `sigma_min` of the workspace shows them.
+    From each CLOSED node beside one to which the loops do not lead, one input is moved on, the other at rest, until the
+    mechanism locks (as in `jk.limits`): there the loops can move while both inputs rest. A point is right to rounding,
+    some 1e-13 radians, or lengths over the size. Singular poses within the workspace, at which two branches meet
+    without an end, are not looked for: `sigma_min` of the workspace shows them.
 
     Raises ValueError for what is no `Workspace`, and where the two inputs do not move the same loops.
     """
@@ -112,7 +113,7 @@ def singularities(workspace: Workspace) -> Singularities:
 
 
 class _Edge(NamedTuple):
-    """A line of the grid from a CLOSED node to a neighbour that is not."""
+    """A line of the grid from a CLOSED node to a neighbour that is neither CLOSED nor LIMITED."""
 
     node: int
     axis: int
@@ -124,11 +125,12 @@ class _Edge(NamedTuple):
 
 def _edges(workspace: Workspace) -> Iterator[_Edge]:
     reached, grids = workspace.reached, list(workspace.inputs.values())
+    followed = reached | (workspace.status == Status.LIMITED.value)  # where joints end, the loops go on
     for axis, grid in enumerate(grids):
         for step in (1, -1):
             for place in np.argwhere(reached):
                 other = place.copy()
                 other[axis] += step
-                if 0 <= other[axis] < len(grid) and not reached[tuple(other)]:
+                if 0 <= other[axis] < len(grid) and not followed[tuple(other)]:
                     node = int(np.ravel_multi_index(tuple(place), reached.shape))
                     yield _Edge(node, axis, float(step), float(grid[other[axis]]))

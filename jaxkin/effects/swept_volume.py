@@ -40,6 +40,8 @@ notches, of which half remain compared to whole steps."""
 OFF = np.sqrt(3.0) + PLACED / 2
 """Steps of the grid by which the surface may be off: half a diagonal of a cell for each of the two grids, between whose
 points distances are interpolated, and what sharp edges leave between two placements."""
+WANTED = 0.5
+"""Share of the volume above which its bound tells little, as of thin rods."""
 MESH_FILES = (".stl", ".ply", ".obj", ".glb")
 """Suffixes of the files that `SweptVolume.save` writes."""
 
@@ -101,8 +103,17 @@ class SweptVolume:
             f"  box ({low}) to ({high}){unit}\n"
             f"  {self.placements} placements on a grid of {self.field.size} points, {self.resolution:.3g}{unit} apart; "
             f"{len(self.mesh.faces)} triangles\n"
-            f"  the part alone is {own} on this grid: a smaller resolution= makes both better"
+            f"  the part alone is {own} on this grid: {self._advice()}"
         )
+
+    def _advice(self) -> str:
+        """Say what makes the bounds smaller: where they tell little of the volume, with numbers."""
+        allowed, rest = WANTED * self.volume / float(self.mesh.area), self.error - OFF * self.resolution
+        if self.error <= allowed:
+            return "a smaller resolution= makes both better"
+        if allowed <= rest:
+            return f"{rest:.2g} of the bound is not the grid's: take poses closer together, or finer triangles"
+        return f"the bound is half of the volume or more: write resolution={0.9 * (allowed - rest) / OFF:.2g} or less"
 
     def plot(self, path: str | Path) -> Path:
         """Draw the swept solid as seen along z, y and x into a picture file; returns its path."""
@@ -177,8 +188,8 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
     alone = Trimesh(*zero_surface(distances), process=False)
     lost = 1.0 - float(alone.volume) * step**3 / solid.volume if len(alone.faces) else 1.0
     off = OFF * step + _off_between(places, moved, corners) + max((face.bulge for face in solid.faces), default=0.0)
-    unit = motion.mechanism.unit
-    return SweptVolume(part, mesh, step, off, lost, len(places), left_out, count, field, origin, unit)
+    counts = len(places), left_out, count
+    return SweptVolume(part, mesh, step, off, lost, *counts, field, origin, motion.mechanism.unit)
 
 
 def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"], int]:
@@ -237,9 +248,7 @@ def _placements(places: np.ndarray, moved: np.ndarray, step: float) -> Iterator[
 
 def _sagitta(moved: Float[np.ndarray, "poses corners 3"]) -> float:
     """How far an arc of at most a quarter turn between two poses goes beyond its chord: 0.21 of the chord."""
-    if len(moved) < 2:
-        return 0.0
-    return 0.21 * float(np.linalg.norm(np.diff(moved, axis=0), axis=-1).max())
+    return 0.21 * float(np.linalg.norm(np.diff(moved, axis=0), axis=-1).max(initial=0.0))
 
 
 def _off_between(places: np.ndarray, moved: np.ndarray, corners: np.ndarray) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -24,6 +24,7 @@ from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
@@ -49,8 +50,9 @@ class Workspace:
     point: tuple[float, float, float]
     """The point of the part, where it is in the assembled pose."""
     status: Int[np.ndarray, "first second"]
-    """Codes of `Status`: CLOSED where a path over the grid leads from the assembled pose without a singular pose,
-    JUMPED where the loops close but no such path was found, UNREACHABLE where no neighbour leads to a closed pose."""
+    """Codes of `Status`: CLOSED where a path over the grid leads from the assembled pose without a singular pose and
+    within the limits of joints, LIMITED where a joint is beyond its limits, JUMPED where the loops close but no such
+    path was found, UNREACHABLE where no neighbour leads to a closed pose."""
     points: Float[np.ndarray, "first second 3"]
     """Where the point is; NaN where the loops do not close."""
     rates: Float[np.ndarray, "first second 3 2"]
@@ -131,9 +133,10 @@ def workspace(
 
     `ranges` maps two coordinates to rising arrays of displacements from the assembled pose, radians or lengths. The map
     is filled from the node nearest to the assembled pose, from neighbour to neighbour, past no singular pose. Nodes are
-    CLOSED where a path over the grid leads there, on the branch of the assembled pose; JUMPED where the loops close,
-    but no path was found; UNREACHABLE where no neighbour leads to a closed pose. A passage narrower than the grid is
-    not found. Coordinates in `hold` stay as assembled.
+    CLOSED where a path over the grid leads there, on the branch of the assembled pose and within the limits of joints;
+    LIMITED where a path leads there, but a joint is beyond its limits; JUMPED where the loops close, but no path was
+    found, or none within the limits; UNREACHABLE where no neighbour leads to a closed pose. A passage narrower than the
+    grid is not found. Coordinates in `hold` stay as assembled.
 
     Raises ValueError for names, ranges and points that make no sense, for a drive that leaves freedoms or that the
     loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
@@ -177,16 +180,35 @@ def workspace(
     rows, points, rates = _read(layout, linkage, joints, jnp.asarray(nodes), poses, where)
     inputs = {name: jnp.asarray(row) for name, row in zip(driven, nodes, strict=True)}
     motion = Motion(mechanism, inputs, rows, jnp.asarray(found.status), jnp.asarray(found.residual), options=options)
+    status = _within_limits(np.asarray(with_limited(motion).status).reshape(shape), nodes[:2])
+    motion = replace(motion, status=jnp.asarray(status.ravel()))
     closed = np.isin(found.status, (Status.CLOSED.value, Status.JUMPED.value))
     return Workspace(
         dict(zip(driven, (first, second), strict=False)),
         part,
         tuple(float(each) for each in where),  # pyright: ignore[reportArgumentType]
-        found.status.reshape(shape),
+        status,
         np.where(closed[:, None], points, np.nan).reshape(*shape, 3),
         np.where(closed[:, None, None], rates, np.nan).reshape(*shape, 3, 2),
         motion,
     )
+
+
+def _within_limits(
+    status: Int[np.ndarray, "first second"], nodes: Float[np.ndarray, "2 nodes"]
+) -> Int[np.ndarray, "first second"]:
+    """Give nodes that no path within the limits leads to from the assembled pose the status JUMPED.
+
+    Where the assembled pose itself is beyond a limit, there is no node to begin from, and the status stays as it is.
+    """
+    from scipy.ndimage import label
+
+    start = np.unravel_index(np.argmin(np.linalg.norm(nodes, axis=0)), status.shape)
+    if Status.LIMITED.value not in status or status[start] != Status.CLOSED.value:
+        return status
+    closed = status == Status.CLOSED.value
+    pieces = np.asarray(label(closed)[0])  # pyright: ignore[reportIndexIssue]  # along the edges of the grid, as the map is filled
+    return np.where(closed & (pieces != pieces[start]), Status.JUMPED.value, status)
 
 
 def _grid(ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, Float[np.ndarray, " values"]]:

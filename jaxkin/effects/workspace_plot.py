@@ -14,7 +14,7 @@ from jaxkin.solve.status import Status
 
 FLAT = 1e-9
 """Extent of a point's places along an axis, over the largest one, below which they are drawn in the plane across."""
-GREYS = {Status.JUMPED: "0.8", Status.UNREACHABLE: "0.95", Status.STALLED: "0.6"}
+GREYS = {Status.LIMITED: "0.7", Status.JUMPED: "0.82", Status.UNREACHABLE: "0.95", Status.STALLED: "0.55"}
 """Colours of nodes that are not reached."""
 
 MARK = "crimson"

@@ -53,7 +53,17 @@ class TriangleTree:
         return self.children[:, 0] == np.arange(len(self.children))
 
     @cached_property
-    def _middles(self) -> KDTree:
+    def middles(self) -> Float[np.ndarray, "3 nodes"]:
+        """The middles of the boxes, one coordinate a row."""
+        return np.ascontiguousarray((self.low + self.high).T) / 2
+
+    @cached_property
+    def halves(self) -> Float[np.ndarray, "3 nodes"]:
+        """Half the sizes of the boxes, one coordinate a row."""
+        return np.ascontiguousarray((self.high - self.low).T) / 2
+
+    @cached_property
+    def _centroids(self) -> KDTree:
         """The centroids of the triangles, ordered for search."""
         from scipy.spatial import KDTree
 
@@ -75,7 +85,7 @@ class TriangleTree:
 
     def _signed(self, points: Points) -> tuple[np.ndarray, np.ndarray]:
         which, node = np.arange(len(points)), np.zeros(len(points), int)
-        guess = self._middles.query(points)[1]
+        guess = self._centroids.query(points)[1]
         level = _ROUNDING * float(np.abs(self.high - self.low).max())
         limit = point_distances(points, self.triangles[guess])[0] * (1 + _LEVEL_DISTANCE) + level
         while not np.all(self.is_leaf[node]):

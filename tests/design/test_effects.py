@@ -45,6 +45,21 @@ def test_less_peak_torque_for_a_stroke():
 
 
 @pytest.mark.long
+def test_what_cannot_be_met_is_named_with_its_size():
+    """A stroke of 60 asks for a crank of 30, and 25 are the most: 10 of 100 are lacking."""
+
+    def loss(motion):
+        return jnp.mean(motion.coordinates["S"][:, 0] ** 2) / 1e4
+
+    best = jk.optimize(
+        loss, start(22.0), drive={"A": TURN}, lengths={CRANK: (20.0, 25.0)}, constraints=[stroke], progress=False
+    )
+    assert not best.feasible and best.violation == pytest.approx(0.1, abs=1e-6)
+    assert "infeasible by 0.1" in str(best)
+    assert "violates constraint 0 (stroke) by up to 0.1: give more starts, wider bounds" in str(best)
+
+
+@pytest.mark.long
 def test_effects_that_are_found_on_the_host_say_so_where_numbers_are_traced():
     """An error that names the effect, and not a number without a derivative."""
     mechanism = slider_crank(theta=0.0, offset=0.0)

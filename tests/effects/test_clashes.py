@@ -9,6 +9,8 @@ import trimesh
 from scipy.spatial import KDTree
 
 import jaxkin as jk
+from jaxkin.effects.clash_shapes import displaced, shape_of
+from jaxkin.effects.invariant_faces import invariant
 from jaxkin.examples import EXAMPLES, path
 
 
@@ -143,6 +145,46 @@ def test_a_pin_in_its_hole_is_no_clash_but_through_a_wall_it_is(tmp_path, one_pa
         np.testing.assert_array_equal(found.clearances[own], 0.0)
 
 
+def test_what_turns_about_its_own_axis_is_compared_once_and_the_rest_at_all_poses(tmp_path):
+    """A pin with a handle turns in its bush, which has a post at 90 degrees: the handle hits the post, the pin nothing.
+
+    The handle, 4 wide, and the post, 6 wide, are as far apart as their corners and sides are.
+    """
+    pin = trimesh.creation.cylinder(5, segment=[[0, 0, 0], [0, 0, 40]], sections=48)
+    handle = box([-2, -2, 41], [30, 2, 46])
+    bush = trimesh.creation.annulus(5, 10, segment=[[0, 0, 5], [0, 0, 30]], sections=64)
+    post = box([-3, 20, 5], [3, 26, 50])
+    mechanism = loaded(tmp_path, {"bush": bush + post, "pin": pin + handle}).mechanism(fixed=["bush"])
+    (joint,) = mechanism.all_joints
+    turning = np.linspace(0, 2 * np.pi, 73)
+    motion = mechanism.sweep({f"{joint.name}.z": np.zeros(73), f"{joint.name}.phi": turning})
+    found = jk.clashes(motion)
+    assert found.joined.all()
+    ahead = np.asarray(motion.points("pin", (1, 0, 0)))
+    angle = np.arctan2(ahead[:, 1], ahead[:, 0])  # the axis of the joint may point either way
+    # pin, bush and nothing else keep their place, and were free at the first pose
+    shapes = [shape_of(part) for part in mechanism.solids]
+    moved = displaced(*shapes, *(np.asarray(motion.transforms[part.name]) for part in mechanism.solids))
+    ignored = invariant(*shapes, moved, 1e-6)
+    rows = ignored.all(axis=1), ignored.all(axis=0)
+    kept = [shape.part.faces[k].surface for shape, row in zip(shapes, rows, strict=True) for k in np.flatnonzero(row)]
+    assert sorted(surface.radius for surface in kept) == pytest.approx([5, 5, 10])
+    # the handle's edge nearest to the post is its end's corner, at 30 and 2 from the axis, or its side
+    away = angle - np.pi / 2
+    corners = np.array([[30, 2], [30, -2], [-2, 2], [-2, -2]])
+    expected = []
+    for a in away:
+        turn = np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]])
+        handle_2d, post_2d = corners @ turn.T, np.array([[20, -3], [20, 3], [26, -3], [26, 3]])
+        axes = [*turn.T, [1, 0], [0, 1]]
+        gaps = [
+            max((handle_2d @ n).min() - (post_2d @ n).max(), (post_2d @ n).min() - (handle_2d @ n).max()) for n in axes
+        ]
+        expected.append(max(gaps) < 0)
+    np.testing.assert_array_equal(found.clashing[0], expected)
+    assert 3 < np.sum(expected) < 30
+
+
 def test_a_part_inside_of_another_is_a_clash(tmp_path):
     """Between two poses the cube, 4 wide, has come into the block without that their surfaces cross at either."""
     parts = {"block": box([-20, -20, -20], [20, 20, 20]), "cube": box([28, -2, -2], [32, 2, 2])}
@@ -205,3 +247,6 @@ def test_a_mechanism_without_solids_says_what_to_do():
     motion = jk.Mechanism.build(fixed=["base"], joints=[slide]).sweep({"slide": np.array([0.0, 1.0])})
     with pytest.raises(ValueError, match=r"clashes needs solids, .* make it from files, jk\.load"):
         jk.clashes(motion)
+    for effect in (jk.clashes, jk.contact_validity):
+        with pytest.raises(ValueError, match=r"those of a motion, mechanism\.sweep\(drive\), got Mechanism"):
+            effect(motion.mechanism)

@@ -5,6 +5,7 @@ off by the square of the step over their radius, a tenth of a percent where a ra
 cut by at most half a step squared.
 """
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -88,6 +89,17 @@ def test_a_box_that_slides_sweeps_a_prism(along, within):
     assert found.placements == 60 and found.poses == 2  # 12 mm in steps of at most 0.205 mm, and the first place
     text = str(found)
     assert "Swept volume of box over 2 poses" in text and "60 placements" in text and "too small on this grid" in text
+
+
+def test_a_bound_that_tells_little_says_which_step_to_write():
+    """A rod of 2 x 2 mm: with the step that is said, the bound is less than half of its volume."""
+    motion = box_on_a_slide((20.0, 2.0, 2.0)).sweep({"P": np.array([0.0, 1.0])})
+    coarse = jk.swept_volume(motion, "box", resolution=0.7)
+    assert coarse.volume_error > coarse.volume / 2
+    said = re.search(r"half of the volume or more: write resolution=([0-9.]+) or less", str(coarse))
+    assert said
+    fine = jk.swept_volume(motion, "box", resolution=float(said[1]))
+    assert fine.volume_error < fine.volume / 2 and "a smaller resolution= makes both better" in str(fine)
 
 
 @pytest.mark.long

@@ -1,8 +1,11 @@
 """Maps over two inputs: a five-bar against its closed form, a serial arm, and a hexapod against its legs."""
 
+from dataclasses import replace
+
 import jax
 import numpy as np
 import pytest
+from scipy import ndimage
 
 import jaxkin as jk
 from jaxkin import Status
@@ -79,6 +82,50 @@ def test_a_serial_arm_reaches_all():
         found.points[..., :2], planar.polar(2.0, one) + planar.polar(1.0, one + other), rtol=0, atol=1e-14
     )
     assert found.condition[:, [0, -1]].max() < 1e-12 < 0.1 < found.condition[:, 2:-2].min()
+
+
+def test_poses_beyond_the_limits_of_joints_are_told_apart(tmp_path):
+    """An arm whose elbow bends from -0.5 to 1: beyond, points are known, but not reached."""
+    joints = [
+        jk.revolute("shoulder", "ground", "upper", point=(0, 0, 0), axis=Z),
+        jk.revolute("elbow", "upper", "lower", point=(2, 0, 0), axis=Z, limits=(-0.5, 1.0)),
+    ]
+    arm = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    first, second = np.linspace(-1, 1, 5), np.linspace(-2, 2, 9)
+    found = jk.workspace(arm, {"shoulder": first, "elbow": second}, "lower", (3.0, 0, 0))
+    within = np.broadcast_to((second >= -0.5) & (second <= 1.0), (5, 9))
+    np.testing.assert_array_equal(found.reached, within)
+    assert set(found.status[~within]) == {Status.LIMITED.value}
+    assert np.isfinite(found.points).all() and np.isfinite(found.rates).all()
+    assert "20 CLOSED, 25 LIMITED" in str(found)
+    assert found.plot(tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.long
+def test_what_limits_part_from_the_assembled_pose_is_not_reached():
+    """The limits of an elbow that is not driven: of the nodes within them, only those that a path within leads to."""
+    rod, grid = 86.0, np.linspace(-3.1, 3.1, 37)
+    free = jk.workspace(five_bar(rod), {"A": grid, "E": grid}, "left rod", flat(tip([0.0], [0.0], rod)))
+    bend = np.asarray(free.motion.coordinates["B"])[:, 0].reshape(free.status.shape)
+    joints = [replace(each, limits=((-0.2, 0.9),)) if each.name == "B" else each for each in five_bar(rod).all_joints]
+    limited = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    found = jk.workspace(limited, {"A": grid, "E": grid}, "left rod", flat(tip([0.0], [0.0], rod)))
+    within = (bend >= -0.2) & (bend <= 0.9)
+    np.testing.assert_array_equal(found.status == Status.LIMITED.value, free.reached & ~within)
+    islands = ndimage.label(free.reached & within)[0]
+    home = islands[18, 18]
+    assert home and islands.max() > 1
+    np.testing.assert_array_equal(found.reached, islands == home)
+    np.testing.assert_array_equal(found.status[(islands > 0) & (islands != home)], Status.JUMPED.value)
+    # where a joint ends nothing is singular: only edges that lead out of the free map are searched
+    out = free.status == Status.UNREACHABLE.value
+    edges = sum(
+        np.sum(a & b)
+        for one, other in ((found.reached, out), (out, found.reached))
+        for a, b in ((one[:-1], other[1:]), (one[:, :-1], other[:, 1:]))
+    )
+    ends = jk.singularities(found)
+    assert len(ends.values) + ends.passed == edges
 
 
 def test_what_is_no_map_is_refused():
