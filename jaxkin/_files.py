@@ -7,6 +7,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+from warnings import catch_warnings, filterwarnings
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+DPI = 150
+"""Dots an inch of figures that are saved."""
 
 
 def check_file(path: Path, kind: str) -> int:
@@ -37,3 +45,15 @@ def whole(target: Path) -> Iterator[Path]:
         draft = Path(folder) / target.name
         yield draft
         os.replace(draft, target)
+
+
+def save_figure(figure: Figure, path: Path) -> Path:
+    """Write a figure of matplotlib into a file that appears whole or not at all; returns the path of the file.
+
+    The end of the name says the format; a name without one is written as PNG. A letter that the font does not have is
+    drawn as a box. Raises FileNotFoundError as `whole` does.
+    """
+    with whole(path) as draft, catch_warnings():
+        filterwarnings("ignore", "Glyph .* missing from font")
+        figure.savefig(draft, dpi=DPI, format=path.suffix.lstrip(".") or "png")
+    return path

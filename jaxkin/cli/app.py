@@ -135,9 +135,9 @@ def loops(
         with progress(3) as step:
             study = run.found(files, options, step)
         if png:
-            from jaxkin.view.structure import draw_structure
+            from jaxkin._files import save_figure
 
-            draw_structure(study.mechanism.structure, png)
+            save_figure(study.mechanism.structure.plot(), png)
         report.print_structure(study.mechanism)
         if study.ranges:
             report.say(f"\n{study.mechanism.plan(study.ranges)}")

@@ -10,6 +10,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._names import nearest
 from jaxkin.dimensions import lengths
+from jaxkin.linkage.coordinates import coordinate
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -54,19 +55,9 @@ def joint_path(motion: Motion, name: str) -> Float[Array, "poses 3"]:
 
 def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:
     """Find the displacement of a joint by "joint", where it has one coordinate, or "joint.coordinate"."""
-    joints = motion.mechanism.joints
-    if name in joints:
-        if joints[name].freedoms != 1:
-            choices = " or ".join(repr(f"{name}.{coordinate}") for coordinate in joints[name].coordinates)
-            raise ValueError(
-                f"joint {name!r} has {joints[name].freedoms} coordinates; write {choices or 'another one'}"
-            )
-        return motion.coordinates[name][:, 0]
-    owner, _, coordinate = name.rpartition(".")
-    names = joints[known_joint(motion, owner if owner in joints else name)].coordinates
-    if coordinate not in names:
-        raise ValueError(f"joint {owner!r} has no coordinate {coordinate!r}; it has: {', '.join(names)}")
-    return motion.coordinates[owner][:, names.index(coordinate)]
+    linkage = motion.mechanism.linkage
+    joint, k = coordinate(linkage, name)
+    return motion.coordinates[linkage.joints[joint].name][:, k]
 
 
 def known_joint(motion: Motion, name: str) -> str:

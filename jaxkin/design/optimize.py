@@ -72,9 +72,9 @@ def optimize(
     `starts` designs are improved side by side in one compiled program: the given one, and the best of many drawn at
     random between the bounds. What is minimised is
 
-        loss + penalty * (sum over poses of gap^2 + sum over parts of misfit^2 + sum over constraints of lack^2)
+        loss + penalty * (sum over poses of residual^2 + sum over parts of misfit^2 + sum over constraints of lack^2)
 
-    where `gap` is the closure residual (Eq. 12, lengths over the size of the loop) of a pose that cannot close,
+    where `residual` is the closure residual (Eq. 12, lengths over the size of the loop) of a pose that cannot close,
     `misfit` that of lengths that cannot hold together, and `lack` by how much a constraint is negative. Designs that
     cannot move everywhere cost something and can be left again by their derivatives. The penalty is made stiffer
     while the best design violates anything by more than 1e-6.

@@ -97,7 +97,8 @@ class WorkPrecision:
         """Draw time against error, both logarithmic, into a picture file."""
         from jaxkin.effects.work_plot import draw
 
-        return draw(self, Path(path))
+        points = ((point.method, point.precision, point.error, point.seconds) for point in self.points)
+        return draw(points, self.poses, Path(path))
 
 
 def work_precision(

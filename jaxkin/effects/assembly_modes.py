@@ -222,7 +222,7 @@ def assembly_modes(
         loops = ClosedLoops(linkage.joints, linkage.structure, loop_group.members, linkage.couplings)
         features = PoseFeatures(loops, len(loop_freedoms(linkage)[number].motions) - len(loop_group.inputs))
         if reached is None:
-            home = np.zeros(len(loop_group.columns)), loops.travel(np.zeros(len(loops.columns))).gap
+            home = np.zeros(len(loop_group.columns)), loops.travel(np.zeros(len(loops.columns))).residual_norm
         else:
             there = [float(reached.displacements[joint][0, k]) for joint, k in loop_group.columns]
             home = np.array(there), float(reached.residual[0])

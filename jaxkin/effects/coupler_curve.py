@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.effects.pose_plot import save_rows
@@ -107,9 +107,7 @@ class CouplerCurve:
         axes.set_aspect("equal")
         axes.grid(alpha=0.3)
         figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=3)
-        with whole(path) as draft:
-            figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-        return path
+        return save_figure(figure, path)
 
     def save(self, path: str | Path) -> Path:
         """Write input and point of each pose as comma-separated values; returns the path."""

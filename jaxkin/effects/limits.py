@@ -265,5 +265,5 @@ def _residual(mechanism: Mechanism, pose: Mapping[str, Float[np.ndarray, " _"]])
     for group in linkage.structure.loop_groups:
         loops = ClosedLoops(linkage.joints, linkage.structure, group, linkage.couplings)
         q = np.array([pose[mechanism.all_joints[joint].name][k] for joint, k in loops.columns])
-        squares += loops.travel(q / loops.units).gap ** 2
+        squares += loops.travel(q / loops.units).residual_norm ** 2
     return squares**0.5

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
@@ -61,9 +61,7 @@ def draw_modes(motion: Motion, titles: Sequence[str], path: Path) -> Path:
         figure.suptitle("no assembly mode")
     elif len(titles) > count:
         figure.supxlabel(f"and {len(titles) - count} more", fontsize="small")
-    with whole(path) as draft:
-        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-    return path
+    return save_figure(figure, path)
 
 
 def _shape_panel(axes: Any, in_space: bool) -> None:

@@ -89,7 +89,7 @@ class Curve:
         Its tangent is, of all rates that keep the loops closed, the one nearest to that before.
         """
         q, found = self.loops.closed(here.q + s * here.tangent, self.held)
-        if not found.gap <= self.loops.thresholds.residual:
+        if not found.residual_norm <= self.loops.thresholds.residual:
             return None
         basis, sigma = self._freedoms(q)
         tangent = basis.T @ (basis @ here.tangent)

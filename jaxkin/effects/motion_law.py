@@ -17,7 +17,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure
 from jaxkin._names import closest
 
 Law = Callable[[Array], Array]
@@ -163,9 +163,7 @@ class MotionLaw:
             for segment_end in accumulate(segment.duration for segment in self.segments[:-1]):
                 each.axvline(segment_end, color="0.7", linewidth=0.8)
         axes[-1].set_xlabel("time")
-        with whole(target) as draft:
-            figure.savefig(draft, dpi=150, format=target.suffix.lstrip(".") or "png")
-        return target
+        return save_figure(figure, target)
 
 
 def _derivative(function: Callable[[Array], Array]) -> Callable[[Array], Array]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure, whole
 
 
 def draw_lines(
@@ -40,9 +40,7 @@ def draw_lines(
     axes.grid(alpha=0.3)
     if names:
         figure.legend(fontsize="small", frameon=False, loc="outside lower center")
-    with whole(path) as draft:
-        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-    return path
+    return save_figure(figure, path)
 
 
 def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path: Path) -> Path:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure
 
 MAX_PANELS = 12
 """Regions that are drawn at most: those with the most poses."""
@@ -49,6 +49,4 @@ def draw_regions(
         axes.set_title(titles[number], fontsize="medium")
     if drawn is not None:
         figure.colorbar(drawn, ax=every, label="poses for the same inputs", ticks=np.arange(1, most + 1))
-    with whole(path) as draft:
-        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-    return path
+    return save_figure(figure, path)

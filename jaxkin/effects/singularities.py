@@ -48,7 +48,7 @@ class Singularities:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the points over the workspace into a picture file; returns its path."""
-        return draw_workspace(self.workspace, Path(path), self.values, self.points)
+        return draw_workspace(self.workspace.map, Path(path), self.values, self.points)
 
     def save(self, path: str | Path) -> Path:
         """Write inputs and places as comma-separated values, a row a point; returns the path."""

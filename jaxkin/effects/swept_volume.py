@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure, whole
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.isosurface import zero_surface
@@ -121,9 +121,7 @@ class SweptVolume:
             unit = f" ({self.unit})" if self.unit else ""
             axes.set(xlabel="xyz"[right] + unit, ylabel="xyz"[up] + unit)
         figure.suptitle(f"swept by {self.part}, {self.volume:.5g} {self.unit or 'units'}^3", fontsize="medium")
-        with whole(path) as draft:
-            figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-        return path
+        return save_figure(figure, path)
 
     def save(self, path: str | Path) -> Path:
         """Write the mesh, unit of the mechanism, as .stl, .ply, .obj or .glb; returns the path."""

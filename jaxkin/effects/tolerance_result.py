@@ -185,9 +185,12 @@ class Tolerances:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the contributions as bars, and the samples as a histogram, into a picture file; returns its path."""
-        from jaxkin.effects.tolerance_plot import draw_tolerances
+        from jaxkin.effects.tolerance_plot import Deviation, draw_tolerances
 
-        return draw_tolerances(self, Path(path))
+        numbers = float(self.nominal), float(self.worst_case), float(self.root_sum_of_squares)
+        deviation = Deviation(*numbers, self.wanted, self.within)
+        names = [named(key) for key in self.keys]
+        return draw_tolerances(names, np.asarray(self.contributions), self.samples, deviation, self.label, Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write the rows of the table as comma-separated values; returns the path."""

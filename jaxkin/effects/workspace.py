@@ -18,7 +18,7 @@ from jaxkin._names import by_name, listed, nearest
 from jaxkin._traced import traced
 from jaxkin.effects.grid_flood import flood
 from jaxkin.effects.pose_plot import save_rows
-from jaxkin.effects.workspace_plot import draw_workspace
+from jaxkin.effects.workspace_plot import WorkspaceMap, draw_workspace
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
@@ -101,7 +101,14 @@ class Workspace:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the map over the inputs, and the places of the point, into a picture file; returns its path."""
-        return draw_workspace(self, Path(path))
+        return draw_workspace(self.map, Path(path))
+
+    @property
+    def map(self) -> WorkspaceMap:
+        """What `plot` draws."""
+        return WorkspaceMap(
+            self.inputs, self.part, self.status, self.reached, self.sigma_min, self.condition, self.points
+        )
 
     def save(self, path: str | Path) -> Path:
         """Write inputs, status, point, sigma_min and condition as comma-separated values, a row a pose."""

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
-from jaxkin._files import whole
+from jaxkin._files import save_figure
 from jaxkin.solve.status import Status
-
-if TYPE_CHECKING:
-    from jaxkin.effects.workspace import Workspace
 
 FLAT = 1e-9
 """Extent of a point's places along an axis, over the largest one, below which they are drawn in the plane across."""
@@ -23,8 +21,20 @@ MARK = "crimson"
 """Colour of singular poses."""
 
 
+class WorkspaceMap(NamedTuple):
+    """What is drawn of a workspace: see the fields of the same names of `Workspace`."""
+
+    inputs: Mapping[str, Float[np.ndarray, " values"]]
+    part: str
+    status: Int[np.ndarray, "first second"]
+    reached: Bool[np.ndarray, "first second"]
+    sigma_min: Float[np.ndarray, "first second"]
+    condition: Float[np.ndarray, "first second"]
+    points: Float[np.ndarray, "first second 3"]
+
+
 def draw_workspace(
-    found: Workspace,
+    found: WorkspaceMap,
     path: Path,
     singular: Float[np.ndarray, "singular 2"] | None = None,
     places: Float[np.ndarray, "singular 3"] | None = None,
@@ -79,6 +89,4 @@ def draw_workspace(
             space.plot(*places.T, ".", color=MARK, markersize=4)
         space.set(xlabel="x", ylabel="y", title=title)
         figure.colorbar(drawn, ax=space, label="condition")
-    with whole(path) as draft:
-        figure.savefig(draft, dpi=150, format=path.suffix.lstrip(".") or "png")
-    return path
+    return save_figure(figure, path)

@@ -72,7 +72,7 @@ def given_values(names: Collection[str], drive: Mapping[str, object]) -> tuple[G
     return given
 
 
-def without_gaps(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
+def with_finite_inputs(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Bool[Array | np.ndarray, " poses"] | None]:
     """Replace the inputs of each pose that has NaN or infinity by those of the last finite pose before it.
 
     Poses at the beginning get the inputs of the first finite pose, or zero if no pose is finite. So the branch is

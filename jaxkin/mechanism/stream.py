@@ -21,7 +21,7 @@ from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.trig import TURN
-from jaxkin.linkage.coordinates import named, resolve, without_gaps
+from jaxkin.linkage.coordinates import named, resolve, with_finite_inputs
 from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.joint_limits import with_limited
@@ -64,7 +64,7 @@ class Stream:
         self.mechanism = mechanism
         self.inputs = {name: np.asarray(entry.values) for name, entry in resolve(mechanism.linkage, drive).items()}
         """Driven displacements by "joint.coordinate", of all poses, as they were given."""
-        followed, self._finite = without_gaps(tuple(self.inputs.values()))
+        followed, self._finite = with_finite_inputs(tuple(self.inputs.values()))
         self._followed = dict(zip(self.inputs, map(np.asarray, followed), strict=True))
         """The displacements as the motion is followed: without NaN and infinity."""
         self.poses = len(next(iter(self.inputs.values())))

@@ -15,7 +15,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._names import by_name
 from jaxkin._traced import traced
-from jaxkin.linkage.coordinates import Given, given_values, named, without_gaps
+from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup, DrivePlan, plan_drive
@@ -86,7 +86,7 @@ def follow_drive(
     known = tolerance is None or not traced(tolerance)
     asked = closure_tolerance(options.tolerance if known else tolerance)
     loop_groups = plan.loop_groups if values[0].shape[0] else ()
-    followed, finite = without_gaps(values)
+    followed, finite = with_finite_inputs(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
     if loop_groups and plan.by_formula is not None and known and by_formulas(options, followed[0]):
         found = plan.by_formula.solve(followed, None if finite is None else np.asarray(finite), asked)

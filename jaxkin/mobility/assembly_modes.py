@@ -39,7 +39,7 @@ def closed_from_elsewhere(
 ) -> list[tuple[Row, Travel]]:
     """Close the loops from other starts, as far from the given pose as the closed coordinates `q`.
 
-    Returns the coordinates whose gap (`Travel.gap`) is at most `enough`, with what is met on the way around the loops
+    Returns the coordinates whose `Travel.residual_norm` is at most `enough`, with what is met on the way around the loops
     there. In the given pose all coordinates are zero; the columns `held` stay zero. The starts are the same in each
     call.
     """
@@ -48,7 +48,7 @@ def closed_from_elsewhere(
     reach = max(NEAREST, float(np.abs(q).max(initial=0.0)))
     for _ in range(STARTS):
         there, travel = loops.closed(reach * rng.uniform(-1.0, 1.0, len(q)) * free, held)
-        if travel.gap <= enough:
+        if travel.residual_norm <= enough:
             found.append((there, travel))
     return found
 
@@ -85,7 +85,11 @@ def _led_back(loops: ClosedLoops, q: Row, found: Travel, home: Mapping[str, Pose
         nearer = _differences(there.places, home)
         # a step that jumped to another assembly mode would prove nothing
         stayed = np.linalg.norm(trial - q) <= 2.0 * np.linalg.norm(step) + APART
-        if stayed and there.gap <= loops.thresholds.residual and np.linalg.norm(nearer) < np.linalg.norm(apart):
+        if (
+            stayed
+            and there.residual_norm <= loops.thresholds.residual
+            and np.linalg.norm(nearer) < np.linalg.norm(apart)
+        ):
             q, found, apart, stride = trial, there, nearer, min(2.0 * stride, _STRIDE)
         else:
             stride /= 4.0

@@ -81,7 +81,7 @@ class Travel(NamedTuple):
     """Derivatives of `misfits` with respect to the coordinates."""
 
     @property
-    def gap(self) -> float:
+    def residual_norm(self) -> float:
         """The residual norm: square root of Eq. 12, over all twelve equations of all loops, and all couplings."""
         return float(np.hypot(np.linalg.norm(self.left_open - np.eye(4)), np.linalg.norm(self.misfits)))
 
@@ -174,7 +174,7 @@ class ClosedLoops:
         found, trust, free = self.travel(q), 1.0, np.ones(len(q))
         free[list(held)] = 0.0
         for _ in range(_ITERATIONS):
-            if found.gap < _ROUNDING or trust > _LEAST_TRUST:
+            if found.residual_norm < _ROUNDING or trust > _LEAST_TRUST:
                 break
             damping = max(_DAMPING_FLOOR, trust * 1e-2 * min(1.0, 2 * found.merit))
             step = least_norm(found.jacobian * free, found.residual, damping)
@@ -185,7 +185,7 @@ class ClosedLoops:
                 q, found, trust = q - step, trial, max(0.3 * trust, 1e-2)
                 if least:
                     break
-            elif found.gap < self.thresholds.residual:
+            elif found.residual_norm < self.thresholds.residual:
                 break  # rounding
             else:
                 trust *= 8.0

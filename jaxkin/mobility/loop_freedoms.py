@@ -60,7 +60,7 @@ class LoopFreedoms:
     @property
     def closes(self) -> bool:
         """Whether Newton's method closes the loops from the assembled pose: if not, their freedoms are unknown."""
-        return self._loops.coincide or self._home[1].gap < self.thresholds.residual
+        return self._loops.coincide or self._home[1].residual_norm < self.thresholds.residual
 
     @property
     def assembled(self) -> Screws:
@@ -87,7 +87,7 @@ class LoopFreedoms:
         along = generic - least_norm(jacobian, jacobian @ generic, 1e-12)
         there, found = self._loops.closed(home + _STEP * along)
         rank = null_space(self._jacobian(found), self.thresholds.rank)[0]
-        is_generic = found.gap < self.thresholds.residual and rank >= len(self.columns) - len(self.at_rest)
+        is_generic = found.residual_norm < self.thresholds.residual and rank >= len(self.columns) - len(self.at_rest)
         return (there, found) if is_generic else self._home
 
     def _jacobian(self, there: Travel) -> Float[np.ndarray, "equations columns"]:

@@ -54,9 +54,9 @@ def opening(linkage: Linkage, unit: str = "") -> Opening | None:
     for loop_group in linkage.structure.loop_groups:
         loops = ClosedLoops(linkage.solved_joints, linkage.structure, loop_group, linkage.couplings)
         at_rest = np.zeros(len(loops.columns))
-        if loops.coincide or (gap := loops.travel(at_rest).gap) <= loops.thresholds.residual:
+        if loops.coincide or (norm := loops.travel(at_rest).residual_norm) <= loops.thresholds.residual:
             continue
-        if worst is None or gap > worst.residual:
+        if worst is None or norm > worst.residual:
             worst = tell_opening(linkage, unit, loops, at_rest)
     return worst
 
@@ -88,7 +88,7 @@ def tell_opening(linkage: Linkage, unit: str, loops: ClosedLoops, q: Row) -> Ope
     place = apply(found.places[loops.ends[joint][0]], loops.chains[joint].frames_1[0, :3, 3])
     joints = [linkage.joints[index] for index, _ in loop]
     return Opening(
-        residual=found.gap,
+        residual=found.residual_norm,
         parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
         joints=tuple(joint.name for joint in joints),
         length=float(np.linalg.norm(apply(left, place) - place)) * loops.length,
@@ -104,7 +104,7 @@ def _off_coupling(linkage: Linkage, unit: str, loops: ClosedLoops, found: Travel
     number = loops.loop_group.couplings[worst]
     joints = [joint for joint in linkage.joints if joint.name in linkage.structure.coupled[number]]
     return Opening(
-        residual=found.gap,
+        residual=found.residual_norm,
         parts=tuple(dict.fromkeys(part for joint in joints for part in joint.parts)),
         joints=tuple(joint.name for joint in joints),
         length=0.0,

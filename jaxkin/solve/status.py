@@ -20,7 +20,7 @@
 - JUMPED in place of CLOSED: an earlier chunk of a stream left the branch (`mechanism.stream`).
 - LIMITED in place of CLOSED: a coordinate is beyond the limits of its joint (`mechanism.joint_limits`). The loops are
   closed, on the branch of the assembled pose, so that effects and derivatives are those of any closed pose.
-- NONFINITE: an input of the pose is NaN or infinite (`linkage.coordinates.without_gaps` puts a finite input
+- NONFINITE: an input of the pose is NaN or infinite (`linkage.coordinates.with_finite_inputs` puts a finite input
   in its place, `mechanism.collect` sets the status).
 
 The reference methods (`reference_methods.minimise`: DFP, BFGS and others) do not use the table. They report CLOSED,

@@ -24,6 +24,8 @@ from jaxkin.topology.loops import Loop, loop_data
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from jaxkin.view.structure import Diagram
+
 
 @dataclass(frozen=True)
 class LoopGroup:
@@ -154,7 +156,16 @@ class Structure:
         """
         from jaxkin.view.structure import plot_structure
 
-        return plot_structure(self)
+        return plot_structure(self.diagram)
+
+    @property
+    def diagram(self) -> Diagram:
+        """What `plot` draws."""
+        from jaxkin.view.structure import Diagram
+
+        ends = tuple((self.row_of[part1], self.row_of[part2]) for part1, part2 in self.joint_parts)
+        fixed = self.row_of[self.fixed[0]]
+        return Diagram(self.parts, self.joints, ends, fixed, self.loops, self.elements)
 
     def __str__(self) -> str:
         return describe(self.elements, self.loops)

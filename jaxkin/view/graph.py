@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.topology.elements import StructureElement
+from jaxkin.topology.loops import Loop
 from jaxkin.view.illustration import INK
 from jaxkin.view.layout import layout
 from jaxkin.view.sheet import GREY, Color, Place, clip
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from jaxkin.topology.structure import Structure
 
 MAX_LETTERS = 14
 """Letters of a name that are drawn."""
@@ -33,6 +33,18 @@ STILL = (0.85, 0.86, 0.88)
 Line = Float[np.ndarray, "points 2"]
 
 
+class Diagram(NamedTuple):
+    """What is drawn of a structure; a part stands for its row of the incidence matrix, the fixed ones for one part."""
+
+    parts: tuple[str, ...]
+    joints: tuple[str, ...]
+    ends: tuple[tuple[str, str], ...]
+    """For each joint part 1 and part 2."""
+    fixed: str
+    loops: tuple[Loop, ...]
+    elements: tuple[StructureElement, ...]
+
+
 def colors(count: int) -> list[Color]:
     """Colours for loops that stay apart: those of a map for few, without its grey, hues for many."""
     from matplotlib import colormaps
@@ -45,30 +57,29 @@ def colors(count: int) -> list[Color]:
     return [(float(red), float(green), float(blue)) for red, green, blue, *_ in found]
 
 
-def places(structure: Structure, width: float) -> dict[str, np.ndarray]:
+def places(diagram: Diagram, width: float) -> dict[str, np.ndarray]:
     """Where the parts go, in inches about the middle of a drawing of some width.
 
     Raises ValueError for more parts than a drawing can show.
     """
-    if len(structure.parts) > MAX_DRAWN_PARTS:
+    if len(diagram.parts) > MAX_DRAWN_PARTS:
         raise ValueError(
-            f"a drawing shows up to {MAX_DRAWN_PARTS} parts, this structure has {len(structure.parts)}; print it"
+            f"a drawing shows up to {MAX_DRAWN_PARTS} parts, this structure has {len(diagram.parts)}; print it"
         )
-    pairs = [(structure.row_of[part1], structure.row_of[part2]) for part1, part2 in structure.joint_parts]
-    return {part: width * place for part, place in layout(structure.parts, pairs).items()}
+    return {part: width * place for part, place in layout(diagram.parts, diagram.ends).items()}
 
 
 def draw_graph(
     axes: Axes,
-    structure: Structure,
+    diagram: Diagram,
     at: Mapping[str, np.ndarray],
     lines: Mapping[int, Line],
     palette: Sequence[Color],
 ) -> None:
     """Draw parts, each at its place, joints along their lines, and loops; a unit of the axes is an inch."""
     small = len(at) > SMALL
-    through: dict[int, list[tuple[int, int]]] = {joint: [] for joint in range(len(structure.joints))}
-    for number, loop in enumerate(structure.loops):
+    through: dict[int, list[tuple[int, int]]] = {joint: [] for joint in range(len(diagram.joints))}
+    for number, loop in enumerate(diagram.loops):
         for joint, sign in loop.joints:
             through[joint].append((number, sign))
     for joint, line in lines.items():
@@ -80,11 +91,10 @@ def draw_graph(
             axes.plot(*lane.T, color=palette[number], linewidth=1.6, zorder=2)
             _arrow(axes, lane[::sign], palette[number], small)
     if not small:
-        _names(axes, structure, lines, np.array(list(at.values())), through)
-    fixed = {structure.row_of[part] for part in structure.fixed}
+        _names(axes, diagram, lines, np.array(list(at.values())), through)
     for part, place in at.items():
-        style = {"boxstyle": "round,pad=0.35", "edgecolor": INK, "linewidth": 1.6 if part in fixed else 0.9}
-        box = style | {"facecolor": STILL if part in fixed else "white"}
+        style = {"boxstyle": "round,pad=0.35", "edgecolor": INK, "linewidth": 1.6 if part == diagram.fixed else 0.9}
+        box = style | {"facecolor": STILL if part == diagram.fixed else "white"}
         write(axes, place, part, size=5 if small else 8.5, bbox=box, zorder=5)
 
 
@@ -96,7 +106,7 @@ def write(axes: Axes, at: Place | np.ndarray, text: str, letters: int = MAX_LETT
 
 def _names(
     axes: Axes,
-    structure: Structure,
+    diagram: Diagram,
     lines: Mapping[int, Line],
     parts: Float[np.ndarray, "parts 2"],
     through: Mapping[int, Sequence[object]],
@@ -104,7 +114,7 @@ def _names(
     """Write the name of each joint beside its line, where the next part, line or name is farthest."""
     taken = [parts]
     for joint, line in lines.items():
-        name = structure.joints[joint]
+        name = diagram.joints[joint]
         half = np.array([0.02 + 0.033 * min(len(name), MAX_LETTERS), 0.07])
         aside = _aside(line)
         aside = aside * (0.03 + LANE * len(through[joint]) / 2 + np.abs(aside) @ half)[:, None]
@@ -119,12 +129,12 @@ def _names(
         write(axes, spot, name, size=7, color=GREY, bbox=box, zorder=4)
 
 
-def lines_of(structure: Structure, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
+def lines_of(diagram: Diagram, at: Mapping[str, np.ndarray]) -> dict[int, Line]:
     """Find the line of each joint from part 1 to part 2; several between the same parts are bowed, one part's is a
     ring."""
     together: dict[tuple[str, ...], list[int]] = defaultdict(list)
-    for joint, ends in enumerate(structure.joint_parts):
-        together[tuple(sorted(structure.row_of[part] for part in ends))].append(joint)
+    for joint, ends in enumerate(diagram.ends):
+        together[tuple(sorted(ends))].append(joint)
     t = np.linspace(0.0, 1.0, 41)[:, None]
     lines: dict[int, Line] = {}
     for (first, last), joints in together.items():
@@ -138,7 +148,7 @@ def lines_of(structure: Structure, at: Mapping[str, np.ndarray]) -> dict[int, Li
             across = np.array([start[1] - end[1], end[0] - start[0]])
             bow = BOW * (k - (len(joints) - 1) / 2)
             line = start + t * (end - start) + 4 * t * (1 - t) * bow * across
-            lines[joint] = line if structure.row_of[structure.joint_parts[joint][0]] == first else line[::-1]
+            lines[joint] = line if diagram.ends[joint][0] == first else line[::-1]
     return lines
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
-from warnings import catch_warnings, filterwarnings
 
 import numpy as np
 
+from jaxkin._files import DPI, save_figure
 from jaxkin.view.illustration import INK, Canvas
 
 if TYPE_CHECKING:
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 Color = tuple[float, float, float]
 Place = tuple[float | int, float | int]
 
-DPI = 150
-"""Pixels an inch of a saved picture."""
 MARGIN, GAP, HEAD, CAPTION, FOOT, LINE = 54, 36, 122, 44, 64, 34
 """In pixels: around the sheet, between panels, above them, above each, below them, a line of the legend."""
 GREY = (0.40, 0.42, 0.46)
@@ -46,9 +44,7 @@ class Sheet(NamedTuple):
 
     def save(self, path: Path | str) -> None:
         """Write the sheet as PNG."""
-        with catch_warnings():  # a letter that the font does not have is a box, and a box says enough
-            filterwarnings("ignore", "Glyph .* missing from font")
-            self.figure.savefig(path, dpi=DPI)
+        save_figure(self.figure, Path(path))
 
 
 def make_sheet(canvas: Canvas, columns: int, rows: int, entries: list[tuple[Artist, str]]) -> Sheet:

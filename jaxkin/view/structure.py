@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
-from warnings import catch_warnings, filterwarnings
 
 import numpy as np
 
-from jaxkin._files import whole
-from jaxkin.view.graph import colors, draw_graph, lines_of, places
+from jaxkin._files import DPI
+from jaxkin.view.graph import Diagram, colors, draw_graph, lines_of, places
 from jaxkin.view.illustration import INK
-from jaxkin.view.sheet import DPI, GREY, Place, clip
+from jaxkin.view.sheet import GREY, Place, clip
 from jaxkin.view.tree import LEVELS, WIDE, boxes, draw_tree
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-    from jaxkin.topology.structure import Structure
 
 LEGEND = 12
 """Loops that the legend lists at most."""
@@ -28,31 +24,23 @@ AROUND, TITLE_HEIGHT, LEGEND_LINE = 0.45, 0.5, 0.19
 """In inches: around the drawings, for the title, and a line of the legend."""
 
 
-def draw_structure(structure: Structure, path: Path | str) -> None:
-    """Write the drawing of a structure (PNG); the file appears whole or not at all."""
-    figure = plot_structure(structure)
-    with whole(Path(path)) as draft, catch_warnings():  # a letter that the font does not have is a box
-        filterwarnings("ignore", "Glyph .* missing from font")
-        figure.savefig(draft, format="png")
-
-
-def plot_structure(structure: Structure) -> Figure:
+def plot_structure(diagram: Diagram) -> Figure:
     """Draw a figure with two drawings: every loop has one colour in both, and runs the way its arrows point.
 
     A tree too deep or too wide to be read is left out. Raises ValueError for more parts than a drawing can show.
     """
     from matplotlib.figure import Figure
 
-    at = places(structure, width=min(10.0, 1.6 + 0.3 * len(structure.parts)))
-    lines = lines_of(structure, at)
+    at = places(diagram, width=min(10.0, 1.6 + 0.3 * len(diagram.parts)))
+    lines = lines_of(diagram, at)
     points = np.concatenate([np.array(list(at.values())), *lines.values()])
-    tree = boxes(structure)
+    tree = boxes(diagram)
     left, right = min(box.x - box.width / 2 for box in tree), max(box.x + box.width / 2 for box in tree)
     bottom = min(box.y - box.height for box in tree)
     drawn = right - left <= WIDE and len({box.y for box in tree}) <= LEVELS
     across = [np.ptp(points[:, 0]) + 2 * AROUND, (right - left if drawn else 1.5) + 2 * AROUND]
     high = max(np.ptp(points[:, 1]), -bottom if drawn else 0.0, 1.0) + 2 * AROUND
-    listed = min(len(structure.loops), LEGEND) + (len(structure.loops) > LEGEND)
+    listed = min(len(diagram.loops), LEGEND) + (len(diagram.loops) > LEGEND)
     foot = 0.1 + LEGEND_LINE * listed
     width, height = sum(across), TITLE_HEIGHT + high + foot
     figure = Figure(figsize=(width, height), dpi=DPI, facecolor="white")
@@ -65,22 +53,22 @@ def plot_structure(structure: Structure) -> Figure:
         axes.set_axis_off()
         return axes
 
-    palette = colors(len(structure.loops))
+    palette = colors(len(diagram.loops))
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
-    draw_graph(drawing(0.0, across[0], (centre[0], centre[1])), structure, at, lines, palette)
+    draw_graph(drawing(0.0, across[0], (centre[0], centre[1])), diagram, at, lines, palette)
     if drawn:
-        draw_tree(drawing(across[0], across[1], ((left + right) / 2, bottom / 2)), structure, tree, palette)
+        draw_tree(drawing(across[0], across[1], ((left + right) / 2, bottom / 2)), diagram, tree, palette)
 
     def write(x: float, y: float, text: str, size: int, color: object, weight: str = "normal") -> None:
         figure.text(x / width, y / height, text, size=size, color=color, weight=weight, va="center", parse_math=False)
 
-    loops = f"{len(structure.loops)} loop{'' if len(structure.loops) == 1 else 's'}"
-    write(0.2, height - 0.3, f"{len(structure.parts)} parts, {len(structure.joints)} joints, {loops}", 11, INK, "bold")
+    loops = f"{len(diagram.loops)} loop{'' if len(diagram.loops) == 1 else 's'}"
+    write(0.2, height - 0.3, f"{len(diagram.parts)} parts, {len(diagram.joints)} joints, {loops}", 11, INK, "bold")
     if not drawn:
         write(across[0], TITLE_HEIGHT + high / 2, f"a tree of {len(tree)} elements:\nprint the structure", 7, GREY)
     for k in range(listed):
         more = k == LEGEND
-        text = f"and {len(structure.loops) - LEGEND} more" if more else f"l{k + 1}   {structure.loops[k]}"
+        text = f"and {len(diagram.loops) - LEGEND} more" if more else f"l{k + 1}   {diagram.loops[k]}"
         write(
             0.2,
             foot - LEGEND_LINE * (k + 0.5),

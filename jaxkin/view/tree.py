@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from jaxkin.topology.elements import StructureElement
-from jaxkin.view.graph import MAX_LETTERS, STILL, write
+from jaxkin.view.graph import MAX_LETTERS, STILL, Diagram, write
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import GREY, Color, Place
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from jaxkin.topology.structure import Structure
 
 HIGH, BESIDE, LEVEL_DISTANCE = 0.22, 0.36, 0.62
 """In inches: a name in its long circle, between elements of a level, and between levels."""
@@ -38,14 +36,14 @@ class Box:
     """The lower adjacent parts in the order of what hangs on them, so that no lines cross."""
 
 
-def boxes(structure: Structure) -> tuple[Box, ...]:
+def boxes(diagram: Diagram) -> tuple[Box, ...]:
     """Where the elements go: leaves side by side, all others over the middle of what hangs on them."""
-    elements = structure.elements
+    elements = diagram.elements
     hanging: list[dict[str, list[int]]] = [{} for _ in elements]
     level = [0] * len(elements)
     for number, element in enumerate(elements):  # an element stands behind the one above
         if element.above is not None:
-            hanging[element.above].setdefault(_holder(structure, element), []).append(number)
+            hanging[element.above].setdefault(_holder(diagram, element), []).append(number)
             level[number] = level[element.above] + 1
     below = [[child for children in parts.values() for child in children] for parts in hanging]
     widths, heights = [_width(element) for element in elements], [_height(element) for element in elements]
@@ -65,22 +63,22 @@ def boxes(structure: Structure) -> tuple[Box, ...]:
     return tuple(map(Box, middle, (top[depth] for depth in level), widths, heights, map(tuple, hanging)))
 
 
-def draw_tree(axes: Axes, structure: Structure, places: Sequence[Box], palette: Sequence[Color]) -> None:
+def draw_tree(axes: Axes, diagram: Diagram, places: Sequence[Box], palette: Sequence[Color]) -> None:
     """Draw the elements; a unit of the axes is an inch."""
-    for number, (element, box) in enumerate(zip(structure.elements, places, strict=True)):
+    for number, (element, box) in enumerate(zip(diagram.elements, places, strict=True)):
         if element.above is not None:
             over = places[element.above]
-            holder = _holder(structure, element) if structure.elements[element.above].loops else None
+            holder = _holder(diagram, element) if diagram.elements[element.above].loops else None
             _tie(axes, (over.x if holder is None else _lower(over, holder), over.y - over.height), box, element)
         _element(axes, box, number, element, palette)
 
 
-def _holder(structure: Structure, element: StructureElement) -> str:
+def _holder(diagram: Diagram, element: StructureElement) -> str:
     """Find the part of the element above that an element hangs on."""
     if element.joint is None:
         return element.upper
-    ends = structure.joint_parts[structure.joints.index(element.joint)]
-    return next(structure.row_of[part] for part in ends if structure.row_of[part] not in element.parts)
+    ends = diagram.ends[diagram.joints.index(element.joint)]
+    return next(part for part in ends if part not in element.parts)
 
 
 def _name_width(name: str) -> float:

@@ -51,7 +51,7 @@ def host_pose(mechanism: Mechanism, drive: dict[str, float]) -> dict[str, np.nda
         held = [column for column, name in enumerate(every) if name in drive]
         q = np.array([drive.get(name, 0.0) for name in every]) / loops.units
         q, there = loops.closed(q, held)
-        assert there.gap < 1e-12, f"{there.gap} left open"  # what counts as closed
+        assert there.residual_norm < 1e-12, f"{there.residual_norm} left open"  # what counts as closed
         for index, columns in loops.slices.items():
             rows[linkage.joints[index].name] = (q * loops.units)[columns]
     return placed_at(mechanism, rows, 0.0)[1]

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.text import Annotation
 
+from jaxkin._files import save_figure
 from jaxkin.topology.structure import Structure, structure
 from jaxkin.view.layout import layout
-from jaxkin.view.structure import draw_structure
 from jaxkin.view.tree import boxes
 
 
@@ -107,7 +107,7 @@ def _crossing(a, b, c, d) -> bool:
 def test_elements_of_the_tree_keep_apart() -> None:
     parts = ["p0", *(f"q{k}" for k in range(6)), *(f"r{k}" for k in range(6))]
     joints = [(f"j{k}", "p0", f"q{k}") for k in range(6)] + [(f"i{k}", f"q{k}", f"r{k}") for k in range(6)]
-    places = boxes(structure(parts, joints, ["p0"]))
+    places = boxes(structure(parts, joints, ["p0"]).diagram)
     for level in {box.y for box in places}:
         row = sorted((box for box in places if box.y == level), key=lambda box: box.x)
         for left, right in pairwise(row):
@@ -124,8 +124,8 @@ def test_large_structures_are_drawn_or_refused() -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("found", [chain(1), chain(2), MIXED], ids=["one part", "two parts", "mixed"])
 def test_the_file_appears_whole_or_not_at_all(found: Structure, tmp_path) -> None:
-    draw_structure(found, tmp_path / "loops.png")
+    save_figure(found.plot(), tmp_path / "loops.png")
     assert (tmp_path / "loops.png").read_bytes().startswith(b"\x89PNG")
     with pytest.raises(FileNotFoundError):
-        draw_structure(found, tmp_path / "none" / "loops.png")
+        save_figure(found.plot(), tmp_path / "none" / "loops.png")
     assert [file.name for file in tmp_path.iterdir()] == ["loops.png"]
