@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
+from jax import dtypes
 from jaxtyping import Bool, Float
 
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
-from jaxkin.solve.execution.compiler import jit_options
+from jaxkin.solve.execution.two_tiers import in_two_tiers
 
 DAMPING, LEAST_DAMPING = 1e-3, 1e-16
 """First and least damping, relative to the largest diagonal entry of J^T J."""
@@ -35,10 +35,11 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
 
     One program is compiled, residuals and Jacobian of `together` designs; the small systems are solved in numpy.
     """
-    lower, width = unit_box(problem.variables.lower, problem.variables.upper)
+    dtype = dtypes.canonicalize_dtype(float)
+    lower, width = (np.asarray(each, dtype) for each in unit_box(problem.variables.lower, problem.variables.upper))
     count = jax.eval_shape(problem.judge, lower).rows.shape[0]
 
-    @partial(jax.jit, **jit_options())
+    @in_two_tiers
     def program(units, weight):
         def one(unit):
             def along(direction):
@@ -51,7 +52,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
         return jax.vmap(one)(units)
 
     def evaluated(units, weight):
-        return in_groups(lambda group: program(group, weight), together, units)
+        return in_groups(lambda group: program(group, float(weight)), together, np.asarray(units, dtype))
 
     def begin(vectors, weight):
         span = np.where(width > 0, width, 1.0)

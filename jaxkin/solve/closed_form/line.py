@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import jax
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
@@ -15,7 +16,7 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
-from jaxkin.solve.closed_form.solve_groups import assembled_roots, solve_once
+from jaxkin.solve.closed_form.solve_groups import Solved, assembled_roots, solve_once
 from jaxkin.solve.closed_form.way import LEAST_DISCRIMINANT, Rows, is_steep, surely_passes, unwrapped, way
 from jaxkin.solve.system.loop_system import LoopSystem
 
@@ -58,14 +59,17 @@ class Line(NamedTuple):
 
 def full_turn(system: LoopSystem, axes: Axes) -> Line:
     """Compute the line of an input that is an angle: from the assembled pose a full turn on."""
-    return _line(system, axes, np.linspace(0.0, TURN, NODES))
+    return line_and_poses(system, axes, turn_nodes(), np.zeros(0))[0]
 
 
-def to_either_side(system: LoopSystem, axes: Axes, farthest: Float[Numbers, ""] | float) -> Line:
-    """Compute the line as far as the input `farthest` (radians or characteristic lengths) on either side."""
-    xp = namespace(axes.centre, farthest)
-    nodes = xp.maximum(farthest, np.finfo(float).tiny) * np.linspace(-1.0, 1.0, NODES)
-    return _line(system, axes, nodes)
+def turn_nodes() -> Float[np.ndarray, " nodes"]:
+    """Space nodes over a full turn, from the assembled pose on, radians."""
+    return np.linspace(0.0, TURN, NODES)
+
+
+def nodes_to_either_side(farthest: Float[Numbers, ""] | float) -> Float[Numbers, " nodes"]:
+    """Space nodes as far as the input `farthest` (radians or characteristic lengths) on either side."""
+    return namespace(farthest).maximum(farthest, np.finfo(float).tiny) * np.linspace(-1.0, 1.0, NODES)
 
 
 def ends(system: LoopSystem) -> tuple[int, int]:
@@ -84,12 +88,29 @@ def unknown_angles(system: LoopSystem) -> list[int]:
     ]
 
 
-def _line(system: LoopSystem, axes: Axes, nodes: Float[Numbers, " nodes"]) -> Line:
-    first, last = ends(system)
-    xp = namespace(axes.centre, nodes)
+def line_and_poses(
+    system: LoopSystem, axes: Axes, nodes: Float[Numbers, " nodes"], values: Float[Numbers, " poses"]
+) -> tuple[Line, Solved]:
+    """Compute the line of the nodes, and the poses of further inputs, in radians and characteristic lengths.
+
+    Nodes and poses are solved together: a program holds the formulas once for both.
+    """
+    xp = namespace(axes.centre, nodes, values)
     roots = xp.stack([xp.ravel(root)[:1] for root in assembled_roots(system, axes)])
     signs = xp.sign(roots)
-    solved = solve_once(system, axes, signs, nodes[None])
+    together = solve_once(system, axes, signs, xp.concatenate([nodes, values])[None])
+
+    def cut(begin: int, end: int | None) -> Solved:
+        # what is the same for all inputs has one entry
+        return jax.tree.map(lambda row: row if row.shape[0] == 1 else row[begin:end], together)
+
+    return _line(system, nodes, roots, signs, cut(0, NODES)), cut(NODES, None)
+
+
+def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, signs: Numbers, solved: Solved) -> Line:
+    """Read the line from its nodes, which are solved, and from the signed roots in the assembled pose."""
+    first, last = ends(system)
+    xp = namespace(roots, nodes)
     angles = unknown_angles(system)
     turns = [solved.coordinates[column].turn for column in angles]
     nearby, steep = unwrapped(turns), np.zeros(NODES - 1, bool)

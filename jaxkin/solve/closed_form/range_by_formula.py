@@ -27,8 +27,16 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
-from jaxkin.solve.closed_form.line import NODES, Line, ends, full_turn, to_either_side, unknown_angles
-from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups, solve_once
+from jaxkin.solve.closed_form.line import (
+    NODES,
+    Line,
+    ends,
+    line_and_poses,
+    nodes_to_either_side,
+    turn_nodes,
+    unknown_angles,
+)
+from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_groups, solve_once
 from jaxkin.solve.closed_form.way import at_intervals, reach, way
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
@@ -59,10 +67,24 @@ def line_of(system: LoopSystem, axes: Axes, inputs: Float[Array | np.ndarray, "1
 
     `inputs` are in radians or lengths of the mechanism.
     """
+    return line_and_poses(system, axes, _nodes(system, _scaled(system, axes, inputs)[0]), np.zeros(0))[0]
+
+
+def _nodes(system: LoopSystem, values: Float[Array | np.ndarray, " poses"]) -> Float[Array | np.ndarray, " nodes"]:
+    """Space the nodes of the line for some inputs, radians or characteristic lengths."""
     if system.periodic:
-        return full_turn(system, axes)
-    values = _scaled(system, axes, inputs)
-    return to_either_side(system, axes, namespace(values).max(abs(values), initial=0.0))
+        return turn_nodes()
+    return nodes_to_either_side(namespace(values).max(abs(values), initial=0.0))
+
+
+def find_poses_and_line(
+    system: LoopSystem, axes: Axes, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+) -> FormulaPoses:
+    """Find the poses, as `find_poses_by_formula`, of axes whose line is not known yet."""
+    axes, inputs = lax.stop_gradient((axes, inputs))
+    values = _scaled(system, axes, inputs)[0]
+    line, solved = line_and_poses(system, axes, _nodes(system, values), values)
+    return _judged(system, axes, line, values, solved, tolerance)
 
 
 def find_poses_by_formula(
@@ -75,6 +97,18 @@ def find_poses_by_formula(
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = _scaled(system, axes, inputs)[0]
     solved = solve_once(system, axes, jnp.asarray(line.signs), values[None])
+    return _judged(system, axes, line, values, solved, tolerance)
+
+
+def _judged(
+    system: LoopSystem,
+    axes: Axes,
+    line: Line,
+    values: Float[Array, " poses"],
+    solved: Solved,
+    tolerance: ClosureTolerance,
+) -> FormulaPoses:
+    """Judge solved poses by the line: their statuses, and angles with their full turns."""
     expected, passed, crossed = _reached(system, line, values, solved.discriminants)
     rows = [jnp.asarray(coordinate.value) for coordinate in solved.coordinates]
     for column, angle in zip(unknown_angles(system), expected, strict=True):

@@ -22,6 +22,7 @@ from jaxkin.solve.closed_form.line import Line
 from jaxkin.solve.closed_form.range_by_formula import (
     FormulaPoses,
     displacements_by_formula,
+    find_poses_and_line,
     find_poses_by_formula,
     joint_displacements,
     line_of,
@@ -160,8 +161,7 @@ def _poses_by_formula(
     count_trace()
 
     def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance) -> FormulaPoses:
-        axes = assembled_axes(system, joints)
-        return find_poses_by_formula(system, axes, line_of(system, axes, inputs), inputs, tolerance)
+        return find_poses_and_line(system, assembled_axes(system, joints), inputs, tolerance)
 
     return by_formulas_in_groups(find)(joints, inputs, tolerance)
 

@@ -1,0 +1,49 @@
+"""Compile a program quickly at first, and anew for speed when it has computed for long.
+
+Most searches for a design end before a program that the compiler has optimised repays the seconds that it took.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import jax
+
+from jaxkin.solve.execution.compiler import jit_options
+
+QUICK = {"xla_backend_optimization_level": 0}
+"""Options of XLA in place of those of other programs: LLVM translates, and does not optimise. Residuals and derivatives
+of eight four-bars took 3.5 s of a processor to compile in place of 9.4 and 11.0, and 1.5 and 6.4 ms a call in place of
+0.6 and 2.1 (paths of five points, and of ten)."""
+QUICK_OPERATIONS = 1e10
+"""Arithmetic operations, as XLA counts them, after which the other program is compiled. The measured difference of 6 to
+7 s is spent after 0.9e10 to 1.2e10 of them: so no search takes longer than twice what it takes with the better of both
+programs. By operations and not by seconds, since both programs round differently, and a search is to be repeatable."""
+
+
+def in_two_tiers(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Compile a function of arrays that is called often, with arguments of the same shapes each time."""
+    lowered: Any = None
+    program: Any = None
+    cost = done = 0.0
+
+    def call(*given: Any) -> Any:
+        nonlocal lowered, program, cost, done
+        if lowered is None:
+            lowered = jax.jit(function).lower(*given)
+            program = _compiled(lowered, quick=True)
+            cost = float((program.cost_analysis() or {}).get("flops", 0.0))
+        elif done <= QUICK_OPERATIONS < done + cost:
+            program = _compiled(lowered, quick=False)
+        done += cost
+        return program(*given)
+
+    return call
+
+
+def _compiled(lowered: Any, quick: bool) -> Any:
+    """Compile what was lowered, quickly or well; either way with all options of the solver's programs."""
+    options = jit_options().get("compiler_options")
+    # where this version of JAX does not know the options, both are compiled well
+    return lowered.compile(options | QUICK if quick and options is not None else options)
