@@ -44,7 +44,7 @@ class Slack(NamedTuple):
 def crossings(one: TriangleTree, other: TriangleTree, displaced: Displaced, slack: Slack) -> Crossings:
     """Find the pairs of triangles that cross by more than a slack, for all displacements."""
     intervals = pose_intervals(displaced, (other.low[0] + other.high[0]) / 2)
-    alone1, alone2 = slack.ignored.all(axis=1), slack.ignored.all(axis=0)
+    alone1, alone2 = (np.asarray(np.all(slack.ignored, axis=axis)) for axis in (1, 0))
     stack, found = [np.array(START)], [np.zeros((0, 3), int)]
     while stack:
         items = stack.pop()

@@ -25,9 +25,10 @@ from jaxkin.solve.system.joints import scaled_frames
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
 
-ROUNDING = 1e-9
-"""How far beyond a limit a coordinate is still at it, radians or characteristic lengths: `jk.limits` finds the end of a
-range to 1e-10, and a motion up to there is within it."""
+ROUNDING = 1e-6
+"""How far beyond a limit a coordinate is still at it, radians or characteristic lengths: what six digits of a file
+leave open. A gripper whose file draws a coupler at its limit is within it, though closing the loops turned the coupler
+by 2e-9. `jk.limits` finds the end of a range to 1e-10, and a motion up to there is within it, too."""
 ROUNDINGS = 32
 """The same in units of rounding, where these are more: in float32, poses are right to some of them."""
 MAX_REPORTED_COORDINATES = 8
