@@ -12,17 +12,7 @@ import jaxkin as jk
 from jaxkin.effects.clash_shapes import displaced, shape_of
 from jaxkin.effects.invariant_faces import invariant
 from jaxkin.examples import EXAMPLES, path
-
-
-def box(low, high):
-    return trimesh.creation.box(bounds=[low, high])
-
-
-def loaded(folder, parts):
-    """The parts as an assembly of STL files."""
-    for name, mesh in parts.items():
-        mesh.export(folder / f"{name}.stl")
-    return jk.load({name: folder / f"{name}.stl" for name in parts}, unit="mm")
+from reference.drawn_parts import box, loaded
 
 
 def by_hand(folder, parts, joints):

@@ -9,17 +9,7 @@ import trimesh
 
 import jaxkin as jk
 from jaxkin.examples import path
-
-
-def box(low, high):
-    return trimesh.creation.box(bounds=[low, high])
-
-
-def loaded(folder, parts):
-    """The parts as an assembly of STL files."""
-    for name, mesh in parts.items():
-        mesh.export(folder / f"{name}.stl")
-    return jk.load({name: folder / f"{name}.stl" for name in parts}, unit="mm")
+from reference.drawn_parts import box, loaded
 
 
 def prism(rings, low, high):

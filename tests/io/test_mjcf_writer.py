@@ -13,7 +13,7 @@ import jaxkin as jk
 from jaxkin.examples import path
 from reference.catalogue import GROUND, delta, oldham, scotch_yoke, swash_plate
 from reference.mechanisms import cam, planar_fourbar, slider_crank
-from reference.round_trips import METRES, host_pose, in_metres
+from reference.round_trips import METRES, check_solids, host_pose, in_metres
 from reference.tied import coupled, press
 
 Z = (0.0, 0.0, 1.0)
@@ -77,12 +77,7 @@ def test_solids_limits_and_motors_come_back(tmp_path):
     mechanism = assembly.mechanism(fixed=["ground"])
     mechanism = replace(mechanism, motors=("ground-crank",))
     back = jk.load(jk.write_mjcf(mechanism, tmp_path / "model.xml"))
-    was = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in mechanism.solids}
-    now = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in back.parts if part.name in was}
-    assert now.keys() == was.keys()
-    for name, corners in was.items():  # the bounds tell placement and size; corners come in another order
-        for bound in (np.min, np.max):
-            np.testing.assert_allclose(bound(now[name], axis=0), 1e-3 * bound(corners, axis=0), rtol=0, atol=1e-15)
+    check_solids(back.parts, mechanism.solids)
     assert back.mechanism().motors == mechanism.motors
 
 

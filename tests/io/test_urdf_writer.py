@@ -12,7 +12,7 @@ from reference.cassie import cassie_leg
 from reference.catalogue import GROUND, delta
 from reference.mechanisms import cardan_shafts, planar_fourbar, slider_crank
 from reference.pinocchio_models import with_balls
-from reference.round_trips import METRES, compare_moved, host_pose, scale_of, small_drive
+from reference.round_trips import METRES, check_solids, compare_moved, host_pose, scale_of, small_drive
 from reference.tied import press
 
 Z = (0.0, 0.0, 1.0)
@@ -50,12 +50,7 @@ def test_the_tree_is_shallow_and_cut_at_balls(tmp_path):
 def test_solids_limits_and_motors_come_back(tmp_path):
     mechanism = replace(jk.load(path("fourbar")).mechanism(fixed=["ground"]), motors=("ground-crank",))
     back = written(mechanism, tmp_path)[1]
-    was = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in mechanism.solids}
-    now = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in back.parts if part.name in was}
-    assert now.keys() == was.keys()
-    for name, corners in was.items():  # the bounds tell placement and size; corners come in another order
-        for bound in (np.min, np.max):
-            np.testing.assert_allclose(bound(now[name], axis=0), 1e-3 * bound(corners, axis=0), rtol=0, atol=1e-15)
+    check_solids(back.parts, mechanism.solids)
     assert back.mechanism().motors == mechanism.motors
     slide = jk.prismatic("slide", GROUND, "bar", axis=(1, 0, 0), limits=(-5.0, np.inf))
     pin = jk.cylindrical("pin", "bar", "end", point=(0, 0, 0), axis=Z, limits={"phi": (-0.5, 2.0)})

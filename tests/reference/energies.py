@@ -15,6 +15,11 @@ FOURBAR_MASSES = {
     "rocker": jk.Mass(3.0, centre=(120.0, 30.0, 4.0), inertia=2e-3),
 }
 
+FOURBAR_SPRINGS = (
+    jk.spring("ground", (0, 150, 10), "coupler", (70, 60, 20), stiffness=400.0, length=60.0, damping=15.0),
+    jk.joint_spring("D", 3.0, rest=0.2, damping=0.4),
+)
+
 
 def fourbar(**lengths) -> jk.Mechanism:
     """The planar four-bar, lengths in mm."""

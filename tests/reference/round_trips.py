@@ -90,3 +90,13 @@ def compare_moved(mechanism: Mechanism, back: Mechanism, single: bool, metres: b
             place, there = place @ points, there @ points
         # 1e-12 of the largest number: both are closed to rounding, and conditioning takes two digits
         np.testing.assert_allclose(there, place, rtol=0, atol=1e-12 * size, err_msg=part)
+
+
+def check_solids(now, was):
+    """Solids in millimetres come back in metres; the bounds tell placement and size, corners come in another order."""
+    before = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in was}
+    after = {part.name: np.asarray(part.triangles).reshape(-1, 3) for part in now if part.name in before}
+    assert after.keys() == before.keys()
+    for name, corners in before.items():
+        for bound in (np.min, np.max):
+            np.testing.assert_allclose(bound(after[name], axis=0), 1e-3 * bound(corners, axis=0), rtol=0, atol=1e-15)

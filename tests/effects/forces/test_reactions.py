@@ -11,27 +11,16 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from reference.energies import FOURBAR_MASSES, GRAVITY, by_time, fourbar, whole_turn
+from reference.energies import FOURBAR_MASSES, FOURBAR_SPRINGS, GRAVITY, by_time, fourbar, whole_turn
 from reference.mechanisms import Z, bennett_linkage, cardan_shafts, slider_crank
 from reference.planar import slider_crank as slider_crank_angles
 
 RATE = 7.0
 TURN = whole_turn()
 APPLIED = [
-    jk.spring("ground", (0, 150, 10), "coupler", (70, 60, 20), stiffness=400.0, length=60.0, damping=15.0),
-    jk.joint_spring("D", 3.0, rest=0.2, damping=0.4),
+    *FOURBAR_SPRINGS,
     jk.force("coupler", (30.0, 60.0, 0.0), (5.0, -3.0, 2.0)),
 ]
-
-
-@pytest.fixture(scope="module")
-def motion() -> jk.Motion:
-    return fourbar().sweep({"A": TURN})
-
-
-@pytest.fixture(scope="module")
-def masses(motion) -> jk.Masses:
-    return jk.masses(motion.mechanism, given=FOURBAR_MASSES)
 
 
 @pytest.fixture(scope="module")
