@@ -204,7 +204,7 @@ def _on_parallel_axes(teeth_1: Teeth, teeth_2: Teeth, turn_1: Turn, turn_2: Turn
 
 
 def _of_module(teeth: Teeth, module: float) -> bool:
-    return abs(2 * teeth.pitch_radius / teeth.number - module) < MODULE * module
+    return bool(abs(2 * teeth.pitch_radius / teeth.number - module) < MODULE * module)
 
 
 def _bevel(teeth_1: Teeth, teeth_2: Teeth, turn_1: Turn, turn_2: Turn, apex: Points) -> _Pair | None:

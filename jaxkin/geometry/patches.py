@@ -32,7 +32,7 @@ class Patch:
     chord."""
     place: Float[Given, "... 3"]
     """Origin of the axes of the points in the frame of the joint, which has the same directions."""
-    height: Float[Given, "..."] | None
+    height: Float[Given, "..."] | float | None
     """How far what follows is from the surface along its normal, the direction of u x v; None for a point on it."""
     closed: tuple[bool, bool]
     """Whether the last row of points is joined to the first one, along u and along v."""
@@ -132,7 +132,7 @@ class BicubicSpline:
     """Coefficients of the powers 0 to 3 of u, then of v, behind the beginning of each piece."""
     start: Float[Given, "2"]
     """Coordinates of the contact in the assembled pose, from which `at` counts."""
-    height: Float[Given, ""] | None
+    height: Float[Given, ""] | float | None
     closed: tuple[bool, bool]
 
     @property

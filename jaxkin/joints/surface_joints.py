@@ -97,7 +97,7 @@ def point_on_surface(
     surface: Any,
     point2: Triple,
     radius: float | int | None = None,
-    closed: Sequence[bool] = (False, False),
+    closed: Any = (False, False),
     point: Triple = (0.0, 0.0, 0.0),
     axis: Triple = (0.0, 0.0, 1.0),
     direction: Triple | None = None,

@@ -94,7 +94,7 @@ def test_a_schmidt_coupling_of_seven_digits_moves():
 QUICK = ("planar_fourbar", "kite", "bennett_linkage", "bricard_linkage", "sarrus")
 """In the default run; the others take one to ten seconds each."""
 SLOWEST = ("parallel links, cylindrical", "spherical_wrist", "schmidt_coupling", "peaucellier", "wrist", "three cranks")
-SLOWEST += ("Fig. 3", "Fig. 7", "delta")
+SLOWEST += ("Fig. 3", "Fig. 7", "delta", "andrews", "jansen", "stephenson", "quick_return", "scotch_yoke", "sarrus")
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.long] * (name not in QUICK)) for name in EVERY])
