@@ -125,14 +125,18 @@ def _judged(
 
 
 def displacements_by_formula(
-    system: LoopSystem, joints: Joints, inputs: Float[Array, "1 poses"], found: FormulaPoses
+    system: LoopSystem,
+    joints: Joints,
+    inputs: Float[Array, "1 poses"],
+    found: FormulaPoses,
+    axes: Axes | None = None,
 ) -> Float[Array, "columns poses"]:
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
-    Displacements are in radians and lengths of the mechanism. The derivatives are those of the formulas; a pose that
-    did not close has derivatives of zero.
+    `axes` are those of the joints, where they are known already. Displacements are in radians and lengths of the
+    mechanism. The derivatives are those of the formulas; a pose that did not close has derivatives of zero.
     """
-    axes = assembled_axes(system, joints)
+    axes = assembled_axes(system, joints) if axes is None else axes
     found = lax.stop_gradient(found)
     rows = _with_derivative(system, axes, _scaled(system, axes, inputs), found)
     return joint_displacements(system, joints, axes, rows)

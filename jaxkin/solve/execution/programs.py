@@ -88,9 +88,11 @@ def solve(
     if inside:
         by_formula = _formulas_suffice(system, options, inputs, axes, line)
     if by_formula:
-        found = _formula_poses_program()(system, *numbers)
+        if axes is not None and line is None:
+            line = line_of(system, axes, np.asarray(numbers[1]))
+        found = _formula_poses_program(whole=not inside)(system, *numbers, axes, line)
         if inside or found.proven:
-            return _formula_displacements_program(system, joints, inputs, found), _outcome(found)
+            return _formula_displacements_program(system, joints, inputs, found, axes), _outcome(found)
     # compiler options apply to whole programs only: inside a traced function, the search is part of its program
     poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
     return _displacements_program(system, joints, inputs, poses), _outcome(poses)
@@ -156,9 +158,17 @@ def _by_formula(
 
 
 def _poses_by_formula(
-    system: LoopSystem, joints: Joints, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem,
+    joints: Joints,
+    inputs: Float[Array, "1 poses"],
+    tolerance: ClosureTolerance,
+    axes: Axes | None,
+    line: Line | None,
 ) -> FormulaPoses:
+    """Find poses by formulas; where the geometry is traced, there are no `axes` and no `line` yet."""
     count_trace()
+    if axes is not None and line is not None:
+        return find_poses_by_formula(system, axes, line, inputs, tolerance)
 
     def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance) -> FormulaPoses:
         return find_poses_and_line(system, assembled_axes(system, joints), inputs, tolerance)
@@ -260,9 +270,9 @@ def _formula_program():
 
 
 @cache
-def _formula_poses_program():
-    """Make the program of poses that are formulas; their displacements are differentiated by another program."""
-    return jax.jit(_poses_by_formula, static_argnames="system")
+def _formula_poses_program(whole: bool):
+    """Make the function that finds poses by formulas: a program of its own, or part of a traced one."""
+    return jax.jit(_poses_by_formula, static_argnames="system", **(jit_options() if whole else {}))
 
 
 _formula_displacements_program = jax.jit(displacements_by_formula, static_argnames="system")
