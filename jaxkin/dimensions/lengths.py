@@ -167,20 +167,30 @@ def _by_body(
 
 def _rearranged_body(xp, linkage: Linkage, body: Body, group: list[tuple[Length, Any]]) -> tuple[list[Any], Any]:
     """Change lengths of one body; return the poses of its features, and the misfit, None for two features only."""
-    poses = [_pose(xp, linkage, feature) for feature in body]
-    original = xp.stack(poses)
-    for length, wanted in group:
+    poses = xp.stack([_pose(xp, linkage, feature) for feature in body])
+    wanted = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
+    arranged = _arranged_program if xp is jnp else _arranged
+    placed, misfit = arranged(xp, body, tuple(length for length, _ in group), poses, wanted)
+    return list(placed), misfit
+
+
+def _arranged(xp, body: Body, changed: tuple[Length, ...], original, wanted):
+    """Place the features of one body so that some lengths get the values wanted; see `_rearranged_body`."""
+    poses = list(original)
+    for length, new in zip(changed, wanted, strict=True):
         one, two = body[length.first], body[length.second]
         found = between(xp, one, poses[length.first], two, poses[length.second])
-        change = xp.asarray(wanted) - value(found, length.quantity)
         direction = poses[length.first][:3, one.axis]
+        change = new - value(found, length.quantity)
         poses[length.second] = moved(xp, length.quantity, found, change, direction, poses[length.second])
     if len(body) == 2:
         return poses, None
-    layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length, _ in group))
-    targets = xp.stack([xp.asarray(wanted, dtype=float) for _, wanted in group])
-    moved_poses, misfit = arrange(xp, layout, original, xp.stack(poses), targets)
-    return list(moved_poses), misfit
+    layout = Layout(body, tuple(Change(length.first, length.second, length.quantity) for length in changed))
+    return arrange(xp, layout, original, xp.stack(poses), wanted)
+
+
+_arranged_program = jax.jit(_arranged, static_argnums=(0, 1, 2))
+"""One program for a body: operation by operation, a gradient that is not inside `jit` compiles some fifty."""
 
 
 def _row(linkage: Linkage, body: Body) -> str:

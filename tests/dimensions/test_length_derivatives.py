@@ -23,7 +23,6 @@ from reference.mechanisms import (
     spherical_linkage,
 )
 
-pytestmark = pytest.mark.long
 INPUTS = jnp.linspace(0.1, 5.9, 12)
 START = 1.0
 WEIGHTS = jnp.cos(jnp.arange(12.0))
@@ -76,7 +75,9 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name == "slider-crank" else pytest.mark.long) for name in CASES]
+)
 def test_with_respect_to_lengths(name):
     build, keys, now, output, closed = CASES[name]
     mechanism, now = build(), jnp.array(now)
@@ -91,6 +92,7 @@ def test_with_respect_to_lengths(name):
     agree(jax.grad(lambda x: WEIGHTS @ ours(x))(now), expected)
 
 
+@pytest.mark.long
 def test_first_derivatives_of_a_fourbar():
     """With respect to its bars, in reverse; a larger change against the closed form itself."""
     mechanism = planar_fourbar(START)
@@ -104,6 +106,7 @@ def test_first_derivatives_of_a_fourbar():
     np.testing.assert_allclose(jnp.cos(error - error[0]), 1.0, atol=1e-12)  # both turn fully; the zeros differ
 
 
+@pytest.mark.long
 @pytest.mark.study
 def test_all_kinds_of_derivatives_of_a_fourbar():
     """jvp, Hessian both ways round, and the Jacobian in either mode."""
@@ -123,6 +126,7 @@ def fourbar_rocker(mechanism):
     return lambda x: mechanism.with_lengths(dict(zip(BARS, x, strict=True))).sweep({"A": INPUTS}).coordinates["D"][:, 0]
 
 
+@pytest.mark.long
 def test_with_respect_to_a_shaft_angle_and_inputs_at_once():
     mechanism = cardan_shafts(0.5)
 
@@ -143,6 +147,7 @@ def test_with_respect_to_a_shaft_angle_and_inputs_at_once():
         agree(found, expected)
 
 
+@pytest.mark.long
 def test_with_respect_to_pitch_and_points():
     """A nut on a screw moves by pitch / 2 pi a radian; a pivot moved along the ground is a longer ground."""
     nut = Mechanism.build(
@@ -161,6 +166,7 @@ def test_with_respect_to_pitch_and_points():
     agree(jax.grad(lambda x: WEIGHTS @ ours(x))(100.0), jax.grad(lambda x: WEIGHTS @ closed(x))(100.0))
 
 
+@pytest.mark.long
 def test_gradient_over_a_whole_mechanism_predicts_every_small_change():
     """Moving any frame a little changes the loss by gradient times movement: all leaves, along a random line."""
     mechanism = slider_crank(START)
@@ -189,6 +195,7 @@ def test_gradient_over_a_whole_mechanism_predicts_every_small_change():
     np.testing.assert_allclose(predicted, numeric, rtol=1e-8)
 
 
+@pytest.mark.long
 def test_a_failed_pose_spoils_no_gradient():
     """With a coupler too short for some crank angles the others keep their exact derivative, in reverse too."""
     mechanism = planar_fourbar(START, ground=40.0, crank=20.0, coupler=25.0, rocker=30.0)
@@ -208,6 +215,7 @@ def test_a_failed_pose_spoils_no_gradient():
     np.testing.assert_allclose(jax.grad(lambda x: jnp.sum(ours(x)))(25.0), np.sum(exact[closed]), rtol=1e-9)
 
 
+@pytest.mark.long
 def test_one_batch_of_designs():
     """Two hundred couplers in one compiled call, each as the closed form of its own."""
     mechanism = planar_fourbar(START)
@@ -225,6 +233,7 @@ def test_one_batch_of_designs():
     np.testing.assert_allclose(np.cos(rockers(couplers) + base - expected), 1.0, atol=1e-13)
 
 
+@pytest.mark.long
 def test_an_unused_joint_has_no_derivative():
     """Of a mechanism with a part that hangs on it freely, lengths of that part do not matter: exactly zero."""
     base = planar_fourbar(START)

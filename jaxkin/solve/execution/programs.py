@@ -92,7 +92,9 @@ def solve(
             line = line_of(system, axes, np.asarray(numbers[1]))
         found = _formula_poses_program(whole=not inside)(system, *numbers, axes, line)
         if inside or found.proven:
-            return _formula_displacements_program(system, joints, inputs, found, axes), _outcome(found)
+            # axes are numbers, also where joints are differentiated: then they have no derivatives
+            differentiated = None if traced(joints) else axes
+            return _formula_displacements_program(system, joints, inputs, found, differentiated), _outcome(found)
     # compiler options apply to whole programs only: inside a traced function, the search is part of its program
     poses = _poses_program(whole=not inside)(system, options.of_program, *numbers)
     return _displacements_program(system, joints, inputs, poses), _outcome(poses)
