@@ -25,9 +25,10 @@ from peer_engines import Missing, pylinkage_linkage
 
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.optimize import MET, POOL, _Bar, _best_of, _search
-from jaxkin.design.problem import Problem
+from jaxkin.design.problem import design_problem
 from jaxkin.design.variables import spread, variables
 from jaxkin.examples.paths import PATHS
+from jaxkin.solve.options import SolverOptions
 from reference import catalogue, mechanisms
 
 SECONDS, RUNS = 2.0, 15
@@ -197,10 +198,12 @@ def race() -> None:
     for name in "bcd":
         given = PATHS[name].arguments()
         chosen = variables(given["mechanism"], given["drive"], given["lengths"], {}, given["extras"], {})
-        problem = Problem(given["loss"], True, given["mechanism"], chosen, tuple(given["constraints"]))
+        options = SolverOptions()
+        problem = design_problem(given["loss"], True, given["mechanism"], chosen, given["constraints"], options)
         together, alone = least_squares(problem), least_squares(problem, 1)
         target = PATHS[name].published * (1 + 1e-5)
-        vectors, weight = _best_of(together, spread(chosen, RACE * POOL, 0), RACE)
+        pool = spread(chosen, RACE * POOL, 0)
+        vectors, weight = _best_of(pool, *together.judge(pool), RACE)
         alone.begin(vectors[:1], weight)  # compiled
 
         def downhill(vectors, solver, weight=weight, target=target):

@@ -1,21 +1,49 @@
 """Constraints: functions of a motion (and of the extra variables) whose values must not be negative.
 
-Each is without unit, so that one penalty serves all: lengths are divided by a length of the mechanism.
+Each is without unit, so that one penalty serves all: lengths are divided by a length of the mechanism. They are pytrees
+of their numbers, as objectives are.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin.design.measures import joint_coordinate, length_now, transmission_angle
+from jaxkin.design.measures import STATIC, PartPoint, joint_coordinate, length_now, part_point, transmission_angle
 from jaxkin.mechanism.motion import Motion
 
-Constraint = Callable[[Motion, Mapping[str, Any]], Any] | Callable[[Motion], Any]
+Extras = Mapping[str, Any]
+Constraint = Callable[[Motion, Extras], Any] | Callable[[Motion], Any]
 Key = tuple[str, ...]
+
+
+class DesignConstraint:
+    """A constraint of this module."""
+
+    name: ClassVar[str]
+    """That of the function that makes it."""
+
+
+def constraint_name(constraint: Constraint) -> str:
+    """Tell the name of a constraint, for messages: that of the function that made it, or its own."""
+    return getattr(constraint, "name", None) or getattr(constraint, "__name__", type(constraint).__name__)
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _FullCrank(DesignConstraint):
+    name = "full_crank"
+    bars: tuple[Key, Key, Key, Key] = field(metadata=STATIC)
+
+    def __call__(self, motion: Motion, extras: Extras):
+        g, a, b, c = (length_now(motion.mechanism, key) for key in self.bars)
+        total = g + a + b + c
+        return jnp.stack([total - 2 * (a + other) for other in (g, b, c)]) / total
 
 
 def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint:
@@ -25,35 +53,64 @@ def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint
     The four bars are named as in `with_lengths`. For a rocker that turns fully too (a double crank), name the
     ground first and the crank in its place.
     """
+    return _FullCrank((ground, crank, coupler, rocker))
 
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        g, a, b, c = (length_now(motion.mechanism, key) for key in (ground, crank, coupler, rocker))
-        total = g + a + b + c
-        return jnp.stack([total - 2 * (a + other) for other in (g, b, c)]) / total
 
-    return margins
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _Grashof(DesignConstraint):
+    name = "grashof"
+    bars: tuple[Key, ...] = field(metadata=STATIC)
+
+    def __call__(self, motion: Motion, extras: Extras):
+        lengths = jnp.sort(jnp.stack([jnp.asarray(length_now(motion.mechanism, key)) for key in self.bars]))
+        return (lengths[1] + lengths[2] - lengths[0] - lengths[3])[None] / jnp.sum(lengths)
 
 
 def grashof(*bars: Key) -> Constraint:
     """Demand that some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
     if len(bars) != 4:
         raise ValueError(f"grashof: name the four bars of a four-bar by their keys as in with_lengths, got {len(bars)}")
+    return _Grashof(bars)
 
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        lengths = jnp.sort(jnp.stack([jnp.asarray(length_now(motion.mechanism, key)) for key in bars]))
-        return (lengths[1] + lengths[2] - lengths[0] - lengths[3])[None] / jnp.sum(lengths)
 
-    return margins
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _TransmissionWithin(DesignConstraint):
+    name = "transmission_within"
+    joint: str = field(metadata=STATIC)
+    ends: tuple[str, str] = field(metadata=STATIC)
+    least: Any
+    largest: Any
+
+    def __call__(self, motion: Motion, extras: Extras):
+        angle = transmission_angle(motion, self.joint, self.ends)
+        return jnp.concatenate([angle - self.least, self.largest - angle])
 
 
 def transmission_within(joint: str, ends: tuple[str, str], least: float, largest: float = np.pi) -> Constraint:
     """Demand that the transmission angle (see `transmission_angle`) stays between two angles, in radians."""
+    return _TransmissionWithin(joint, (ends[0], ends[1]), least, largest)
 
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        angle = transmission_angle(motion, joint, ends)
-        return jnp.concatenate([angle - least, largest - angle])
 
-    return margins
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _InBox(DesignConstraint):
+    name = "in_box"
+    point: PartPoint
+    axes: tuple[int, ...] = field(metadata=STATIC)
+    """The axis of each side that is not open."""
+    signs: tuple[int, ...] = field(metadata=STATIC)
+    """Of each side 1 if it is a lower one, or -1."""
+    sides: Any
+    size: Any
+
+    def __call__(self, motion: Motion, extras: Extras):
+        found = self.point.path(motion, extras)
+        inside = [
+            sign * (found[:, axis] - side) for axis, sign, side in zip(self.axes, self.signs, self.sides, strict=True)
+        ]
+        return jnp.concatenate(inside) / self.size
 
 
 def in_box(part: str, point: Sequence[float | int] | str, lower: Sequence[float], upper: Sequence[float]) -> Constraint:
@@ -63,35 +120,46 @@ def in_box(part: str, point: Sequence[float | int] | str, lower: Sequence[float]
     Use infinity where a side is open.
     """
     low, high = np.asarray(lower, float), np.asarray(upper, float)
-    sides = np.concatenate([low[np.isfinite(low)], high[np.isfinite(high)]])
-    size = max(float(np.ptp(sides)) if sides.size > 1 else 0.0, 1e-300) or 1.0
+    closed = [(k, 1, low[k]) for k in range(3) if np.isfinite(low[k])]
+    closed += [(k, -1, high[k]) for k in range(3) if np.isfinite(high[k])]
+    axes, signs, sides = (tuple(each) for each in zip(*closed, strict=True)) if closed else ((), (), ())
+    size = max(float(np.ptp(sides)) if len(sides) > 1 else 0.0, 1e-300) or 1.0
+    return _InBox(part_point(part, point), axes, signs, sides, size)
 
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        found = motion.points(part, extras[point] if isinstance(point, str) else point)
-        inside = [found[:, k] - low[k] for k in range(3) if np.isfinite(low[k])]
-        inside += [high[k] - found[:, k] for k in range(3) if np.isfinite(high[k])]
-        return jnp.concatenate(inside) / size
 
-    return margins
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _InSequence(DesignConstraint):
+    name = "in_sequence"
+    joint: str = field(metadata=STATIC)
+    least: Any
+
+    def __call__(self, motion: Motion, extras: Extras):
+        values = motion.inputs[
+            self.joint if self.joint in motion.inputs else next(n for n in motion.inputs if n.startswith(self.joint))
+        ]
+        rest = (2 * jnp.pi - (values[-1] - values[0]))[None]
+        return jnp.concatenate([jnp.diff(values) - self.least, rest]) / (2 * jnp.pi)
 
 
 def in_sequence(joint: str, *, least: float = 0.0) -> Constraint:
     """Demand that the driven displacements rise from pose to pose, by `least` at least, and by no more than one turn in
     all."""
+    return _InSequence(joint, least)
 
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        values = motion.inputs[
-            joint if joint in motion.inputs else next(n for n in motion.inputs if n.startswith(joint))
-        ]
-        return jnp.concatenate([jnp.diff(values) - least, (2 * jnp.pi - (values[-1] - values[0]))[None]]) / (2 * jnp.pi)
 
-    return margins
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class _Above(DesignConstraint):
+    name = "above"
+    joint: str = field(metadata=STATIC)
+    least: Any
+    size: Any
+
+    def __call__(self, motion: Motion, extras: Extras):
+        return (joint_coordinate(motion, self.joint) - self.least) / self.size
 
 
 def above(joint: str, least: float, size: float = 1.0) -> Constraint:
     """Demand that a joint's displacement stays at or above a value; `size` makes it a pure number."""
-
-    def margins(motion: Motion, extras: Mapping[str, Any]):
-        return (joint_coordinate(motion, joint) - least) / size
-
-    return margins
+    return _Above(joint, least, size)

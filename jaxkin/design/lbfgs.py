@@ -5,14 +5,16 @@ jaxopt is imported when it is used: see `jaxkin.solve.reference_methods.optional
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin.design.problem import HOPELESS, Problem
-from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
+from jaxkin.design.problem import HOPELESS, Judged, Problem, Structure, taken_apart
+from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.reference_methods.optional_jaxopt import jaxopt
 
@@ -22,14 +24,59 @@ HALVINGS = 15
 """Trials of a line search, each 0.4 times as long as the one before."""
 
 
+class _Programs(NamedTuple):
+    """Compiled for problems of one structure, whose numbers come first."""
+
+    first: Callable[..., Any]
+    further: Callable[..., Any]
+    judged: Callable[..., Judged]
+
+
 def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     """Bounded L-BFGS on vectors scaled to 0..1, `together` designs in a compiled program."""
-    lower, width = unit_box(problem.variables.lower, problem.variables.upper)
-    bounds = (jnp.zeros_like(lower), jnp.where(width > 0, 1.0, 0.0))
+    lower, width = unit_box(problem.variables)
+    structure, numbers = taken_apart(problem)
+    first, further, judged = _programs(structure)
 
-    def value_and_grad(unit, weight):
+    def begin(vectors, weight):
+        span = np.where(width > 0, width, 1.0)
+        units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
+        return in_groups(lambda group: first(numbers, group, weight), together, units)
+
+    def advance(state, weight, active):
+        chosen = np.flatnonzero(active)
+        found, values = in_groups(lambda group: further(numbers, group, weight), together, state, chosen)
+        losses = np.full((CHUNK, len(active)), np.nan)
+        losses[:, chosen] = values.T
+
+        def put(old, new):
+            whole = np.array(old)
+            whole[chosen] = new
+            return whole
+
+        return jax.tree.map(put, state, found), losses
+
+    def judge(vectors):
+        found = in_groups(lambda group: judged(numbers, group), together, np.asarray(vectors))
+        losses = found.rows[:, 0]
+        return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
+
+    return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)
+
+
+@lru_cache(maxsize=KEPT)
+def _programs(structure: Structure) -> _Programs:
+    """Make the programs of problems of this structure."""
+
+    def value_and_grad(unit, weight, numbers):
+        problem: Problem = structure.problem.unflatten(numbers)
+        lower, width = unit_box(problem.variables)
         value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
+
+    def bounds(numbers):
+        chosen = structure.problem.unflatten(numbers).variables
+        return jnp.zeros_like(chosen.lower), jnp.where(chosen.upper > chosen.lower, 1.0, 0.0)
 
     package = jaxopt()
     solver = package.LBFGSB(
@@ -41,14 +88,15 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
         value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
     ).run
 
-    @partial(jax.jit, **jit_options())
-    def first(units, weight):
-        return units, jax.vmap(lambda unit: solver.init_state(unit, bounds, weight))(units)
+    def first(numbers, units, weight):
+        box = bounds(numbers)
+        return units, jax.vmap(lambda unit: solver.init_state(unit, box, weight, numbers))(units)
 
-    @partial(jax.jit, **jit_options())
-    def further(state, weight):
+    def further(numbers, state, weight):
+        box = bounds(numbers)
+
         def one(unit, state):
-            step = solver.update(unit, state, bounds, weight)
+            step = solver.update(unit, state, box, weight, numbers)
             return step.params, step.state
 
         def iterate(carry, _):
@@ -65,29 +113,7 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
         state, losses = jax.lax.scan(iterate, state, None, length=CHUNK)
         return state, losses.T
 
-    def begin(vectors, weight):
-        span = np.where(width > 0, width, 1.0)
-        units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
-        return in_groups(lambda group: first(group, weight), together, units)
+    def judged(numbers, vectors):
+        return jax.vmap(structure.problem.unflatten(numbers).judge)(vectors)
 
-    def advance(state, weight, active):
-        chosen = np.flatnonzero(active)
-        found, values = in_groups(lambda group: further(group, weight), together, state, chosen)
-        losses = np.full((CHUNK, len(active)), np.nan)
-        losses[:, chosen] = values.T
-
-        def put(old, new):
-            whole = np.array(old)
-            whole[chosen] = new
-            return whole
-
-        return jax.tree.map(put, state, found), losses
-
-    judged = jax.jit(jax.vmap(problem.judge), **jit_options())
-
-    def judge(vectors):
-        found = in_groups(judged, together, np.asarray(vectors))
-        losses = found.rows[:, 0]
-        return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
-
-    return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)
+    return _Programs(*(jax.jit(each, **jit_options()) for each in (first, further, judged)))

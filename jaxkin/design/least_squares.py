@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import jax
@@ -10,9 +11,9 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Bool, Float
 
-from jaxkin.design.problem import HOPELESS, Problem
-from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
-from jaxkin.solve.execution.two_tiers import in_two_tiers
+from jaxkin.design.problem import HOPELESS, Judged, Problem, Structure, taken_apart
+from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
+from jaxkin.solve.execution.two_tiers import TwoTiers
 
 DAMPING, LEAST_DAMPING = 1e-3, 1e-16
 """First and least damping, relative to the largest diagonal entry of J^T J."""
@@ -36,27 +37,22 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     One program is compiled, residuals and Jacobian of `together` designs; the small systems are solved in numpy.
     """
     dtype = dtypes.canonicalize_dtype(float)
-    lower, width = (np.asarray(each, dtype) for each in unit_box(problem.variables.lower, problem.variables.upper))
-    count = jax.eval_shape(problem.judge, lower).rows.shape[0]
+    lower, width = (np.asarray(each, dtype) for each in unit_box(problem.variables))
+    structure, numbers = taken_apart(problem)
+    program = _program(structure, together).search()
 
-    @in_two_tiers
-    def program(units, weight):
-        def one(unit):
-            def along(direction):
-                return jax.jvp(lambda u: problem.residuals(lower + width * u, weight), (unit,), (direction,))
-
-            residuals, jacobian = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
-            residuals = jnp.clip(jnp.nan_to_num(residuals, nan=HOPELESS), -HOPELESS, HOPELESS)
-            return residuals, jnp.nan_to_num(jacobian, nan=0.0, posinf=0.0, neginf=0.0)
-
-        return jax.vmap(one)(units)
+    def judged(units, weight) -> tuple[Judged, np.ndarray]:
+        return in_groups(lambda group: program(numbers, group, float(weight)), together, np.asarray(units, dtype))
 
     def evaluated(units, weight):
-        return in_groups(lambda group: program(group, float(weight)), together, np.asarray(units, dtype))
+        found, jacobian = judged(units, weight)
+        return np.concatenate(found, axis=1), jacobian
+
+    def units_of(vectors):
+        return np.clip((np.asarray(vectors) - lower) / np.where(width > 0, width, 1.0), 0.0, 1.0)
 
     def begin(vectors, weight):
-        span = np.where(width > 0, width, 1.0)
-        units = np.clip((np.asarray(vectors) - lower) / span, 0.0, 1.0)
+        units = units_of(vectors)
         residuals, jacobian = evaluated(units, weight)
         damping = DAMPING * _largest(jacobian) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
@@ -75,8 +71,7 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
         return _State(*whole), losses
 
     def judge(vectors):
-        residuals = begin(vectors, 1.0).residuals
-        rows, violations = residuals[:, :count], residuals[:, count:]
+        rows, violations = judged(units_of(vectors), 1.0)[0]
         losses = np.where(np.any(np.abs(rows) >= HOPELESS, axis=1), np.nan, np.sum(rows**2, axis=1))
         return losses, np.sqrt(np.sum(violations**2, axis=1))
 
@@ -87,6 +82,28 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
         lambda state: np.max(np.abs(state.jacobian), axis=1),
         judge,
     )
+
+
+@lru_cache(maxsize=KEPT)
+def _program(structure: Structure, together: int) -> TwoTiers:
+    """Make the program of a problem of this structure: residuals of designs, violations weighted, and the Jacobian."""
+    del together  # a program is compiled for its number of designs
+
+    def program(numbers, units, weight):
+        problem: Problem = structure.problem.unflatten(numbers)
+        lower, width = unit_box(problem.variables)
+
+        def one(unit):
+            def along(direction):
+                return jax.jvp(lambda u: problem.weighted(lower + width * u, weight), (unit,), (direction,))
+
+            found, slopes = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
+            found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -HOPELESS, HOPELESS), found)
+            return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
+
+        return jax.vmap(one)(units)
+
+    return TwoTiers(program)
 
 
 def _loss(residuals: Float[np.ndarray, "starts rows"]) -> Float[np.ndarray, " starts"]:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
+import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
@@ -15,6 +18,35 @@ from jaxkin.linkage.coordinates import coordinate
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
+
+
+STATIC = {"static": True}
+"""Of a field that is no number: a program is compiled anew for another value."""
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
+class PartPoint:
+    """A point of a part, which may be an extra variable."""
+
+    part: str = field(metadata=STATIC)
+    extra: str | None = field(metadata=STATIC)
+    """Name of the extra variable; None where the point is given."""
+    given: Any
+    """Where the point is in the assembled pose; None where it is a variable."""
+
+    def path(self, motion: Motion, extras: Mapping[str, Any]) -> Float[Array, "poses 3"]:
+        """Compute where the point is in every pose; (x, y) is in the plane z = 0."""
+        found = jnp.asarray(self.given if self.extra is None else extras[self.extra], float)
+        return motion.points(self.part, jnp.append(found, 0.0) if found.shape == (2,) else found)
+
+
+def part_point(part: str, point: Any) -> PartPoint:
+    """Make a point of a part, of its coordinates or of the name of an extra variable."""
+    if isinstance(point, str):
+        return PartPoint(part, point, None)
+    given = np.asarray(point, float)
+    return PartPoint(part, None, np.append(given, 0.0) if given.shape == (2,) else given)
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:

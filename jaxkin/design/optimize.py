@@ -17,7 +17,7 @@ from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
 from jaxkin.design.objectives import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
-from jaxkin.design.problem import Problem, checked_shape
+from jaxkin.design.problem import Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver
 from jaxkin.design.variables import Variables, spread, variables
@@ -84,6 +84,10 @@ def optimize(
     is that of a fine sweep. `options` says how poses are found, as in `Mechanism.sweep`. `progress` draws a bar; by
     default where errors go to a terminal.
 
+    A later call for a problem of the same structure runs the program that is there: other numbers of the mechanism,
+    bounds, drive, targets and constraints compile nothing anew. Functions of your own are traced in each call, and
+    compiled anew where they compute something else.
+
     Raises ValueError for variables, bounds and losses that make no sense; warns of variables without any influence.
     """
     if solver is not None and not isinstance(solver, Optimiser):
@@ -96,13 +100,15 @@ def optimize(
         solver = LevenbergMarquardt() if isinstance(loss, Objective) else LBFGS()
     squares = isinstance(solver, LevenbergMarquardt)
     chosen = variables(mechanism, drive, lengths or {}, points or {}, extras or {}, ties or {})
-    problem = Problem(loss, squares, mechanism, chosen, tuple(constraints), options_with(options))
-    checked_shape(problem, jnp.asarray(chosen.start))
     began = time.perf_counter()
-    first = _first(problem)
+    problem = design_problem(loss, squares, mechanism, chosen, constraints, options_with(options))
+    first = problem.motion(chosen.start)[:2]
     downhill = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
-    vectors, weight = _best_of(downhill, pool, starts)
+    losses, violations = downhill.judge(pool)
+    if not np.isfinite(losses[0]):
+        _check_finite(problem, *first)
+    vectors, weight = _best_of(pool, losses, violations, starts)
     weight = solver.penalty if solver.penalty is not None else weight
     _warn_of_idle(downhill, vectors, weight, chosen)
 
@@ -141,21 +147,18 @@ def optimize(
     )
 
 
-def _first(problem: Problem) -> tuple[Motion, dict[str, Any]]:
-    """Compute motion and extras of the design given; refused where the loss is no finite number there."""
-    motion, extras, _ = problem.motion(problem.variables.start)
+def _check_finite(problem: Problem, motion: Motion, extras: dict[str, Any]) -> None:
+    """Refuse a loss that is no finite number for the design given."""
     judged = jax.jit(problem.of_motion)(motion, extras)
     if not bool(jnp.all(jnp.isfinite(judged))):
         raise ValueError(
             f"the loss of the design given is {float(jnp.sum(judged))}: it must be a finite number there; mask poses "
             "that do not close (motion.closed) and divisions by zero in the loss, or start from another design"
         )
-    return motion, extras
 
 
-def _best_of(downhill: Solver, pool: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
+def _best_of(pool: np.ndarray, losses: np.ndarray, violations: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
     """Find the given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
-    losses, violations = downhill.judge(pool)
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2

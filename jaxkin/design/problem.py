@@ -1,28 +1,32 @@
-"""A design problem as functions of one vector: residuals, or a loss and its gradient, penalties included."""
+"""A design problem as functions of one vector: residuals, or a loss and its gradient, penalties included.
+
+A problem is a pytree: what two problems may differ in without being compiled anew are its numbers, `taken_apart`.
+"""
 
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
+from jax import dtypes
 from jaxtyping import Array, Float
 
-from jaxkin.design.constraints import Constraint
+from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name
 from jaxkin.design.objectives import Objective
+from jaxkin.design.own_functions import own_function
 from jaxkin.design.penalty import closure_gaps
 from jaxkin.design.variables import Variables
 from jaxkin.dimensions.frames import with_points
 from jaxkin.dimensions.lengths import rearranged
+from jaxkin.mechanism.mechanism import Mechanism
+from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import sweep
 from jaxkin.solve.options import SolverOptions
-
-if TYPE_CHECKING:
-    from jaxkin.mechanism.mechanism import Mechanism
-    from jaxkin.mechanism.motion import Motion
 
 HOPELESS = 1e6
 """Stands for residuals and losses that are not finite, so that the other designs of a batch are not spoilt."""
@@ -42,7 +46,7 @@ class Judged(NamedTuple):
         return jnp.all(jnp.isfinite(self.rows)) & jnp.all(jnp.isfinite(self.violations))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Problem:
     """What is minimised: `sum(rows^2)` or the loss, and `weight sum(violations^2)`."""
 
@@ -50,8 +54,8 @@ class Problem:
     squares: bool
     mechanism: Mechanism
     variables: Variables
-    constraints: Sequence[Constraint]
-    options: SolverOptions = field(default_factory=SolverOptions)
+    constraints: tuple[Constraint, ...]
+    options: SolverOptions
     """How poses are found."""
 
     def motion(self, vector) -> tuple[Motion, dict[str, Any], dict[str, Any]]:
@@ -76,11 +80,8 @@ class Problem:
         for part, misfit in misfits.items():
             found.append((f"fit of the lengths of {part}", jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,))))
         for number, each in enumerate(self.constraints):
-            # the constraints of jaxkin.design are functions `margins` within those that made them
-            whole = getattr(each, "__qualname__", type(each).__name__)
-            name = whole.removesuffix(".<locals>.margins").rsplit(".", 1)[-1]
             lack = jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0))
-            found.append((f"constraint {number} ({name})", lack))
+            found.append((f"constraint {number} ({constraint_name(each)})", lack))
         return found
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
@@ -91,10 +92,14 @@ class Problem:
             self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
         )
 
-    def residuals(self, vector, weight) -> Float[Array, " rows"]:
+    def weighted(self, vector, weight) -> Judged:
         """Compute all that a sum of squares adds up."""
         judged = self.judge(vector)
-        return jnp.concatenate([judged.rows, jnp.sqrt(weight) * judged.violations])
+        return judged._replace(violations=jnp.sqrt(weight) * judged.violations)
+
+    def residuals(self, vector, weight) -> Float[Array, " rows"]:
+        """Compute the same as one array."""
+        return jnp.concatenate(self.weighted(vector, weight))
 
     def total(self, vector, weight) -> Float[Array, ""]:
         """Compute the loss with its penalty."""
@@ -122,19 +127,110 @@ def takes_extras(loss: Callable[..., Any]) -> bool:
     return True
 
 
-def checked_shape(problem: Problem, vector) -> None:
-    """Refuse a loss that is no single number, where it has to be one; by shapes only, nothing is computed."""
-    if problem.squares and isinstance(problem.loss, Objective):
-        return
+class Structure(NamedTuple):
+    """What a program is compiled for."""
+
+    problem: Any
+    """The problem without its numbers."""
+    shapes: tuple[tuple[tuple[int, ...], Any], ...]
+    """Shape and type of each of the numbers."""
+    settings: tuple[Any, ...]
+    """Of JAX: precision, and device."""
+
+
+def taken_apart(problem: Problem) -> tuple[Structure, list[Array]]:
+    """Take a problem apart into its structure, which is hashable, and its numbers, on the device."""
+    leaves, tree = jax.tree.flatten(problem)
+    numbers = [jnp.asarray(leaf) for leaf in leaves]
+    settings = dtypes.canonicalize_dtype(float), getattr(jax.config, "jax_default_device", None)
+    return Structure(tree, tuple((each.shape, each.dtype) for each in numbers), settings), numbers
+
+
+def _children(problem: Problem) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """List the pytrees of a problem, and what else it has.
+
+    Of a mechanism that changes, the linkage is numbers; one that does not change is what it is: its poses are found by
+    what is known of it. So is one that has contacts, which JAX leaves behind, for functions that ask for these.
+    """
+    mechanism, changes = problem.mechanism, problem.variables.change_geometry
+    whole = not changes or mechanism.contacts or mechanism.contacts_at_rest or mechanism.bonds
+    rest = mechanism if whole else (mechanism.unit, mechanism.motors)
+    given = mechanism.linkage if changes else None
+    return (problem.loss, problem.constraints, problem.variables, given), (rest, problem.squares, problem.options)
+
+
+def _rebuilt(static: tuple[Any, ...], children: tuple[Any, ...]) -> Problem:
+    (rest, squares, options), (loss, constraints, chosen, linkage) = static, children
+    if not isinstance(rest, Mechanism):
+        unit, motors = rest
+        rest = Mechanism(linkage, unit, motors=motors)
+    mechanism = rest if linkage is None else rest.with_linkage(linkage)
+    return Problem(loss, squares, mechanism, chosen, constraints, options)
+
+
+jax.tree_util.register_pytree_node(Problem, _children, _rebuilt)
+
+
+def design_problem(
+    loss: Objective | Callable[..., Any],
+    squares: bool,
+    mechanism: Mechanism,
+    chosen: Variables,
+    constraints: Sequence[Constraint],
+    options: SolverOptions,
+) -> Problem:
+    """Make a problem, with functions of the user as what they compute: see `own_functions`.
+
+    Raises ValueError for a loss that is no single number where it has to be one.
+    """
+
+    def traced(function: Callable[..., Any], name: str, *shapes: Any):
+        return own_function(function, name, shapes, forward=squares)
+
+    chosen = chosen.with_functions(traced)
+    problem = Problem(loss, squares, mechanism, chosen, tuple(constraints), options)
+    if isinstance(loss, Objective) and not any(map(_is_own, constraints)):
+        return problem
+    # shapes only, nothing is computed
+    motion, extras, _ = jax.eval_shape(problem.motion, jnp.asarray(chosen.start))
+
+    def own(function: Callable[..., Any]):
+        def of_motion(motion: Motion, extras: dict[str, Any]):
+            return _called(function, replace(motion, mechanism=_with_contacts(motion.mechanism, mechanism)), extras)
+
+        if not isinstance(loss, Objective) and function is loss:
+            _check_shape(of_motion, squares, motion, extras)
+        called = traced(of_motion, constraint_name(function), motion, extras)
+        return replace(called, function=partial(_called, function))
+
+    return replace(
+        problem,
+        loss=own(loss) if _is_own(loss) else loss,
+        constraints=tuple(own(each) if _is_own(each) else each for each in constraints),
+    )
+
+
+def _is_own(function: Any) -> bool:
+    """Tell whether a loss or a constraint is a function of the user, and not one of `jaxkin.design`."""
+    return not isinstance(function, Objective | DesignConstraint)
+
+
+def _with_contacts(mechanism: Mechanism, whole: Mechanism) -> Mechanism:
+    """Give a mechanism what JAX has left behind, as functions of the motion find it when they are called."""
+    return replace(mechanism, contacts=whole.contacts, contacts_at_rest=whole.contacts_at_rest, bonds=whole.bonds)
+
+
+def _check_shape(loss: Callable[..., Any], squares: bool, motion: Motion, extras: Mapping[str, Any]) -> None:
+    """Refuse a loss that is no single number, where it has to be one."""
     returned: list[Any] = []
-    jax.eval_shape(lambda v: returned.append(problem._call(*problem.motion(v)[:2])), vector)
+    jax.eval_shape(lambda *given: returned.append(loss(*given)), motion, extras)
     (found,) = returned
     shape = getattr(found, "shape", () if isinstance(found, int | float) else None)
     if shape is None:
         raise ValueError(
             f"the loss must return one number, got {type(found).__name__}; return jnp.sum(...) of what it measures"
         )
-    if not problem.squares and shape != ():
+    if not squares and shape != ():
         raise ValueError(
             f"the loss must return one number, got an array of shape {shape}; return jnp.sum(...) of it, or say "
             "solver=jk.design.LevenbergMarquardt() if these are residuals whose squares are to be added up"

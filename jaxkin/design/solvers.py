@@ -10,11 +10,16 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin.design.variables import Variables
+
 CHUNK = 10
 """Iterations between two looks at the losses."""
 TOGETHER = 8
 """Designs that go through one call of the compiled program at most: few wait for the slowest, and none for retired
 starts."""
+
+KEPT = 16
+"""Programs of problems that are kept, each for all problems of the same structure; those used last."""
 
 
 class Solver(NamedTuple):
@@ -50,6 +55,6 @@ def in_groups(
     return jax.tree.map(lambda *groups: np.concatenate(groups)[: len(chosen)], *found())
 
 
-def unit_box(lower: np.ndarray, upper: np.ndarray) -> tuple[Array, Array]:
+def unit_box(chosen: Variables) -> tuple[Array, Array]:
     """Return lower bounds and widths: vectors are lower + width * unit."""
-    return jnp.asarray(lower), jnp.asarray(upper - lower)
+    return jnp.asarray(chosen.lower), jnp.asarray(chosen.upper) - chosen.lower

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import jax
 import numpy as np
-from jaxtyping import Float
+from jax import dtypes
+from jaxtyping import Array, Float
 
-from jaxkin.design.measures import length_now
+from jaxkin.design.measures import STATIC, length_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
 
-Vector = Float[np.ndarray, " variables"]
+Vector = Float[np.ndarray | Array, " variables"]
 
 
 @dataclass(frozen=True)
@@ -39,37 +41,45 @@ class Values(NamedTuple):
 
 @dataclass(frozen=True)
 class _Entry:
+    """The name of a variable; nothing here is a number."""
+
     group: str
     key: Any
     shape: tuple[int, ...]
-    start: np.ndarray
-    lower: np.ndarray
-    upper: np.ndarray
-    ties: tuple[tuple[Any, Callable | None], ...] = field(default=())
+    ties: tuple[tuple[Any, Callable | None], ...] = ()
     """Further keys of the group that take this value, or a function of it."""
 
 
-@dataclass(frozen=True)
+class _Bounded(NamedTuple):
+    """A variable with its numbers, all of its shape."""
+
+    entry: _Entry
+    start: np.ndarray
+    lower: np.ndarray
+    upper: np.ndarray
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True, eq=False)
 class Variables:
-    """All variables, one after another."""
+    """All variables, one after another. A pytree of bounds and fixed inputs."""
 
-    entries: tuple[_Entry, ...]
-    fixed_inputs: Mapping[str, Any]
+    entries: tuple[_Entry, ...] = field(metadata=STATIC)
+    start: Vector
+    """The vector of the design that was given."""
+    lower: Vector
+    """Lower bounds."""
+    upper: Vector
+    """Upper bounds."""
+    fixed_keys: tuple[Any, ...] = field(metadata=STATIC)
+    """Keys of the drive that are no variables."""
+    fixed_inputs: tuple[Any, ...]
+    """For each of these its displacements, or a function of the extras."""
 
     @property
-    def start(self) -> Vector:
-        """The vector of the design that was given."""
-        return self._joined("start")
-
-    @property
-    def lower(self) -> Vector:
-        """Lower bounds."""
-        return self._joined("lower")
-
-    @property
-    def upper(self) -> Vector:
-        """Upper bounds."""
-        return self._joined("upper")
+    def change_geometry(self) -> bool:
+        """Whether lengths or points are variables."""
+        return any(entry.group in ("lengths", "points") for entry in self.entries)
 
     @property
     def names(self) -> list[str]:
@@ -83,7 +93,8 @@ class Variables:
 
     def values(self, vector) -> Values:
         """Make the design that a vector stands for."""
-        found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": dict(self.fixed_inputs), "extras": {}}
+        fixed = dict(zip(self.fixed_keys, self.fixed_inputs, strict=True))
+        found: dict[str, dict] = {"lengths": {}, "points": {}, "inputs": fixed, "extras": {}}
         first = 0
         for entry in self.entries:
             count = int(np.prod(entry.shape, dtype=int))
@@ -97,8 +108,29 @@ class Variables:
                 found["inputs"][key] = given(found["extras"])
         return Values(**found)
 
-    def _joined(self, name: str) -> Vector:
-        return np.concatenate([np.asarray(getattr(entry, name), float).ravel() for entry in self.entries])
+    def with_functions(self, traced: Callable[..., Any]) -> Variables:
+        """Replace functions of extras, and those of ties, by what `traced` makes of the function, a name, and the
+        shapes of its arguments."""
+        entries = tuple(
+            replace(
+                entry,
+                ties=tuple(
+                    (key, change and traced(change, f"tie of {key!r}", _shape(entry))) for key, change in entry.ties
+                ),
+            )
+            for entry in self.entries
+        )
+        extras = replace(self, entries=entries, fixed_keys=(), fixed_inputs=())
+        shapes = jax.eval_shape(lambda vector: extras.values(vector).extras, self.start)
+        fixed = tuple(
+            traced(given, f"drive {key!r}", shapes) if callable(given) else given
+            for key, given in zip(self.fixed_keys, self.fixed_inputs, strict=True)
+        )
+        return replace(self, entries=entries, fixed_inputs=fixed)
+
+
+def _shape(entry: _Entry) -> jax.ShapeDtypeStruct:
+    return jax.ShapeDtypeStruct(entry.shape, dtypes.canonicalize_dtype(float))
 
 
 def variables(
@@ -111,30 +143,41 @@ def variables(
 ) -> Variables:
     """Make the variables of a design problem; see `optimize`. Raises ValueError for names and bounds that make no
     sense."""
-    entries, fixed = [], {}
+    bounded: list[_Bounded] = []
+    fixed: dict[Any, Any] = {}
     for key, bounds in lengths.items():
         length = find_length(mechanism.linkage, key)
         now = length_now(mechanism, key)
         least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
-        entry = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
-        if np.any(entry.lower < least) and not any(f.kind == "plane" for f in length.body):
-            raise ValueError(f"length {key!r}: the lower bound {float(entry.lower)} is negative, and a length is not")
-        entries.append(entry)
+        found = _entry("lengths", key, _free(f"length {key!r}", bounds, now))
+        if np.any(found.lower < least) and not any(f.kind == "plane" for f in length.body):
+            raise ValueError(f"length {key!r}: the lower bound {float(found.lower)} is negative, and a length is not")
+        bounded.append(found)
     for key, bounds in points.items():
         now = _point_now(mechanism, key)
-        entries.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
+        bounded.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
     for key, given in drive.items():
         if isinstance(given, Free):
-            entries.append(_entry("inputs", key, given, f"drive {key!r}"))
+            bounded.append(_entry("inputs", key, given, f"drive {key!r}"))
         else:
-            fixed[key] = given
+            fixed[key] = given if callable(given) else _as_array(given)
     for key, given in extras.items():
         if not isinstance(given, Free):
             raise ValueError(f"extra {key!r}: write jk.design.Free(start, lower, upper), got {given!r}")
-        entries.append(_entry("extras", key, given, f"extra {key!r}"))
-    if not entries:
+        bounded.append(_entry("extras", key, given, f"extra {key!r}"))
+    if not bounded:
         raise ValueError("nothing to choose: give lengths, points, extras, or a drive with jk.design.Free")
-    return Variables(_tied(mechanism, entries, ties), fixed)
+    entries, *numbers = zip(*bounded, strict=True)
+    start, lower, upper = (np.concatenate([np.ravel(each) for each in group]) for group in numbers)
+    return Variables(_tied(mechanism, entries, ties), start, lower, upper, tuple(fixed), tuple(fixed.values()))
+
+
+def _as_array(given: Any) -> Any:
+    """Convert what are numbers to an array; what is none is refused by the sweep of the design given."""
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError):
+        return given
 
 
 def _point_now(mechanism: Mechanism, key: Any) -> np.ndarray:
@@ -157,7 +200,7 @@ def _free(what: str, bounds: Any, now: Any) -> Free:
     return Free(now, lower, upper)
 
 
-def _entry(group: str, key: Any, free: Free, what: str = "") -> _Entry:
+def _entry(group: str, key: Any, free: Free, what: str = "") -> _Bounded:
     what = what or f"{group[:-1]} {key!r}"
     try:
         start, lower, upper = (np.asarray(value, float) for value in (free.start, free.lower, free.upper))
@@ -174,14 +217,14 @@ def _entry(group: str, key: Any, free: Free, what: str = "") -> _Entry:
             f"{what}: the bounds exclude the start, {_said(start, lower, upper)}; widen them, or give another start as "
             "jk.design.Free(start, lower, upper)"
         )
-    return _Entry(group, key, start.shape, np.clip(start, lower, upper), lower, upper)
+    return _Bounded(_Entry(group, key, start.shape), np.clip(start, lower, upper), lower, upper)
 
 
 def _said(start, lower, upper) -> str:
     return f"start {np.round(start, 6).tolist()}, bounds {np.round(lower, 6).tolist()} to {np.round(upper, 6).tolist()}"
 
 
-def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) -> tuple[_Entry, ...]:
+def _tied(mechanism: Mechanism, entries: Sequence[_Entry], ties: Mapping[Any, Any]) -> tuple[_Entry, ...]:
     followers: dict[Any, list[tuple[Any, Callable | None]]] = {}
     known = [entry.key for entry in entries]
     for key, source in ties.items():
@@ -199,8 +242,7 @@ def _tied(mechanism: Mechanism, entries: list[_Entry], ties: Mapping[Any, Any]) 
             _point_now(mechanism, key)
         followers.setdefault(source, []).append((key, change))
     return tuple(
-        _Entry(**{**entry.__dict__, "ties": tuple(followers.get(entry.key, ()))}) if entry.key in followers else entry
-        for entry in entries
+        replace(entry, ties=tuple(followers[entry.key])) if entry.key in followers else entry for entry in entries
     )
 
 

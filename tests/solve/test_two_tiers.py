@@ -26,7 +26,7 @@ def test_compiled_anew_once_after_so_many_operations(monkeypatch, compiled):
     def doubled(x):
         return 2.0 * x
 
-    call = two_tiers.in_two_tiers(doubled)
+    call = two_tiers.TwoTiers(doubled).search()
     tiers = []
     for number in range(8):
         x = np.arange(200.0) + number
@@ -38,7 +38,7 @@ def test_compiled_anew_once_after_so_many_operations(monkeypatch, compiled):
 
 
 def test_one_compilation_where_little_is_computed(compiled):
-    call = two_tiers.in_two_tiers(lambda x: jnp.sum(jnp.sin(x)))
+    call = two_tiers.TwoTiers(lambda x: jnp.sum(jnp.sin(x))).search()
     x = np.linspace(0.0, 1.0, 50)
     for _ in range(20):
         # a sum of fifty numbers, in whatever order

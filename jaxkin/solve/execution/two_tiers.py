@@ -22,24 +22,35 @@ QUICK_OPERATIONS = 1e10
 programs. By operations and not by seconds, since both programs round differently, and a search is to be repeatable."""
 
 
-def in_two_tiers(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Compile a function of arrays that is called often, with arguments of the same shapes each time."""
-    lowered: Any = None
-    program: Any = None
-    cost = done = 0.0
+class TwoTiers:
+    """A function of arrays that is called often, with arguments of the same shapes each time."""
 
-    def call(*given: Any) -> Any:
-        nonlocal lowered, program, cost, done
-        if lowered is None:
-            lowered = jax.jit(function).lower(*given)
-            program = _compiled(lowered, quick=True)
-            cost = float((program.cost_analysis() or {}).get("flops", 0.0))
-        elif done <= QUICK_OPERATIONS < done + cost:
-            program = _compiled(lowered, quick=False)
-        done += cost
-        return program(*given)
+    def __init__(self, function: Callable[..., Any]):
+        self._function = function
+        self._lowered: Any = None
+        self._quick: Any = None
+        self._cost = 0.0
+        self._fast: Any = None
 
-    return call
+    def search(self) -> Callable[..., Any]:
+        """Return the function for a search, which counts its operations by itself: it is the same the second time,
+        though nothing is compiled anew then."""
+        done = 0.0
+
+        def call(*given: Any) -> Any:
+            nonlocal done
+            if self._quick is None:
+                self._lowered = jax.jit(self._function).lower(*given)
+                self._quick = _compiled(self._lowered, quick=True)
+                self._cost = float((self._quick.cost_analysis() or {}).get("flops", 0.0))
+            done += self._cost
+            if done <= QUICK_OPERATIONS:
+                return self._quick(*given)
+            if self._fast is None:
+                self._fast = _compiled(self._lowered, quick=False)
+            return self._fast(*given)
+
+        return call
 
 
 def _compiled(lowered: Any, quick: bool) -> Any:
