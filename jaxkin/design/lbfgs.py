@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin.design.augmented_lagrangian import Verdict
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.compiler import jit_options
@@ -27,8 +28,8 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     lower, width = unit_box(problem.variables.lower, problem.variables.upper)
     bounds = (jnp.zeros_like(lower), jnp.where(width > 0, 1.0, 0.0))
 
-    def value_and_grad(unit, weight):
-        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
+    def value_and_grad(unit, penalty):
+        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, penalty))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
     package = jaxopt()
@@ -42,17 +43,17 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     ).run
 
     @partial(jax.jit, **jit_options())
-    def first(units, weight):
-        return units, jax.vmap(lambda unit: solver.init_state(unit, bounds, weight))(units)
+    def first(units, penalty):
+        return units, jax.vmap(lambda unit, penalty: solver.init_state(unit, bounds, penalty))(units, penalty)
 
     @partial(jax.jit, **jit_options())
-    def further(state, weight):
-        def one(unit, state):
-            step = solver.update(unit, state, bounds, weight)
+    def further(state, penalty):
+        def one(unit, state, penalty):
+            step = solver.update(unit, state, bounds, penalty)
             return step.params, step.state
 
         def iterate(carry, _):
-            new = jax.vmap(one)(*carry)
+            new = jax.vmap(one)(carry[0], carry[1], penalty)
             # a line search that fails leaves the point where it was
             better = new[1].value <= carry[1].value
 
@@ -65,14 +66,14 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
         state, losses = jax.lax.scan(iterate, state, None, length=CHUNK)
         return state, losses.T
 
-    def begin(vectors, weight):
+    def begin(vectors, penalty):
         span = np.where(width > 0, width, 1.0)
         units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
-        return in_groups(lambda group: first(group, weight), together, units)
+        return in_groups(lambda group: first(*group), together, (units, penalty))
 
-    def advance(state, weight, active):
+    def advance(state, penalty, active):
         chosen = np.flatnonzero(active)
-        found, values = in_groups(lambda group: further(group, weight), together, state, chosen)
+        found, values = in_groups(lambda group: further(*group), together, (state, penalty), chosen)
         losses = np.full((CHUNK, len(active)), np.nan)
         losses[:, chosen] = values.T
 
@@ -85,9 +86,9 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
 
     judged = jax.jit(jax.vmap(problem.judge), **jit_options())
 
-    def judge(vectors):
+    def judge(vectors, shifts):
         found = in_groups(judged, together, np.asarray(vectors))
-        losses = found.rows[:, 0]
-        return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
+        losses = np.where(np.isfinite(found.rows[:, 0]), found.rows[:, 0], np.nan)
+        return Verdict(losses, found.gaps, np.maximum(shifts - found.margins, 0.0), shifts)
 
     return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)

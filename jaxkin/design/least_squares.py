@@ -10,6 +10,7 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Bool, Float
 
+from jaxkin.design.augmented_lagrangian import Penalty, Verdict
 from jaxkin.design.problem import HOPELESS, Problem
 from jaxkin.design.solvers import CHUNK, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import in_two_tiers
@@ -37,48 +38,49 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     """
     dtype = dtypes.canonicalize_dtype(float)
     lower, width = (np.asarray(each, dtype) for each in unit_box(problem.variables.lower, problem.variables.upper))
-    count = jax.eval_shape(problem.judge, lower).rows.shape[0]
+    rows, gaps = (each.shape[0] for each in jax.eval_shape(problem.judge, lower)[:2])
 
     @in_two_tiers
-    def program(units, weight):
-        def one(unit):
+    def program(units, penalty):
+        def one(unit, penalty):
             def along(direction):
-                return jax.jvp(lambda u: problem.residuals(lower + width * u, weight), (unit,), (direction,))
+                return jax.jvp(lambda u: problem.residuals(lower + width * u, penalty), (unit,), (direction,))
 
             residuals, jacobian = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
             residuals = jnp.clip(jnp.nan_to_num(residuals, nan=HOPELESS), -HOPELESS, HOPELESS)
             return residuals, jnp.nan_to_num(jacobian, nan=0.0, posinf=0.0, neginf=0.0)
 
-        return jax.vmap(one)(units)
+        return jax.vmap(one)(units, penalty)
 
-    def evaluated(units, weight):
-        return in_groups(lambda group: program(group, float(weight)), together, np.asarray(units, dtype))
+    def evaluated(units, penalty):
+        given = jax.tree.map(lambda leaf: np.asarray(leaf, dtype), (units, penalty))
+        return in_groups(lambda group: program(*group), together, given)
 
-    def begin(vectors, weight):
+    def begin(vectors, penalty):
         span = np.where(width > 0, width, 1.0)
         units = np.clip((np.asarray(vectors) - lower) / span, 0.0, 1.0)
-        residuals, jacobian = evaluated(units, weight)
+        residuals, jacobian = evaluated(units, penalty)
         damping = DAMPING * _largest(jacobian) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
 
-    def advance(state, weight, active):
+    def advance(state, penalty, active):
         losses = np.full((CHUNK, len(active)), np.nan)
         chosen = np.flatnonzero(active)
-        now = _State(*(each[chosen] for each in state))
+        now, of_now = jax.tree.map(lambda each: each[chosen], (state, penalty))
         for row in losses:
             units, foreseen = _proposed(now)
-            now = _judged(now, units, foreseen, *evaluated(units, weight))
+            now = _judged(now, units, foreseen, *evaluated(units, of_now))
             row[chosen] = _loss(now.residuals)
         whole = [each.copy() for each in state]
         for each, part in zip(whole, now, strict=True):
             each[chosen] = part
         return _State(*whole), losses
 
-    def judge(vectors):
-        residuals = begin(vectors, 1.0).residuals
-        rows, violations = residuals[:, :count], residuals[:, count:]
-        losses = np.where(np.any(np.abs(rows) >= HOPELESS, axis=1), np.nan, np.sum(rows**2, axis=1))
-        return losses, np.sqrt(np.sum(violations**2, axis=1))
+    def judge(vectors, shifts):
+        residuals = begin(vectors, Penalty(np.ones(len(vectors)), shifts)).residuals
+        found, gaps_found, charged = np.split(residuals, [rows, rows + gaps], axis=1)
+        losses = np.where(np.any(np.abs(found) >= HOPELESS, axis=1), np.nan, np.sum(found**2, axis=1))
+        return Verdict(losses, gaps_found, charged, shifts)
 
     return Solver(
         begin,

@@ -11,6 +11,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.design.augmented_lagrangian import Penalty
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.objectives import Objective
 from jaxkin.design.penalty import closure_gaps
@@ -33,18 +34,20 @@ class Judged(NamedTuple):
 
     rows: Float[Array, " rows"]
     """Residuals of a sum of squares; a single loss otherwise."""
-    violations: Float[Array, " violations"]
-    """Closure residuals of poses that do not close, misfits of parts, what constraints lack; zero where all is well."""
+    gaps: Float[Array, " gaps"]
+    """Closure residuals of poses that do not close, and misfits of parts; zero where all is well."""
+    margins: Float[Array, " constraints"]
+    """Values of constraints, negative where one is violated."""
 
     @property
     def finite(self) -> Array:
         """Whether every number is finite."""
-        return jnp.all(jnp.isfinite(self.rows)) & jnp.all(jnp.isfinite(self.violations))
+        return jnp.all(jnp.isfinite(jnp.concatenate(self)))
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What is minimised: `sum(rows^2)` or the loss, and `weight sum(violations^2)`."""
+    """What is minimised: `sum(rows^2)` or the loss, and the penalty of `jaxkin.design.augmented_lagrangian`."""
 
     loss: Callable[..., Any]
     squares: bool
@@ -65,22 +68,25 @@ class Problem:
     def judge(self, vector) -> Judged:
         """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
-        violations = self.violations(motion, extras, misfits)
-        return Judged(self.of_motion(motion, extras), jnp.concatenate([rows for _, rows in violations]))
+        gaps = [rows for _, rows in self.gaps(motion, misfits)]
+        margins = [rows for _, rows in self.margins(motion, extras)]
+        return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), jnp.concatenate([jnp.zeros(0), *margins]))
 
-    def violations(
-        self, motion: Motion, extras: dict[str, Any], misfits: dict[str, Any]
-    ) -> list[tuple[str, Float[Array, " violations"]]]:
-        """Compute what a design violates, each with the name of what it violates; zero where all is well."""
+    def gaps(self, motion: Motion, misfits: dict[str, Any]) -> list[tuple[str, Float[Array, " gaps"]]]:
+        """Compute by how much loops do not close and lengths do not fit, each with its name; zero where all is well."""
         found = [("closure", closure_gaps(motion))]
         for part, misfit in misfits.items():
             found.append((f"fit of the lengths of {part}", jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,))))
+        return found
+
+    def margins(self, motion: Motion, extras: dict[str, Any]) -> list[tuple[str, Float[Array, " constraints"]]]:
+        """Compute the values of the constraints, each with its name."""
+        found = []
         for number, each in enumerate(self.constraints):
             # the constraints of jaxkin.design are functions `margins` within those that made them
             whole = getattr(each, "__qualname__", type(each).__name__)
             name = whole.removesuffix(".<locals>.margins").rsplit(".", 1)[-1]
-            lack = jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0))
-            found.append((f"constraint {number} ({name})", lack))
+            found.append((f"constraint {number} ({name})", jnp.ravel(_called(each, motion, extras))))
         return found
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
@@ -91,16 +97,18 @@ class Problem:
             self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
         )
 
-    def residuals(self, vector, weight) -> Float[Array, " rows"]:
-        """Compute all that a sum of squares adds up."""
+    def residuals(self, vector, penalty: Penalty) -> Float[Array, " rows"]:
+        """Compute all that a sum of squares adds up: rows, gaps, and constraints."""
         judged = self.judge(vector)
-        return jnp.concatenate([judged.rows, jnp.sqrt(weight) * judged.violations])
+        charged = jnp.maximum(penalty.shifts - judged.margins, 0.0)
+        return jnp.concatenate([judged.rows, jnp.sqrt(penalty.weight) * jnp.concatenate([judged.gaps, charged])])
 
-    def total(self, vector, weight) -> Float[Array, ""]:
+    def total(self, vector, penalty: Penalty) -> Float[Array, ""]:
         """Compute the loss with its penalty."""
         judged = self.judge(vector)
         value = jnp.sum(judged.rows**2) if self.squares else judged.rows[0]
-        return value + weight * jnp.sum(judged.violations**2)
+        charged = jnp.maximum(penalty.shifts - judged.margins, 0.0)
+        return value + penalty.weight * (jnp.sum(judged.gaps**2) + jnp.sum(charged**2))
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
         return _called(self.loss, motion, extras)
