@@ -23,8 +23,10 @@ import scipy.optimize
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 from peer_engines import Missing, pylinkage_linkage
 
+from jaxkin.design.augmented_lagrangian import MET, Penalty
 from jaxkin.design.least_squares import least_squares
-from jaxkin.design.optimize import MET, POOL, _Bar, _best_of, _search
+from jaxkin.design.optimisers import LevenbergMarquardt
+from jaxkin.design.optimize import POOL, _Bar, _best_of, _search
 from jaxkin.design.problem import design_problem
 from jaxkin.design.variables import spread, variables
 from jaxkin.examples.paths import PATHS
@@ -203,15 +205,19 @@ def race() -> None:
         together, alone = least_squares(problem), least_squares(problem, 1)
         target = PATHS[name].published * (1 + 1e-5)
         pool = spread(chosen, RACE * POOL, 0)
-        vectors, weight = _best_of(pool, *together.judge(pool), RACE)
-        alone.begin(vectors[:1], weight)  # compiled
+        constraints = problem.constraint_count(*problem.motion(chosen.start)[:2])
+        vectors, weight = _best_of(pool, together.judge(pool, np.zeros((len(pool), constraints))), RACE)
+        alone.begin(vectors[:1], Penalty.plain(weight, 1, constraints))  # compiled
+        stop = LevenbergMarquardt(target=target)
 
-        def downhill(vectors, solver, weight=weight, target=target):
+        def downhill(vectors, solver, weight=weight, stop=stop, constraints=constraints):
             history: list[np.ndarray] = []
-            found = _search(solver, vectors, weight, 300, 1e-9, target, history, _Bar(300, False))[0]
-            losses, violations = solver.judge(found)
+            penalty = Penalty.plain(weight, len(vectors), constraints)
+            active = np.ones(len(vectors), bool)
+            found = _search(solver, vectors, penalty, active, stop, history, _Bar(stop.iterations, False))[0]
+            verdict = solver.judge(found, penalty.shifts)
             judged = int(np.isfinite(np.concatenate(history)).sum()) + len(vectors)
-            return bool(np.any((losses <= target) & (violations <= MET))), judged
+            return bool(np.any((verdict.losses <= stop.target) & (verdict.violations <= MET))), judged
 
         def one_by_one(way, vectors=vectors):
             judged = 0
@@ -249,7 +255,11 @@ def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
     """Whether SciPy's bounded least squares reaches the target from a vector, and the designs that it asked for."""
     width = chosen.upper - chosen.lower
     if id(problem) not in _compiled:
-        _compiled[id(problem)] = jax.jit(problem.residuals), jax.jit(problem.judge)
+        penalty = Penalty(weight, np.zeros(jax.eval_shape(problem.judge, chosen.start).margins.size))
+        _compiled[id(problem)] = (
+            jax.jit(lambda vector: jnp.concatenate(problem.weighted(vector, penalty))),
+            jax.jit(problem.judge),
+        )
     residuals, judge = _compiled[id(problem)]
     asked = 0
 
@@ -260,10 +270,11 @@ def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
         nonlocal asked
         asked += 1
         design = chosen.lower + width * unit
-        found = np.asarray(residuals(design, weight))
+        found = np.asarray(residuals(design))
         if np.sum(found**2) <= target * (1 + 1e-9):
             judged = judge(design)
-            if np.sum(judged.rows**2) <= target and np.linalg.norm(judged.violations) <= MET:
+            violations = np.concatenate([judged.gaps, np.minimum(judged.margins, 0.0)])
+            if np.sum(judged.rows**2) <= target and np.linalg.norm(violations) <= MET:
                 raise Reached
         return np.clip(np.nan_to_num(found, nan=1e6), -1e6, 1e6)
 

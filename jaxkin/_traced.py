@@ -17,7 +17,11 @@ def traced(*trees: object) -> bool:
 def inside_trace() -> bool:
     """Tell whether JAX traces the function that calls, though all it is given may be numbers: what is computed there
     from an array is traced."""
-    return isinstance(jax.device_put(_known_array()), Tracer)
+    return isinstance(_unchanged(_known_array()), Tracer)
+
+
+_unchanged = jax.jit(lambda array: array)
+"""A compiled program, which JAX calls in less than half the time of any other operation."""
 
 
 @cache

@@ -13,6 +13,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin.design.augmented_lagrangian import Verdict
 from jaxkin.design.problem import HOPELESS, Judged, Problem, Structure, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.compiler import jit_options
@@ -38,14 +39,14 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
     structure, numbers = taken_apart(problem)
     first, further, judged = _programs(structure)
 
-    def begin(vectors, weight):
+    def begin(vectors, penalty):
         span = np.where(width > 0, width, 1.0)
         units = np.where(width > 0, (np.asarray(vectors) - lower) / span, 0.0)
-        return in_groups(lambda group: first(numbers, group, weight), together, units)
+        return in_groups(lambda group: first(numbers, *group), together, (units, penalty))
 
-    def advance(state, weight, active):
+    def advance(state, penalty, active):
         chosen = np.flatnonzero(active)
-        found, values = in_groups(lambda group: further(numbers, group, weight), together, state, chosen)
+        found, values = in_groups(lambda group: further(numbers, *group), together, (state, penalty), chosen)
         losses = np.full((CHUNK, len(active)), np.nan)
         losses[:, chosen] = values.T
 
@@ -56,10 +57,10 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
 
         return jax.tree.map(put, state, found), losses
 
-    def judge(vectors):
+    def judge(vectors, shifts):
         found = in_groups(lambda group: judged(numbers, group), together, np.asarray(vectors))
-        losses = found.rows[:, 0]
-        return np.where(np.isfinite(losses), losses, np.nan), np.sqrt(np.sum(found.violations**2, axis=1))
+        losses = np.where(np.isfinite(found.rows[:, 0]), found.rows[:, 0], np.nan)
+        return Verdict(losses, found.gaps, np.maximum(shifts - found.margins, 0.0), shifts)
 
     return Solver(begin, advance, lambda state: np.asarray(lower + width * state[0]), lambda s: s[1].grad, judge)
 
@@ -68,10 +69,10 @@ def bounded(problem: Problem, together: int = TOGETHER) -> Solver:
 def _programs(structure: Structure) -> _Programs:
     """Make the programs of problems of this structure."""
 
-    def value_and_grad(unit, weight, numbers):
+    def value_and_grad(unit, penalty, numbers):
         problem: Problem = structure.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
-        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, weight))(unit)
+        value, slope = jax.value_and_grad(lambda unit: problem.total(lower + width * unit, penalty))(unit)
         return jnp.nan_to_num(value, nan=HOPELESS, posinf=HOPELESS), jnp.nan_to_num(slope, posinf=0.0, neginf=0.0)
 
     def bounds(numbers):
@@ -88,19 +89,19 @@ def _programs(structure: Structure) -> _Programs:
         value_and_grad, value_and_grad=True, condition="wolfe", c2=1e30, decrease_factor=0.4, maxiter=HALVINGS
     ).run
 
-    def first(numbers, units, weight):
+    def first(numbers, units, penalties):
         box = bounds(numbers)
-        return units, jax.vmap(lambda unit: solver.init_state(unit, box, weight, numbers))(units)
+        return units, jax.vmap(lambda unit, penalty: solver.init_state(unit, box, penalty, numbers))(units, penalties)
 
-    def further(numbers, state, weight):
+    def further(numbers, state, penalties):
         box = bounds(numbers)
 
-        def one(unit, state):
-            step = solver.update(unit, state, box, weight, numbers)
+        def one(unit, state, penalty):
+            step = solver.update(unit, state, box, penalty, numbers)
             return step.params, step.state
 
         def iterate(carry, _):
-            new = jax.vmap(one)(*carry)
+            new = jax.vmap(one)(carry[0], carry[1], penalties)
             # a line search that fails leaves the point where it was
             better = new[1].value <= carry[1].value
 

@@ -11,7 +11,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Bool, Float
 
-from jaxkin.design.problem import HOPELESS, Judged, Problem, Structure, taken_apart
+from jaxkin.design.augmented_lagrangian import Penalty, Verdict
+from jaxkin.design.problem import HOPELESS, Problem, Structure, Weighted, taken_apart
 from jaxkin.design.solvers import CHUNK, KEPT, TOGETHER, Solver, in_groups, unit_box
 from jaxkin.solve.execution.two_tiers import TwoTiers
 
@@ -41,39 +42,40 @@ def least_squares(problem: Problem, together: int = TOGETHER) -> Solver:
     structure, numbers = taken_apart(problem)
     program = _program(structure, together).search()
 
-    def judged(units, weight) -> tuple[Judged, np.ndarray]:
-        return in_groups(lambda group: program(numbers, group, float(weight)), together, np.asarray(units, dtype))
+    def found(units, penalty) -> tuple[Weighted, np.ndarray]:
+        given = jax.tree.map(lambda leaf: np.asarray(leaf, dtype), (units, penalty))
+        return in_groups(lambda group: program(numbers, *group), together, given)
 
-    def evaluated(units, weight):
-        found, jacobian = judged(units, weight)
-        return np.concatenate(found, axis=1), jacobian
+    def evaluated(units, penalty):
+        weighted, jacobian = found(units, penalty)
+        return np.concatenate(weighted, axis=1), jacobian
 
     def units_of(vectors):
         return np.clip((np.asarray(vectors) - lower) / np.where(width > 0, width, 1.0), 0.0, 1.0)
 
-    def begin(vectors, weight):
+    def begin(vectors, penalty):
         units = units_of(vectors)
-        residuals, jacobian = evaluated(units, weight)
+        residuals, jacobian = evaluated(units, penalty)
         damping = DAMPING * _largest(jacobian) + 1e-300
         return _State(units, residuals, jacobian, damping, np.full(len(units), 2.0))
 
-    def advance(state, weight, active):
+    def advance(state, penalty, active):
         losses = np.full((CHUNK, len(active)), np.nan)
         chosen = np.flatnonzero(active)
-        now = _State(*(each[chosen] for each in state))
+        now, of_now = jax.tree.map(lambda each: each[chosen], (state, penalty))
         for row in losses:
             units, foreseen = _proposed(now)
-            now = _judged(now, units, foreseen, *evaluated(units, weight))
+            now = _judged(now, units, foreseen, *evaluated(units, of_now))
             row[chosen] = _loss(now.residuals)
         whole = [each.copy() for each in state]
         for each, part in zip(whole, now, strict=True):
             each[chosen] = part
         return _State(*whole), losses
 
-    def judge(vectors):
-        rows, violations = judged(units_of(vectors), 1.0)[0]
+    def judge(vectors, shifts):
+        rows, gaps, charged = map(np.asarray, found(units_of(vectors), Penalty(np.ones(len(vectors)), shifts))[0])
         losses = np.where(np.any(np.abs(rows) >= HOPELESS, axis=1), np.nan, np.sum(rows**2, axis=1))
-        return losses, np.sqrt(np.sum(violations**2, axis=1))
+        return Verdict(losses, gaps, charged, shifts)
 
     return Solver(
         begin,
@@ -89,19 +91,19 @@ def _program(structure: Structure, together: int) -> TwoTiers:
     """Make the program of a problem of this structure: residuals of designs, violations weighted, and the Jacobian."""
     del together  # a program is compiled for its number of designs
 
-    def program(numbers, units, weight):
+    def program(numbers, units, penalties):
         problem: Problem = structure.problem.unflatten(numbers)
         lower, width = unit_box(problem.variables)
 
-        def one(unit):
+        def one(unit, penalty):
             def along(direction):
-                return jax.jvp(lambda u: problem.weighted(lower + width * u, weight), (unit,), (direction,))
+                return jax.jvp(lambda u: problem.weighted(lower + width * u, penalty), (unit,), (direction,))
 
             found, slopes = jax.vmap(along, out_axes=(None, -1))(jnp.eye(unit.size, dtype=unit.dtype))
             found = jax.tree.map(lambda rows: jnp.clip(jnp.nan_to_num(rows, nan=HOPELESS), -HOPELESS, HOPELESS), found)
             return found, jnp.nan_to_num(jnp.concatenate(slopes), nan=0.0, posinf=0.0, neginf=0.0)
 
-        return jax.vmap(one)(units)
+        return jax.vmap(one)(units, penalties)
 
     return TwoTiers(program)
 

@@ -12,6 +12,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
@@ -31,12 +32,10 @@ POOL = 8
 """So many designs are drawn for each start, and the best of them begin."""
 PATIENCE = 30
 """Iterations before a start may be given up for its pace."""
-MET = 1e-6
-"""Root of the sum of squares of all violations (they are without unit) below which a design counts as feasible."""
 NO_INFLUENCE = 1e-13
 """Slopes so much smaller than the largest one, for every start, are rounding."""
-ROUNDS, STIFFER = 3, 100.0
-"""If the best design violates something, the penalty is made so many times stiffer and the search goes on."""
+ROUNDS = 12
+"""Searches at most, each with the multipliers at which the one before ended."""
 
 
 def optimize(
@@ -75,9 +74,11 @@ def optimize(
         loss + penalty * (sum over poses of residual^2 + sum over parts of misfit^2 + sum over constraints of lack^2)
 
     where `residual` is the closure residual (Eq. 12, lengths over the size of the loop) of a pose that cannot close,
-    `misfit` that of lengths that cannot hold together, and `lack` by how much a constraint is negative. Designs that
-    cannot move everywhere cost something and can be left again by their derivatives. The penalty is made stiffer
-    while the best design violates anything by more than 1e-6.
+    `misfit` that of lengths that cannot hold together, and `lack` by how much a constraint is below its shift. Designs
+    that cannot move everywhere cost something and can be left again by their derivatives. Shifts are zero in the first
+    search, and are then moved by an augmented Lagrangian (`jaxkin.design.augmented_lagrangian`), until the best design
+    violates nothing by more than 1e-6, root of the sum of squares: so is an optimum on the bound of a constraint found
+    on its bound. What cannot be met is told, with its size, and the design is not `feasible`.
 
     A start retires when it improves too little, or at its pace will not reach the best one. The search ends when all
     have, when the best feasible loss is at or below the target, or after all iterations. The verdict, `Optimum.moves`,
@@ -105,28 +106,38 @@ def optimize(
     first = problem.motion(chosen.start)[:2]
     downhill = (least_squares if squares else bounded)(problem, min(TOGETHER, starts))
     pool = spread(chosen, starts * POOL if starts > 1 else 1, seed)
-    losses, violations = downhill.judge(pool)
-    if not np.isfinite(losses[0]):
+    constraint_count = problem.constraint_count(*first)
+    verdict = downhill.judge(pool, np.zeros((len(pool), constraint_count)))
+    if not np.isfinite(verdict.losses[0]):
         _check_finite(problem, *first)
-    vectors, weight = _best_of(pool, losses, violations, starts)
-    weight = solver.penalty if solver.penalty is not None else weight
-    _warn_of_idle(downhill, vectors, weight, chosen)
+    vectors, weight = _best_of(pool, verdict, starts)
+    penalty = Penalty.plain(solver.penalty if solver.penalty is not None else weight, starts, constraint_count)
+    _warn_of_idle(downhill, vectors, penalty, chosen)
 
     history: list[np.ndarray] = []
     bar = _Bar(solver.iterations, progress)
-    reason = ""
+    reason, active, unsettled = "", np.ones(starts, bool), np.full(starts, np.inf)
+    ended = vectors
+    losses, violations = np.full((2, starts), np.inf)
     for _ in range(ROUNDS):
-        vectors, reason = _search(downhill, vectors, weight, solver, history, bar)
-        losses, violations = downhill.judge(vectors)
+        vectors, reason = _search(downhill, vectors, penalty, active, solver, history, bar)
+        verdict = downhill.judge(vectors, penalty.shifts)
+        better = _better(verdict.losses, verdict.violations, losses, violations)
+        ended = np.where(better[:, None], vectors, ended)
+        losses, violations = np.where(better, (verdict.losses, verdict.violations), (losses, violations))
         best = _rank(losses, violations)
-        if violations[best] <= MET:
+        met = solver.target is not None and violations[best] <= MET and losses[best] <= solver.target
+        active = worth_more(penalty, verdict)
+        if met or not active.any():
             break
-        weight *= STIFFER
+        penalty, unsettled = renewed(penalty, verdict, unsettled), verdict.unsettled
     bar.close()
-    vector = vectors[best]
+    vector = ended[best]
     motion, found, misfits = problem.motion(vector)
     if violations[best] > MET:
-        reason += f"; the best design violates {_violated(problem.violations(motion, found, misfits))}"
+        reason += (
+            f"; the best design violates {_violated(problem.gaps(motion, misfits), problem.margins(motion, found))}"
+        )
     values = chosen.values(vector)
     return Optimum(
         mechanism=motion.mechanism,
@@ -138,8 +149,8 @@ def optimize(
         values=dict(zip(chosen.names, vector.tolist(), strict=True)),
         extras={name: np.asarray(value) for name, value in found.items()},
         drive={name: np.asarray(value) for name, value in values.inputs.items()},
-        losses=np.asarray(losses),
-        violations=np.asarray(violations),
+        losses=losses,
+        violations=violations,
         moves=judged_range(motion),
         motion=motion,
         initial=first,
@@ -157,8 +168,10 @@ def _check_finite(problem: Problem, motion: Motion, extras: dict[str, Any]) -> N
         )
 
 
-def _best_of(pool: np.ndarray, losses: np.ndarray, violations: np.ndarray, starts: int) -> tuple[np.ndarray, float]:
-    """Find the given design and the best of the pool, and the penalty: a hundred times the median of their losses."""
+def _best_of(pool: np.ndarray, verdict: Verdict, starts: int) -> tuple[np.ndarray, float]:
+    """Find the given design and the best of the pool, and the weight of violations: a hundred times the median of
+    their losses."""
+    losses, violations = verdict.losses, verdict.violations
     usual = float(np.median(losses[np.isfinite(losses)]))
     weight = 100.0 * usual if usual > 0 else 1.0
     total = np.where(np.isfinite(losses), losses, np.inf) + weight * violations**2
@@ -166,28 +179,27 @@ def _best_of(pool: np.ndarray, losses: np.ndarray, violations: np.ndarray, start
     return pool[np.array(order)], weight
 
 
-def _search(downhill: Solver, vectors, weight: float, stop: Optimiser, history, bar):
-    """Designs and why the search ended. A start that is done, or that at its pace will not reach the best one in the
-    iterations left, retires and costs nothing more."""
-    state = downhill.begin(vectors, weight)
+def _search(downhill: Solver, vectors, penalty: Penalty, active, stop: Optimiser, history, bar):
+    """Improve the active starts; give all designs, and why the search ended. A start that is done, or that at its pace
+    will not reach the best one in the iterations left, retires and costs nothing more."""
+    state = downhill.begin(vectors, penalty)
     iterations, tolerance, target = stop.iterations, stop.tolerance, stop.target
-    active = np.ones(len(vectors), bool)
     last = np.full(len(vectors), np.finfo(float).max)
     for done in range(CHUNK, iterations + CHUNK, CHUNK):
-        state, losses = downhill.advance(state, weight, active)
+        state, losses = downhill.advance(state, penalty, active)
         history.append(losses)
         now = np.where(active, losses[-1], last)
         least = float(np.min(now))
         bar.show(done, least)
         if target is not None and least <= target:
-            found, violations = downhill.judge(downhill.vectors(state))
-            if np.any((found <= target) & (violations <= MET)):
+            found = downhill.judge(downhill.vectors(state), penalty.shifts)
+            if np.any((found.losses <= target) & (found.violations <= MET)):
                 return downhill.vectors(state), f"the target {target:g} was reached after {done} iterations"
         settled = (now >= last - tolerance * np.abs(last)) | (now <= 1e-30)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             expected = now * np.minimum(now / last, 1.0) ** ((iterations - done) / CHUNK)
         hopeless = (expected > least) & (done >= PATIENCE) & (now > least * (1 + 1e-6))
-        active &= ~(settled | hopeless)
+        active = active & ~(settled | hopeless)
         last = now
         if not active.any():
             return downhill.vectors(state), (
@@ -198,12 +210,19 @@ def _search(downhill: Solver, vectors, weight: float, stop: Optimiser, history, 
     return downhill.vectors(state), f"all {iterations} iterations were used; {improving} still improving"
 
 
-def _violated(violations: list[tuple[str, Any]]) -> str:
+def _violated(gaps: list[tuple[str, Any]], margins: list[tuple[str, Any]]) -> str:
     """Say what a design violates, the most first, and what may be done."""
-    most = {name: float(np.max(rows, initial=0.0)) for name, rows in violations}
+    most = {name: float(np.max(rows, initial=0.0)) for name, rows in gaps}
+    most |= {name: float(np.max(-np.asarray(rows), initial=0.0)) for name, rows in margins}
     order = sorted((name for name in most if most[name] > 0), key=lambda name: -most[name])
     said = ", ".join(f"{name} by up to {most[name]:.3g}" for name in order)
     return f"{said}: give more starts, wider bounds, or a larger penalty= of the solver"
+
+
+def _better(losses, violations, losses_before, violations_before):
+    """Find the starts whose design is feasible at less loss than before, or else violates less."""
+    feasible, feasible_before = violations <= MET, violations_before <= MET
+    return np.where(feasible, ~feasible_before | (losses < losses_before), violations < violations_before)
 
 
 def _rank(losses, violations) -> int:
@@ -213,8 +232,8 @@ def _rank(losses, violations) -> int:
     return int(np.argmin(np.where(feasible, losses, np.inf)) if feasible.any() else np.argmin(violations))
 
 
-def _warn_of_idle(downhill: Solver, vectors, weight: float, chosen: Variables) -> None:
-    slopes = np.asarray(downhill.slopes(downhill.begin(vectors, weight)))
+def _warn_of_idle(downhill: Solver, vectors, penalty: Penalty, chosen: Variables) -> None:
+    slopes = np.asarray(downhill.slopes(downhill.begin(vectors, penalty)))
     influence = np.max(np.abs(slopes), axis=0)
     # where terms cancel, as the mean does in a relative error, rounding is left of what is none
     none = (influence <= NO_INFLUENCE * np.max(influence)) & (chosen.upper > chosen.lower)

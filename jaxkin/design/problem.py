@@ -16,6 +16,7 @@ import jax.numpy as jnp
 from jax import dtypes
 from jaxtyping import Array, Float
 
+from jaxkin.design.augmented_lagrangian import Penalty
 from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name
 from jaxkin.design.objectives import Objective
 from jaxkin.design.own_functions import own_function
@@ -37,18 +38,31 @@ class Judged(NamedTuple):
 
     rows: Float[Array, " rows"]
     """Residuals of a sum of squares; a single loss otherwise."""
-    violations: Float[Array, " violations"]
-    """Closure residuals of poses that do not close, misfits of parts, what constraints lack; zero where all is well."""
+    gaps: Float[Array, " gaps"]
+    """Closure residuals of poses that do not close, and misfits of parts; zero where all is well."""
+    margins: Float[Array, " constraints"]
+    """Values of constraints, negative where one is violated."""
 
     @property
     def finite(self) -> Array:
         """Whether every number is finite."""
-        return jnp.all(jnp.isfinite(self.rows)) & jnp.all(jnp.isfinite(self.violations))
+        return jnp.all(jnp.isfinite(jnp.concatenate(self)))
+
+
+class Weighted(NamedTuple):
+    """What a sum of squares adds up, for a design and a penalty."""
+
+    rows: Float[Array, " rows"]
+    """Residuals, as in `Judged`."""
+    gaps: Float[Array, " gaps"]
+    """Gaps times the root of the weight."""
+    charged: Float[Array, " constraints"]
+    """By how much constraints are below their shifts, times the root of the weight."""
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What is minimised: `sum(rows^2)` or the loss, and `weight sum(violations^2)`."""
+    """What is minimised: `sum(rows^2)` or the loss, and the penalty of `jaxkin.design.augmented_lagrangian`."""
 
     loss: Callable[..., Any]
     squares: bool
@@ -69,19 +83,22 @@ class Problem:
     def judge(self, vector) -> Judged:
         """Compute residuals and violations of a design, differentiable."""
         motion, extras, misfits = self.motion(vector)
-        violations = self.violations(motion, extras, misfits)
-        return Judged(self.of_motion(motion, extras), jnp.concatenate([rows for _, rows in violations]))
+        gaps = [rows for _, rows in self.gaps(motion, misfits)]
+        margins = [rows for _, rows in self.margins(motion, extras)]
+        return Judged(self.of_motion(motion, extras), jnp.concatenate(gaps), jnp.concatenate([jnp.zeros(0), *margins]))
 
-    def violations(
-        self, motion: Motion, extras: dict[str, Any], misfits: dict[str, Any]
-    ) -> list[tuple[str, Float[Array, " violations"]]]:
-        """Compute what a design violates, each with the name of what it violates; zero where all is well."""
+    def gaps(self, motion: Motion, misfits: dict[str, Any]) -> list[tuple[str, Float[Array, " gaps"]]]:
+        """Compute by how much loops do not close and lengths do not fit, each with its name; zero where all is well."""
         found = [("closure", closure_gaps(motion))]
         for part, misfit in misfits.items():
             found.append((f"fit of the lengths of {part}", jnp.reshape(jnp.where(misfit > 1e-12, misfit, 0.0), (1,))))
+        return found
+
+    def margins(self, motion: Motion, extras: dict[str, Any]) -> list[tuple[str, Float[Array, " constraints"]]]:
+        """Compute the values of the constraints, each with its name."""
+        found = []
         for number, each in enumerate(self.constraints):
-            lack = jnp.ravel(jnp.maximum(-_called(each, motion, extras), 0.0))
-            found.append((f"constraint {number} ({constraint_name(each)})", lack))
+            found.append((f"constraint {number} ({constraint_name(each)})", jnp.ravel(_called(each, motion, extras))))
         return found
 
     def of_motion(self, motion: Motion, extras: dict[str, Any]) -> Float[Array, " rows"]:
@@ -92,20 +109,22 @@ class Problem:
             self.loss.residuals(motion, extras) if isinstance(self.loss, Objective) else self._call(motion, extras)
         )
 
-    def weighted(self, vector, weight) -> Judged:
+    def constraint_count(self, motion: Motion, extras: dict[str, Any]) -> int:
+        """Count the values of all constraints, for the motion and the extras of any design."""
+        return sum(
+            rows.size
+            for rows in jax.eval_shape(lambda *given: [rows for _, rows in self.margins(*given)], motion, extras)
+        )
+
+    def weighted(self, vector, penalty: Penalty) -> Weighted:
         """Compute all that a sum of squares adds up."""
-        judged = self.judge(vector)
-        return judged._replace(violations=jnp.sqrt(weight) * judged.violations)
+        judged, root = self.judge(vector), jnp.sqrt(penalty.weight)
+        return Weighted(judged.rows, root * judged.gaps, root * jnp.maximum(penalty.shifts - judged.margins, 0.0))
 
-    def residuals(self, vector, weight) -> Float[Array, " rows"]:
-        """Compute the same as one array."""
-        return jnp.concatenate(self.weighted(vector, weight))
-
-    def total(self, vector, weight) -> Float[Array, ""]:
+    def total(self, vector, penalty: Penalty) -> Float[Array, ""]:
         """Compute the loss with its penalty."""
-        judged = self.judge(vector)
-        value = jnp.sum(judged.rows**2) if self.squares else judged.rows[0]
-        return value + weight * jnp.sum(judged.violations**2)
+        rows, gaps, charged = self.weighted(vector, penalty)
+        return (jnp.sum(rows**2) if self.squares else rows[0]) + jnp.sum(gaps**2) + jnp.sum(charged**2)
 
     def _call(self, motion: Motion, extras: dict[str, Any]):
         return _called(self.loss, motion, extras)

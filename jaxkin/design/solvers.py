@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float, Int
 
+from jaxkin.design.augmented_lagrangian import Penalty, Verdict
 from jaxkin.design.variables import Variables
 
 CHUNK = 10
@@ -25,15 +26,15 @@ KEPT = 16
 class Solver(NamedTuple):
     """A way downhill, for all starts."""
 
-    begin: Callable[[Any, float], Any]
-    """The state for some vectors and a weight of the penalty."""
-    advance: Callable[[Any, float, Bool[np.ndarray, " starts"]], tuple[Any, Float[np.ndarray, "iterations starts"]]]
+    begin: Callable[[Any, Penalty], Any]
+    """The state for some vectors and what violations cost."""
+    advance: Callable[[Any, Penalty, Bool[np.ndarray, " starts"]], tuple[Any, Float[np.ndarray, "iterations starts"]]]
     """Some iterations of the active starts; the state, and the losses after each, nan for the others."""
     vectors: Callable[[Any], Float[np.ndarray, "starts variables"]]
     slopes: Callable[[Any], Float[np.ndarray, "starts variables"]]
     """Zero where a variable has no influence."""
-    judge: Callable[[Any], tuple[np.ndarray, np.ndarray]]
-    """Losses, nan where not finite, and roots of the sums of squares of violations, of some vectors."""
+    judge: Callable[[Any, Float[np.ndarray, "starts constraints"]], Verdict]
+    """Losses and violations of some vectors, for given shifts."""
 
 
 def in_groups(

@@ -14,7 +14,7 @@ from jax import dtypes, lax
 from jaxtyping import Array, Float
 
 from jaxkin._names import by_name
-from jaxkin._traced import traced
+from jaxkin._traced import inside_trace, traced
 from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
@@ -79,6 +79,14 @@ def follow_drive(
     """Compute the motion of a sweep, without regard to the limits of joints; a traced `tolerance` is given beside the
     options."""
     mechanism, drive = with_targets(mechanism, by_name(drive, "driven displacements", "{'A': angles}"))
+    if inside_trace() and not traced((mechanism, *drive.values(), tolerance)):
+        # a motion of known numbers is a constant of the program that is traced
+        with jax.ensure_compile_time_eval():
+            return _follow(mechanism, drive, options, tolerance)
+    return _follow(mechanism, drive, options, tolerance)
+
+
+def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptions, tolerance: Any) -> Motion:
     plan = plan_drive(mechanism.linkage, named(drive))
     values = given_values(plan.driven, drive)
     if plan.infeasible:

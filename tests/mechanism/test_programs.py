@@ -70,6 +70,15 @@ def test_a_sweep_works_inside_jit_and_vmap():
     np.testing.assert_allclose(found[0], other, atol=1e-13)
 
 
+def test_a_motion_of_known_numbers_is_a_constant_of_a_traced_function():
+    """Nothing that a trace has made is kept with the mechanism: it moves as well afterwards."""
+    range_ = np.linspace(0.0, 1.0, 20)
+    fresh = planar_fourbar(1.0)
+    inside = jax.jit(lambda scale: scale * fresh.sweep({"A": range_}).coordinates["D"][:, 0])(2.0)
+    outside = fresh.sweep({"A": range_}).coordinates["D"][:, 0]
+    np.testing.assert_array_equal(inside, 2.0 * outside)
+
+
 @pytest.mark.long
 def test_an_optimiser_may_take_mechanism_and_gradient_apart_together():
     """What is no array is the same in both, though these numbers are no RSSR linkage, nor are the zeros."""
