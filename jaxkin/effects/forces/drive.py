@@ -15,11 +15,12 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.forces.balance import carried
-from jaxkin.effects.forces.changes import Rows, changes
+from jaxkin.effects.forces.changes import Changes, Rows, changes
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import potential
 from jaxkin.effects.forces.screws import Scale, relative_twist
 from jaxkin.effects.forces.wrenches import (
@@ -32,6 +33,7 @@ from jaxkin.effects.forces.wrenches import (
     acting_on,
     check,
     given_rates,
+    loads,
     loads_and_frictions,
     metres_of,
     units_of,
@@ -149,7 +151,9 @@ def drive_forces(
         return DriveForces(motion, *_at_rest(drive, unit, linkage, known, motion.inputs, acts))
     found = changes(drive, known, motion.inputs, speeds)
     frictions = loads_and_frictions(acting)[1]
-    moving, sums = acting_on(unit, bool(frictions), linkage, found, acts)
+    if not frictions:
+        return DriveForces(motion, *_in_motion(drive, unit, linkage, known.status, found, speeds[0], acts))
+    moving, sums = acting_on(unit, True, linkage, found, acts)
     rubs, losses = friction(motion, drive, moving, sums, frictions)
     forces, powers = _forces(drive, unit, linkage, known.status, moving, sums, rubs, found.along, speeds[0])
     if losses is not None:
@@ -182,6 +186,27 @@ def _at_rest(
     closed = is_closed_on_branch(known.status)
     held: Inputs = {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}
     return held, powers
+
+
+@partial(whole_program, static=(0, 1))
+def _in_motion(
+    drive: KnownDrive,
+    unit: str,
+    linkage: Linkage,
+    status: Int[Array, " poses"],
+    found: Changes,
+    rates: Inputs,
+    acting: Weights,
+) -> tuple[Inputs, Inputs]:
+    """Compute force and power of each driven coordinate without friction, by groups of poses."""
+
+    def of_group(given: tuple[Int[Array, " poses"], Changes, Inputs], acting: Weights) -> tuple[Inputs, Inputs]:
+        status, found, rates = given
+        moving = Moving.of(linkage, found, chords=False)
+        sums = loads(linkage, unit, acting, moving)
+        return _forces(drive, unit, linkage, status, moving, sums, {}, found.along, rates)
+
+    return by_groups(of_group, (status, found, rates), acting)
 
 
 @partial(whole_program, static=(0, 1))

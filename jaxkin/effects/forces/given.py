@@ -199,3 +199,17 @@ def _real(given: Any, what: str, expected: str) -> Any:
         return np.asarray(given, float)
     except (TypeError, ValueError):
         raise ValueError(f"{what} must be {expected}, got {given!r}") from None
+
+
+_PER_POSE = {
+    Force: {"vector": 1},
+    Torque: {"vector": 1},
+    Spring: {"stiffness": 0, "length": 0, "damping": 0},
+    JointLoad: {"load": 0, "stiffness": 0, "rest": 0, "damping": 0},
+}
+"""Kind of load -> names of its numbers, which may have one row a pose, and number of axes of a row."""
+
+
+def rows_per_pose(load: Applied) -> list[str]:
+    """Name the numbers of a load that are given for each pose."""
+    return [name for name, axes in _PER_POSE[type(load)].items() if np.ndim(getattr(load, name)) > axes]

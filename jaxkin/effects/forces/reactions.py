@@ -16,11 +16,12 @@ from jaxtyping import Array, Float, Int
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.effects.forces.balance import balance, solve
-from jaxkin.effects.forces.changes import changes, unmoved
+from jaxkin.effects.forces.changes import Changes, changes, unmoved
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
+from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.screws import Scale, cross
 from jaxkin.effects.forces.undetermined import Undetermined, undetermined
 from jaxkin.effects.forces.wrenches import (
@@ -28,10 +29,12 @@ from jaxkin.effects.forces.wrenches import (
     Acting,
     Loads,
     Moving,
+    Weights,
     Wrench,
     acting_on,
     check,
     given_rates,
+    loads,
     loads_and_frictions,
     units_of,
     weights,
@@ -169,11 +172,15 @@ def reactions(
     speeds = given_rates(motion, acting)
     # at rest nothing is differentiated
     found = unmoved(drive, known, motion.inputs) if speeds is None else changes(drive, known, motion.inputs, speeds)
-    moving, acts = acting_on(mechanism.unit, True, mechanism.linkage, found, weights(acting))
-    rubs, losses = friction(motion, drive, moving, acts, loads_and_frictions(acting)[1])
-    found = _balanced(drive, mechanism.unit, mechanism.linkage, known.status, moving, acts, rubs)
-    if losses is not None:
-        found = found[0], *jax.tree.map(lambda rows: _unless(losses.locked, rows), found[1:])
+    unit, linkage, acts, losses = mechanism.unit, mechanism.linkage, weights(acting), None
+    if frictions := loads_and_frictions(acting)[1]:
+        moving, sums = acting_on(unit, True, linkage, found, acts)
+        rubs, losses = friction(motion, drive, moving, sums, frictions)
+        found = _balanced(drive, unit, linkage, known.status, moving, sums, rubs)
+        if losses is not None:
+            found = found[0], *jax.tree.map(partial(_unless, losses.locked), found[1:])
+    else:
+        found = _without_friction(drive, unit, linkage, known.status, found, acts)
     places, forces, torques, drives, held = found
 
     def named(rows: Sequence[Array]) -> Named[Array]:
@@ -188,6 +195,20 @@ def _unless(locked: Array, rows: Array) -> Array:
 
 
 Rows = tuple[Float[Array, "poses _"], ...]
+
+
+@partial(whole_program, static=(0, 1))
+def _without_friction(
+    drive: KnownDrive, unit: str, linkage: Linkage, status: Int[Array, " poses"], found: Changes, acting: Weights
+) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
+    """What `_balanced` returns, placed and solved by groups of poses."""
+
+    def of_group(given: tuple[Int[Array, " poses"], Changes], acting: Weights) -> tuple[Rows, Rows, Rows, Inputs, Rows]:
+        status, found = given
+        moving = Moving.of(linkage, found, chords=True)
+        return _balanced(drive, unit, linkage, status, moving, loads(linkage, unit, acting, moving), {})
+
+    return by_groups(of_group, (status, found), acting)
 
 
 @partial(whole_program, static=(0, 1))

@@ -18,7 +18,7 @@ from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.forces.changes import Changes, Rows
 from jaxkin.effects.forces.friction_of import check_friction
-from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque
+from jaxkin.effects.forces.given import Applied, Force, JointFriction, JointLoad, Spring, Torque, rows_per_pose
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.screws import Places, Twist, cross, places, turned, twists_of_parts, velocity_at, wrench_at
 from jaxkin.effects.rates import tangents_of
@@ -169,11 +169,11 @@ def check(motion: Motion, acting: Acting) -> None:
         raise ValueError("nothing acts: give jk.masses(mechanism, density), or applied=[jk.force(...)], or both")
     poses = len(motion)
     for each in applied:
-        for name, axes in _PER_POSE[type(each)].items():
-            values = getattr(each, name)
-            if np.ndim(values) > axes and len(values) != poses:
+        for name in rows_per_pose(each):
+            count = len(getattr(each, name))
+            if count != poses:
                 raise ValueError(
-                    f"{_name_of(each)} must be given once or for each of the {poses} poses, got {len(values)} rows"
+                    f"{_name_of(each)} must be given once or for each of the {poses} poses, got {count} rows"
                 )
         if isinstance(each, JointLoad):
             _loaded(mechanism.linkage, each)
@@ -196,15 +196,6 @@ def given_rates(motion: Motion, acting: Acting) -> tuple[Inputs, Inputs] | None:
     if acting.rates is None:
         return None
     return tangents_of(motion, acting.rates), tangents_of(motion, acting.accelerations or {})
-
-
-_PER_POSE = {
-    Force: {"vector": 1},
-    Torque: {"vector": 1},
-    Spring: {"stiffness": 0, "length": 0, "damping": 0},
-    JointLoad: {"load": 0, "stiffness": 0, "rest": 0, "damping": 0},
-}
-"""Kind of load -> names of its numbers, which may have one row a pose, and number of axes of a row."""
 
 
 def _name_of(load: Load) -> str:

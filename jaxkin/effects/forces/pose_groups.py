@@ -1,0 +1,39 @@
+"""Forces of many poses by groups: what is placed and what acts in a group stays in the cache until it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+
+from jaxkin.effects.forces.given import rows_per_pose
+from jaxkin.effects.forces.wrenches import Weights
+from jaxkin.solve.range.poses import in_groups
+
+GROUP = 512
+"""Poses of a group. Reactions in 10,000 poses of a four-bar, without the derivatives of the motion, took 14 ms of a
+processor in groups of 128, 10 of 512, 12 of 1,024, and 15 where all poses were placed before they were solved."""
+
+
+def by_groups(function: Callable[[Any, Weights], Any], given: Any, acting: Weights) -> Any:
+    """Apply `function(given, acting)` to groups of poses, and join what it returns.
+
+    `given`, what the function returns, and those numbers of `acting` that are given for each pose, are pytrees of
+    arrays whose first axis is the poses.
+    """
+    loads = [{name: jnp.asarray(getattr(each, name)) for name in rows_per_pose(each)} for each in acting.applied]
+
+    def of_group(poses_last: Any) -> Any:
+        given, own = _swapped(poses_last)
+        applied = tuple(replace(each, **rows) for each, rows in zip(acting.applied, own, strict=True))
+        return _swapped(function(given, acting._replace(applied=applied)))
+
+    return _swapped(in_groups(of_group, _swapped((given, loads)), GROUP))
+
+
+def _swapped(tree: Any) -> Any:
+    """Take the poses from the first axis to the last, or back, of arrays of one or two axes."""
+    return jax.tree.map(lambda array: array.T, tree)
