@@ -14,7 +14,7 @@ from jax import dtypes, lax
 from jaxtyping import Array, Float
 
 from jaxkin._names import by_name
-from jaxkin._traced import traced
+from jaxkin._traced import inside_trace, traced
 from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
@@ -23,7 +23,9 @@ from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
-from jaxkin.solve.execution.programs import Outcome, by_formulas, solve
+from jaxkin.solve.execution.compiler import whole_program
+from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
+from jaxkin.solve.execution.programs import by_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import ClosureTolerance, default_tolerance, rounding_residual
 
@@ -93,17 +95,16 @@ def follow_drive(
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options)
-    solutions = [
-        solve(
-            loop_group.system,
-            options,
-            loop_group.joints,
-            padded([followed[i] for i in loop_group.inputs]),
-            asked,
-            loop_group.axes,
-            loop_group.line,
+    inputs = [padded([followed[i] for i in loop_group.inputs]) for loop_group in loop_groups]
+    if known and not inside_trace():
+        compile_together(
+            KnownRange(loop_group.system, options, loop_group.joints, each, asked)
+            for loop_group, each in zip(loop_groups, inputs, strict=True)
+            if isinstance(each, np.ndarray) and (loop_group.axes is None or not by_formulas(options, each))
         )
-        for loop_group in loop_groups
+    solutions = [
+        solve(loop_group.system, options, loop_group.joints, each, asked, loop_group.axes, loop_group.line)
+        for loop_group, each in zip(loop_groups, inputs, strict=True)
     ]
     loop_groups, solutions = _of_least_residual(loop_groups, solutions, asked)
     columns = tuple(loop_group.columns for loop_group in loop_groups)
@@ -154,7 +155,7 @@ def _known_tolerance(asked: float | None, dtype: np.dtype) -> ClosureTolerance:
     return ClosureTolerance(*[np.asarray(asked, dtype)] * 2)
 
 
-_collect = jax.jit(collect, static_argnums=0)
+_collect = whole_program(collect, static=(0,))
 
 
 def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:

@@ -14,6 +14,7 @@ COMPILER_OPTIONS = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
+    "xla_cpu_parallel_codegen_split_count": 1,
     "xla_llvm_disable_expensive_passes": True,
     "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
 }
@@ -24,6 +25,9 @@ The operations of the program take a few microseconds each. To call a library fo
 forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
 for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
 """
+
+_traces = 0
+"""Number of programs that find poses and were traced in this process."""
 
 
 def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
@@ -50,3 +54,14 @@ def jit_options() -> dict[str, Any]:
     except (TypeError, jax.errors.JaxRuntimeError):
         return {}
     return {"compiler_options": COMPILER_OPTIONS}
+
+
+def compilations() -> int:
+    """Count the programs that find poses and were compiled in this process: an increase shows a recompilation."""
+    return _traces
+
+
+def count_trace() -> None:
+    """Count a program that finds poses and is being traced: see `compilations`."""
+    global _traces  # noqa: PLW0603
+    _traces += 1
