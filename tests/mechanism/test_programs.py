@@ -189,7 +189,8 @@ def test_programs_of_several_loop_groups_are_compiled_at_the_same_time_and_once(
     )
     compiled = []
 
-    def listen(event: str, _: float, **about: object) -> None:
+    def listen(event: str, duration_secs: float, **about: str | int) -> None:
+        del duration_secs
         if event.endswith("backend_compile_duration") and about.get("fun_name") == "jit(_solve)":
             compiled.append(threading.current_thread())
 

@@ -23,8 +23,8 @@ from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
-_begun: set[tuple[Any, ...]] = set()
-"""Systems, options and sizes of the ranges whose program without limits was called, or compiled ahead."""
+_together: set[tuple[Any, ...]] = set()
+"""Systems, options and sizes of the ranges whose programs were compiled together."""
 _limited: set[tuple[Any, ...]] = set()
 """Systems, options and sizes of the ranges that were found to have limits on their way."""
 
@@ -84,12 +84,10 @@ def solve_numbers(asked: KnownRange, limits_ahead: bool) -> tuple[Float[Array, "
         solve, _ = asked.program(follow_limits)
         return run_on_cores(system, solve, ordered, asked.shards)
 
-    found = None
-    if not limits_ahead and asked.key not in _limited:
-        _begun.add(asked.key)
-        found = solved(follow_limits=False)
+    key = asked.key
+    found = None if limits_ahead or key in _limited else solved(follow_limits=False)
     if found is None or (np.asarray(found[1].status) != Status.CLOSED.value).any():
-        _limited.add(asked.key)
+        _limited.add(key)
         found = solved(follow_limits=True)
     return found if places is None else jax.tree.map(lambda rows: rows[..., places], found)
 
@@ -100,8 +98,15 @@ def compile_together(ranges: Iterable[KnownRange]) -> None:
     JAX keeps what it has compiled for a call of the same arguments. Ranges of equal systems share a program, and a
     single one is compiled where it is called, as are those in shards and those of traced joints.
     """
-    new = {each.key: each for each in ranges if each.options.method == CONTINUATION and each.shards == 1}
-    new = {key: each for key, each in new.items() if key not in _begun | _limited and not traced(each)}
+    new = {
+        key: each
+        for each in ranges
+        if each.options.method == CONTINUATION
+        and each.shards == 1
+        and (key := each.key) not in _together
+        and key not in _limited
+        and not traced(each)
+    }
     if len(new) < 2 or any((each.options.cores or available_cores()) < 2 for each in new.values()):
         return
     with ThreadPoolExecutor(available_cores(), thread_name_prefix="jaxkin") as threads:
@@ -109,7 +114,7 @@ def compile_together(ranges: Iterable[KnownRange]) -> None:
         compiled = [threads.submit(each.program(False)[1](each.inputs).compile) for each in new.values()]
     for program in compiled:
         program.result()
-    _begun.update(new)
+    _together.update(new)
 
 
 def _solve(
