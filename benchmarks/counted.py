@@ -18,7 +18,7 @@ from jax import lax
 
 from jaxkin.solve.continuation import branch
 from jaxkin.solve.correctors import levenberg_marquardt, newton
-from jaxkin.solve.execution import compiler, programs
+from jaxkin.solve.execution import compiler, known_numbers, programs
 from jaxkin.solve.range import polish
 
 FAST_COMPILATION = {"xla_backend_optimization_level": 0, "xla_llvm_disable_expensive_passes": True}
@@ -115,7 +115,7 @@ def _forget() -> None:
     """All that was compiled, and with which options."""
     jax.clear_caches()
     compiler.jit_options.cache_clear()
-    programs._solve_program.cache_clear()
+    known_numbers._solve_program.cache_clear()
     programs._poses_program.cache_clear()
 
 

@@ -44,7 +44,8 @@ SIZES_OF = {GEAR: ("radius_i", "radius_j"), RACK: ("radius",), SCREW: ("pitch",)
 """Joints that tie others -> the sizes that they must have."""
 
 UNKNOWN_MASS = 1.0
-"""Mass, and each moment of inertia, of a part of which these are not known: the solver asks for some."""
+"""Mass, and each moment of inertia, of a part of which these are not known: the solver asks for some, and FreeCAD
+computes none, but writes these for every part that it exports (its `AssemblyObject::makeMbdPart`)."""
 
 MOTIONS = {"RotationalMotion": "phi", "TranslationalMotion": "z"}
 """Motions -> the coordinate of a joint that they drive."""

@@ -73,6 +73,12 @@ class Ties:
                     raise ValueError(f"{where}: unknown joint {name!r}{nearest(name, joints)}")
             stiff = [name for name in names if joints[name].kind not in SINGLE]
             factors = _polycoef(said, where)
+            if len(names) == 1 and not stiff:
+                at = f"{factors[0]:g} from the pose that is written" if factors[0] else "zeros"
+                self.notes.append(
+                    f"{where} holds {names[0]!r}, which is a freedom of its own here; drive it with {at} to hold it"
+                )
+                continue
             if len(names) < 2 or stiff or not factors[1:].any():
                 self.notes.append(
                     f"{where} of {listed(list(map(repr, names)))} is not kept: it ties no two coordinates"

@@ -39,10 +39,10 @@ class Loops(NamedTuple):
 
 def read_loops(path: Path) -> Loops:
     """Read a file of loops; ValueError where it is no such file."""
-    said = read_yaml(path)
+    said = read_yaml(path, YAML_KEYS)
     name = path.name
     notes = [f"{name}: the key {key!r} is not understood; left out" for key in said if key not in YAML_KEYS]
-    pairs = said.get("closed_loop", [])
+    pairs = said.get("closed_loop") or []
     if not isinstance(pairs, list) or not all(isinstance(each, list) and len(each) == 2 for each in pairs):
         raise ValueError(f"{name}: expected closed_loop: [['frame_a', 'frame_b'], ...], got {pairs!r}")
     kinds = _texts(said, "type", name) or ["6d"] * len(pairs)
@@ -65,6 +65,7 @@ def read_loops(path: Path) -> Loops:
 
 def _texts(said: dict[str, Value], key: str, name: str) -> list[str]:
     found = said.get(key) or []
+    found = [found] if isinstance(found, str) else found
     if not isinstance(found, list) or not all(isinstance(each, str) for each in found):
         raise ValueError(f"{name}: expected {key}: ['a', 'b'], got {found!r}")
     return [each for each in found if isinstance(each, str)]

@@ -26,10 +26,10 @@ from jaxkin.io.robot_model import (
     tag,
     unknown_parts,
 )
-from jaxkin.io.sdf_frames import IN_ANOTHER, Frames, read_pose
+from jaxkin.io.sdf_frames import IN_ANOTHER, Frames
 from jaxkin.io.sdf_gearbox import Gearbox, gearboxes
+from jaxkin.io.sdf_includes import axis_in_model, included
 from jaxkin.io.sdf_shapes import shapes_of
-from jaxkin.io.xml_tree import read_xml
 from jaxkin.joints.coupling import Coupling
 from jaxkin.joints.joint import Limits
 from jaxkin.joints.kinds import JointKind
@@ -55,43 +55,10 @@ WORLD_PARTS = ("model", "light", "gui", "scene", "physics", "plugin", "state", "
                "atmosphere", "spherical_coordinates", "audio", "road", "population", "frame")  # fmt: skip
 """Elements of a world that are read, or are not about motion."""
 
-MAX_INCLUDED = 20
-"""Files that include each other, one in the other."""
-
 
 def read_sdf(path: Path, root: Element) -> RobotModel:
     """Read the models of a file; ValueError in one line for what is wrong, FileNotFoundError for a missing include."""
     return _Reader(path, root).model()
-
-
-def _included(element: Element, folder: Path, file: str, depth: int = 0) -> None:
-    """Put the models of other files in the place of each <include>."""
-    for number, each in enumerate(list(element)):
-        if each.tag == "model":
-            _included(each, folder, file, depth)
-        if each.tag != "include":
-            continue
-        uri = (each.findtext("uri") or "").strip()
-        name = uri.removeprefix("model://").removeprefix("file://")
-        tries = [base / name for base in (folder, folder.parent, folder.parent.parent)]
-        found = next((t / "model.sdf" if t.is_dir() else t for t in tries if t.exists()), None)
-        if found is None or not found.is_file():
-            raise FileNotFoundError(f"{file}: it includes {uri!r}, which is not there; put it beside {file}")
-        if depth >= MAX_INCLUDED:
-            raise ValueError(f"{file}: its includes go {MAX_INCLUDED} deep, or in a circle")
-        model = read_xml(found).find("model")
-        if model is None:
-            raise ValueError(f"{file}: it includes {uri!r}, in which there is no <model>")
-        for key in ("name", "placement_frame"):
-            if said := (each.findtext(key) or "").strip():
-                model.set(key, said)
-        for key in ("pose", "static"):
-            if (said := each.find(key)) is not None:
-                for old in model.findall(key):
-                    model.remove(old)
-                model.append(said)
-        element[number] = model
-        _included(model, found.parent, file, depth + 1)
 
 
 class _Reader:
@@ -102,7 +69,7 @@ class _Reader:
         self.notes: list[str] = []
         world = root.find("world")
         self.top = root if world is None else world
-        _included(self.top, path.parent, self.file)
+        included(self.top, path.parent, self.file)
         if world is not None:
             self.notes += unknown_parts(world, WORLD_PARTS, self.file)
         self.version = root.get("version", "1.7")
@@ -118,11 +85,11 @@ class _Reader:
         models = self.top.findall("model")
         if not models:
             raise ValueError(f"{self.file}: there is no <model> in it")
+        world = self._frames(self.top)
         for each in models:
-            prefix = "" if len(models) == 1 else each.get("name", "") + IN_ANOTHER
-            frames = self._frames(each)
-            pose = read_pose(each, f"{self.file}: {tag(each)}") @ frames.placement()
-            self._read(each, frames, prefix, pose, False)
+            name = each.get("name", "")
+            prefix = "" if len(models) == 1 else name + IN_ANOTHER
+            self._read(each, world.inner[name], prefix, world.in_model(name), False)
         if len(self.links) == 1:
             raise ValueError(f"{self.file}: there is no <link> in it")
         needed = {part for each in self.joints for part in each.parts}
@@ -244,9 +211,7 @@ class _Reader:
         named = None if found is None else found.get("expressed_in")
         if named:
             return frames.in_model(named)[:3, :3] @ written
-        old = [int(part) for part in self.version.split(".")[:2] if part.isdigit()] < [1, 5]
-        in_model = old or (axis.findtext("use_parent_model_frame") or "").strip() in ("true", "1")
-        return written if in_model else own[:3, :3] @ written
+        return written if axis_in_model(axis, self.version) else own[:3, :3] @ written
 
     def _limits(self, axis: Element | None, where: str) -> Limits:
         low, high = (

@@ -1,4 +1,4 @@
-"""The frames of an SDF model: where its links, joints and further frames are, and on which link each of them is."""
+"""The frames of an SDF model, or of a world: where what is in it is, and on which link each frame is."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ class Frames:
     def in_model(self, name: str, seen: tuple[str, ...] = ()) -> Pose:
         """Compute the pose of a frame in that of the model; ValueError for unknown names, and for frames in a
         circle."""
-        if name in (MODEL, ""):
+        if name in (MODEL, "") or (name == WORLD and self.model.tag != "model"):
             return np.eye(4)
         if name in seen:
             raise ValueError(f"{self.file}: the frame {name!r} of {tag(self.model)} is relative to itself")

@@ -24,6 +24,7 @@ from jaxkin.io.robot_model import (
     limits_between,
     numbers,
     placed,
+    quaternion,
     roll_pitch_yaw,
     tag,
     unknown_parts,
@@ -69,10 +70,15 @@ class _Reader:
 
     def model(self) -> RobotModel:
         """Place the links from the root on, then the joints, the loops and the motors."""
-        if any(each.tag in XACRO for each in self.root) or "${" in "".join(self._attributes()):
+        written = "".join(self._attributes())
+        if any(each.tag in XACRO for each in self.root) or "${" in written or "$(" in written:
             raise ValueError(f"{self.file}: it has macros of xacro; expand it first: xacro {self.file} > robot.urdf")
         if not self.links:
             raise ValueError(f"{self.file}: there is no <link> in it")
+        if len(self.links) < len(self.root.findall("link")):
+            names = [each.get("name", "") for each in self.root.iterfind("link")]
+            twice = next(name for name in names if names.count(name) > 1)
+            raise ValueError(f"{self.file}: link {twice!r} is there twice; every link needs a name of its own")
         order, base = self._tree()
         poses = {base: np.eye(4)}
         joints = []
@@ -147,7 +153,13 @@ class _Reader:
         if origin is None:
             return np.eye(4)
         where = f"{self.file}: {where}: origin"
-        turn = roll_pitch_yaw(numbers(origin.get("rpy"), 3, where, (0, 0, 0)))
+        if "quat_xyzw" in origin.attrib and "rpy" in origin.attrib:
+            raise ValueError(f"{where}: it gives its rotation twice, by rpy and by quat_xyzw; write one of them")
+        if "quat_xyzw" in origin.attrib:  # since version 1.2 of the format
+            *xyz, w = numbers(origin.get("quat_xyzw"), 4, where)
+            turn = quaternion([w, *xyz], where)
+        else:
+            turn = roll_pitch_yaw(numbers(origin.get("rpy"), 3, where, (0, 0, 0)))
         return placed(turn, numbers(origin.get("xyz"), 3, where, (0, 0, 0)))
 
     def _joint(self, each: Element, parts: tuple[str, str], pose: Pose) -> RobotJoint:

@@ -8,12 +8,14 @@ be one more dependency, and most of it a risk. What is read:
 - or, on the lines after `key:`, a list with one `- value` a line, where `- - value` begins a list in it;
 - texts are bare, or in single or double quotes without escapes; comments begin with "#" after a blank.
 
-All scalars are texts. Everything else is refused, with the number of its line.
+All scalars are texts. Everything else is refused, with the number of its line, unless it belongs to a key that nobody
+asks for.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 from jaxkin._files import check_file
@@ -36,24 +38,27 @@ _KEY = re.compile(r"([A-Za-z_][\w \-]*?)\s*:(?:\s+|$)(.*)")
 _TOKEN = re.compile(r"\s*(?:([\[\],])|'([^']*)'|\"([^\"\\]*)\"|([^\s\[\],'\"{}&*!|>%@`#][^\[\],{}#]*))")
 
 
-def read_yaml(path: Path) -> dict[str, Value]:
-    """Read the keys and values of a file; FileNotFoundError where there is none, ValueError for what is not read."""
+def read_yaml(path: Path, keys: Collection[str] = ()) -> dict[str, Value]:
+    """Read the keys and values of a file; FileNotFoundError where there is none, ValueError for what is not read.
+
+    `keys` are those whose values are asked for, all by default: the others may be written in any way, and are empty.
+    """
     if (size := check_file(path, "YAML file")) > MAX_YAML_BYTES:
         raise ValueError(f"{path.name}: {size} bytes of YAML; at most {MAX_YAML_BYTES} are read")
     try:
         text = path.read_bytes().decode()
     except UnicodeDecodeError as error:
         raise ValueError(f"{path.name}: expected text in UTF-8: {error}") from None
-    return parse_yaml(text, path.name)
+    return parse_yaml(text, path.name, keys)
 
 
-def parse_yaml(text: str, source: str) -> dict[str, Value]:
-    """Parse a text: see the module; `source` begins messages."""
+def parse_yaml(text: str, source: str, keys: Collection[str] = ()) -> dict[str, Value]:
+    """Parse a text: see the module and `read_yaml`; `source` begins messages."""
     if re.search(rf"[^,\[\]\n]{{{MAX_LETTERS + 1}}}", text):
         raise ValueError(f"{source}: it holds a text of more than {MAX_LETTERS} letters")
     found: dict[str, Value] = {}
     lines = [(number, line) for number, line in enumerate(map(_uncommented, text.splitlines()), 1) if line.strip()]
-    lines = [(number, line) for number, line in lines if line.strip() not in ("---", "...")]
+    lines = [(number, line) for number, line in lines if line.strip() not in ("---", "...") and line[0] != "%"]
     while lines:
         number, line = lines.pop(0)
         said = _KEY.fullmatch(line.rstrip())
@@ -63,7 +68,12 @@ def parse_yaml(text: str, source: str) -> dict[str, Value]:
         key, value = said[1], said[2]
         if key in found:
             raise ValueError(f"{where}: the key {key!r} is there twice")
-        if value:
+        if keys and key not in keys:
+            found[key] = ""
+            depth = _depth(value)
+            while lines and (depth > 0 or lines[0][1][0].isspace() or lines[0][1].startswith("-")):
+                depth += _depth(lines.pop(0)[1])
+        elif value:
             while value.count("[") > value.count("]") and lines:
                 value = f"{value} {lines.pop(0)[1].strip()}"
             found[key] = _flow(value, where)
@@ -73,6 +83,11 @@ def parse_yaml(text: str, source: str) -> dict[str, Value]:
                 block.append(lines.pop(0))
             found[key] = _block(block, source) if block else ""
     return found
+
+
+def _depth(text: str) -> int:
+    """Count the brackets that a text leaves open."""
+    return sum(text.count(mark) for mark in "[{") - sum(text.count(mark) for mark in "]}")
 
 
 def _shown(text: str) -> str:

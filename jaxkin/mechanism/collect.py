@@ -11,7 +11,7 @@ from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.linkage.coordinates import Given
-from jaxkin.solve.execution.programs import Outcome
+from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import SEVERITY, Status, is_closed
 from jaxkin.solve.system.from_linkage import Columns
 

@@ -22,8 +22,8 @@ from jaxkin.mechanism.collect import Collected, DisplacementSources, collect
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.line import Line
 from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, joint_displacements, line_of
-from jaxkin.solve.execution.compiler import jit_options
-from jaxkin.solve.execution.programs import Outcome, count_trace
+from jaxkin.solve.execution.compiler import count_trace, jit_options
+from jaxkin.solve.execution.known_numbers import Outcome
 from jaxkin.solve.status import ClosureTolerance
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -23,7 +23,9 @@ from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import with_targets
 from jaxkin.solve.correctors.least_residual import least_residual
-from jaxkin.solve.execution.programs import Outcome, by_formulas, solve
+from jaxkin.solve.execution.compiler import jit_options
+from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
+from jaxkin.solve.execution.programs import by_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
 from jaxkin.solve.status import ClosureTolerance, default_tolerance, rounding_residual
 
@@ -101,22 +103,23 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
         if found is not None:
             found = found if finite is None else found._replace(inputs=values)
             return _motion(mechanism, plan, found, options)
-    solutions = [
-        solve(
-            loop_group.system,
-            options,
-            loop_group.joints,
-            padded([followed[i] for i in loop_group.inputs]),
-            asked,
-            loop_group.axes,
-            loop_group.line,
+    inputs = [padded([followed[i] for i in loop_group.inputs]) for loop_group in loop_groups]
+    whole = known and not inside_trace()
+    if whole and len(loop_groups) > 1:
+        compile_together(
+            KnownRange(loop_group.system, options, loop_group.joints, each, asked)
+            for loop_group, each in zip(loop_groups, inputs, strict=True)
+            if isinstance(each, np.ndarray) and (loop_group.axes is None or not by_formulas(options, each))
         )
-        for loop_group in loop_groups
+    solutions = [
+        solve(loop_group.system, options, loop_group.joints, each, asked, loop_group.axes, loop_group.line)
+        for loop_group, each in zip(loop_groups, inputs, strict=True)
     ]
     loop_groups, solutions = _of_least_residual(loop_groups, solutions, asked)
     columns = tuple(loop_group.columns for loop_group in loop_groups)
     layout = DisplacementSources(plan.freedoms, tuple(plan.driven.values()), columns)
-    return _motion(mechanism, plan, _collect(layout, values, finite, solutions), options)
+    collected = _whole_collect() if whole and not traced(solutions) else _collect
+    return _motion(mechanism, plan, collected(layout, values, finite, solutions), options)
 
 
 def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: SolverOptions) -> Motion:
@@ -163,6 +166,12 @@ def _known_tolerance(asked: float | None, dtype: np.dtype) -> ClosureTolerance:
 
 
 _collect = jax.jit(collect, static_argnums=0)
+
+
+@cache
+def _whole_collect():
+    """Make the program that collects numbers that are known: it is not part of another one."""
+    return jax.jit(collect, static_argnums=0, **jit_options())
 
 
 def padded(rows: list[Given]) -> Float[Array | np.ndarray, "driven padded"]:

@@ -8,7 +8,7 @@ function is called by the nearest one above it that is indented less. What happe
         `closed_form/range_by_formula.py` `find_poses_by_formula`   the route ends here where formulas prove all poses;
             if all loops have formulas, `jaxkin.mechanism.formula_sweep` calls it, in one program for all of them
  2.   `execution/cores.py` `run_on_cores`                   cut a long range into shards, one for each core
-          `_solve` of `execution/programs.py` solves a shard: steps 3 and 18
+          `_solve` of `execution/known_numbers.py` solves a shard: steps 3 and 18
  3.     `range/solve_range.py` `find_poses`                 find all poses of a shard
  4.       `closure/closure.py` `scaled_geometry`            scale lengths, compute constants of the loops from frames
  5.       `continuation/branch.py` `trace_branch`           trace the branch from the assembled pose to both ends

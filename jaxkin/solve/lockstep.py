@@ -63,12 +63,15 @@ def computed_once(function: Callable[..., Result], *args: Any) -> Result:
 
     XLA copies a chain of cheap operations into every operation that uses its result, and formulas are such chains. It
     does not look into the branches of a condition that it cannot decide: here whether each array has a finite number.
-    Where one has none, what is returned is NaN. Nothing may be differentiated.
+    Where one has none, what is returned is NaN, zero or False. Nothing may be differentiated.
     """
     finite = [jnp.any(jnp.isfinite(leaf)) for leaf in jax.tree.leaves(args)]
     shapes = jax.eval_shape(function, *args)
 
     def nothing(*_: Any) -> Result:
-        return jax.tree.map(lambda leaf: jnp.full(leaf.shape, jnp.nan, leaf.dtype), shapes)
+        return jax.tree.map(
+            lambda leaf: jnp.full(leaf.shape, jnp.nan if jnp.issubdtype(leaf.dtype, jnp.inexact) else 0, leaf.dtype),
+            shapes,
+        )
 
     return lax.cond(any_in_lockstep(functools.reduce(jnp.logical_and, finite)), function, nothing, *args)

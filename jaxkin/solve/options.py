@@ -8,7 +8,7 @@ compiled program has the options at hand: correctors and continuation as `proble
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -79,7 +79,7 @@ class SolverOptions:
             if field.name not in ("tolerance", "method", "formulas"):
                 object.__setattr__(self, field.name, _count(field.name, getattr(self, field.name), field.default))
 
-    @property
+    @cached_property
     def of_program(self) -> SolverOptions:
         """The options that the code of a program depends on; the others at their defaults."""
         return replace(self, tolerance=None, formulas=True, cores=None, min_shard_poses=SolverOptions.min_shard_poses)

@@ -6,7 +6,7 @@ import pytest
 import jaxkin as jk
 from jaxkin.effects.accuracy import TIGHTEST_32, Point, WorkPrecision, combinations
 from jaxkin.effects.extended import Extended
-from jaxkin.solve.execution.programs import compilations
+from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.options import METHODS
 from jaxkin.solve.status import Status
 from reference import planar

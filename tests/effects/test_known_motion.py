@@ -118,7 +118,7 @@ def test_rates_are_differentiated_with_respect_to_lengths():
 @pytest.mark.long
 def test_no_pose_is_found_anew():
     """Rates of displacements that no sweep would find: those at the far ends of a motion that was put together."""
-    from jaxkin.solve.execution.programs import compilations
+    from jaxkin.solve.execution.compiler import compilations
 
     motion = mechanisms.rssr_linkage().sweep({"A": WAY})
     before = compilations()

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin.io.sdf import read_sdf
+from jaxkin.io.xml_tree import read_xml
 
 FOURBAR = """<sdf version="{version}"><model name="fourbar"><pose>0 0 1 0 0 0</pose>
 <link name="AB"/><link name="BC"><pose>0 0 0.4 0 0.3 0</pose></link>
@@ -104,6 +106,51 @@ def test_an_include_that_is_missing_is_refused_and_others_are_read(tmp_path):
     (tmp_path / "arm").mkdir()
     (tmp_path / "arm" / "model.sdf").write_text(FOURBAR.replace("{more}", "").replace("{version}", "1.7"))
     assert jk.load(tmp_path / "w.sdf").mechanism().mobility().useful == 1
+
+
+ARM = """<sdf version="{version}"><model name="inner"><pose>9 9 9 0 0 0</pose>
+<frame name="f"><pose>0 0 1 0 0 0</pose></frame><frame name="g" attached_to="l2"><pose>0 0 1 0 0 0</pose></frame>
+<link name="l1"><pose>1 0 0 0 0 0</pose></link><link name="l2"><pose relative_to="f">1 1 0 0 0 0.5</pose></link>
+<joint name="ij" type="revolute"><parent>l1</parent><child>l2</child><axis><xyz>0 1 0</xyz></axis></joint>
+<joint name="w" type="ball"><parent>__model__</parent><child>g</child></joint></model></sdf>"""
+ON_BASE = """<sdf version="1.9"><model name="outer"><link name="base"/><include merge="{merge}"><uri>arm.sdf</uri>
+<name>arm</name><pose relative_to="base">0 0 2 0 0 1.5707963267948966</pose></include>
+<joint name="j" type="revolute"><parent>base</parent><child>{arm}l1</child><axis><xyz>0 0 1</xyz></axis></joint>
+<joint name="k" type="revolute"><pose relative_to="{arm}g"/><parent>{arm}l2</parent><child>tip</child>
+<axis><xyz>1 0 0</xyz></axis></joint><link name="tip"><pose relative_to="{arm}g">0 0 1 0 0 0</pose></link></model></sdf>
+"""
+
+
+@pytest.mark.parametrize(("version", "axis"), [("1.4", [-1, 0, 0]), ("1.9", [-np.cos(0.5), -np.sin(0.5), 0])])
+def test_a_model_that_is_merged_is_the_one_that_is_nested_by_other_names(tmp_path, version, axis):
+    """An axis of version 1.4 is in the frame of its model, which is turned by 90 degrees, later in that of its link."""
+    (tmp_path / "arm.sdf").write_text(ARM.replace("{version}", version))
+    found = []
+    for merge, arm in (("true", ""), ("false", "arm::")):
+        (tmp_path / "robot.sdf").write_text(ON_BASE.replace("{merge}", merge).replace("{arm}", arm))
+        model = read_sdf(tmp_path / "robot.sdf", read_xml(tmp_path / "robot.sdf"))
+        assert not model.notes
+        joints = {each.name: each.frame_1[:3, 2:] for each in model.joints}  # how x and y lie is for each to choose
+        links = {each.name: each.pose for each in model.links}
+        found.append(
+            {name.removeprefix("arm::"): numbers for name, numbers in (links | joints).items() if name[-1] != "w"}
+        )
+    merged, nested = found
+    assert merged.keys() == nested.keys()
+    for name, numbers in merged.items():
+        np.testing.assert_allclose(numbers, nested[name], atol=1e-15)
+    np.testing.assert_allclose(merged["l2"][:3, 3], [-1, 1, 3], atol=1e-15)
+    np.testing.assert_allclose(merged["ij"][:, 0], axis, atol=1e-15)
+
+
+def test_models_of_a_world_stand_relative_to_frames_and_to_each_other(tmp_path):
+    (tmp_path / "w.sdf").write_text("""<sdf version="1.9"><world name="w"><frame name="table"><pose>0 0 1 0 0 0</pose>
+    </frame><model name="a"><pose relative_to="table">1 0 0 0 0 1.5707963267948966</pose><link name="l"/></model>
+    <model name="b"><pose relative_to="a">1 0 0 0 0 0</pose><link name="l"/></model>
+    <model name="c"><pose relative_to="world">0 3 0 0 0 0</pose><link name="l"/></model></world></sdf>""")
+    links = read_sdf(tmp_path / "w.sdf", read_xml(tmp_path / "w.sdf")).links
+    places = {each.name: each.pose[:3, 3] for each in links}
+    np.testing.assert_allclose([places[f"{name}::l"] for name in "abc"], [[1, 0, 1], [1, 1, 1], [0, 3, 0]], atol=1e-15)
 
 
 def block(depth, *lines):

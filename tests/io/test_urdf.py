@@ -168,7 +168,14 @@ def test_a_missing_mesh_and_unknown_elements_are_named(tmp_path):
         ('<joint name="k" type="hinge"><parent link="hand"/><child link="a"/></joint><link name="a"/>', "got 'hinge'"),
         ('<joint name="k" type="fixed"><parent link="hnd"/><child link="a"/></joint><link name="a"/>', "mean 'hand'"),
         ('<joint name="elbow" type="fixed"><parent link="hand"/><child link="a"/></joint><link name="a"/>', "twice"),
+        ('<link name="hand"/>', "link 'hand' is there twice"),
+        (
+            '<link name="a"/><joint name="k" type="fixed"><parent link="hand"/><child link="a"/>'
+            '<origin rpy="0 0 1" quat_xyzw="0 0 0 1"/></joint>',
+            "gives its rotation twice",
+        ),
         ('<link name="${name}"/>', "xacro"),
+        ('<link name="$(arg name)"/>', "xacro"),
         ("<link", "damaged XML"),
     ],
 )
@@ -202,12 +209,19 @@ def test_loops_that_make_no_sense_are_refused(tmp_path, loops, message):
 
 
 def test_joints_get_other_types_from_the_loops(tmp_path):
-    loops = "name_mot: [elbow]\njoint_name: [elbow, slide]\njoint_type: [CARDAN, SPHERICAL]\nodd: 1\n"
+    loops = "%YAML 1.2\n---\nname_mot: elbow\nclosed_loop:\njoint_name: [elbow, slide]\nodd:\n  a: {b: 1}\n  c: &x\n"
+    loops += "joint_type: [CARDAN, SPHERICAL]\nmore: {a: [\n1]}\n"
     mechanism = write(tmp_path, loops=loops).mechanism()
     assert [str(joint.kind) for joint in mechanism.all_joints] == ["revolute", "universal", "spherical"]
-    assert any("the key 'odd' is not understood" in note for note in mechanism.notes)
+    assert all(any(f"the key {key!r} is not understood" in note for note in mechanism.notes) for key in ("odd", "more"))
     first = mechanism.joints["elbow"].frames_1[0]
     np.testing.assert_allclose(first[:3, 1], [np.cos(0.5), np.sin(0.5), 0], atol=1e-15)  # it turns about x first
+
+
+def test_an_origin_may_be_turned_by_a_quaternion(tmp_path):
+    turned = ARM.replace('rpy="0 0 0.5"', f'quat_xyzw="0 0 {np.sin(0.25)} {np.cos(0.25)}"')
+    frames = [write(tmp_path, text=text).mechanism().joints["elbow"].frames_1 for text in (ARM, turned)]
+    np.testing.assert_allclose(*frames, atol=1e-15)
 
 
 def test_loops_belong_to_urdf_only(tmp_path):

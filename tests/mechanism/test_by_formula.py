@@ -25,8 +25,8 @@ WITHIN = 1e-12
 def general(monkeypatch):
     """Counts the calls of the general program."""
     calls = []
-    solve = programs._solve_numbers
-    monkeypatch.setattr(programs, "_solve_numbers", lambda *args, **more: calls.append(args) or solve(*args, **more))
+    solve = programs.solve_numbers
+    monkeypatch.setattr(programs, "solve_numbers", lambda *args, **more: calls.append(args) or solve(*args, **more))
     return calls
 
 

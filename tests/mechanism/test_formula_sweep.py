@@ -9,8 +9,8 @@ from jaxkin.mechanism import formula_sweep
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closed_form.line import full_turn
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
+from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.execution.design_batches import DESIGN_GROUP
-from jaxkin.solve.execution.programs import compilations
 from jaxkin.solve.status import Status
 from reference import catalogue
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage

@@ -16,7 +16,7 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
-from jaxkin.solve.execution.programs import _solve
+from jaxkin.solve.execution.known_numbers import _solve
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance
 from jaxkin.solve.system.state import assembled

@@ -1,5 +1,7 @@
 """A sweep as a JAX program: precision, recompilation, transformations."""
 
+import threading
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -10,7 +12,8 @@ from jaxkin.joints.pairs import prismatic, revolute
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.sweep import sweep
-from jaxkin.solve.execution.programs import compilations
+from jaxkin.solve.execution.compiler import compilations
+from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status
 from reference.mechanisms import cardan_shafts, planar_fourbar, rssr_linkage
 
@@ -178,3 +181,38 @@ def test_nan_in_any_of_several_traced_inputs_is_a_status():
     one, other = jnp.zeros(3).at[0].set(jnp.nan), jnp.zeros(3).at[2].set(jnp.inf)
     status = jax.jit(lambda one, other: sweep(arm, {"shoulder": one, "elbow": other}).status)(one, other)
     assert list(status) == [Status.NONFINITE, Status.CLOSED, Status.NONFINITE]
+
+
+@pytest.mark.long
+def test_programs_of_several_loop_groups_are_compiled_at_the_same_time_and_once():
+    """A four-bar and a slider-crank: their poses, and the threads in which their two programs are compiled."""
+    mechanism = Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            *planar_fourbar(1.0).all_joints,
+            revolute("E", "ground", "crank 2", point=(300, 0, 0), axis=(0, 0, 1)),
+            revolute("F", "crank 2", "rod", point=(320, 30, 0), axis=(0, 0, 1)),
+            revolute("G", "rod", "slider", point=(410, 10, 0), axis=(0, 0, 1)),
+            prismatic("S", "ground", "slider", axis=(1, 0, 0)),
+        ],
+    )
+    compiled = []
+
+    def listen(event: str, duration_secs: float, **about: str | int) -> None:
+        del duration_secs
+        if event.endswith("backend_compile_duration") and about.get("fun_name") == "jit(_solve)":
+            compiled.append(threading.current_thread())
+
+    poses = 299  # no other test has this length: its program is compiled here
+    drive = {name: np.linspace(0.0, 0.5, poses) for name in ("A", "E")}
+    options = SolverOptions(formulas=False, cores=2)
+    jax.monitoring.register_event_duration_secs_listener(listen)
+    try:
+        motion = mechanism.sweep(drive, options=options)
+    finally:
+        jax.monitoring.unregister_event_duration_listener(listen)
+    assert len(compiled) == 2 and threading.main_thread() not in compiled
+    assert np.all(motion.closed)
+    by_formulas = mechanism.sweep(drive)
+    for name in ("D", "S"):
+        np.testing.assert_allclose(motion.coordinates[name], by_formulas.coordinates[name], atol=1e-11)

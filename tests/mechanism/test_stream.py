@@ -8,7 +8,7 @@ import pytest
 
 from jaxkin.joints.pairs import revolute
 from jaxkin.mechanism.mechanism import Mechanism
-from jaxkin.solve.execution.programs import compilations
+from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.status import Status
 from reference.mechanisms import Z, planar_fourbar, rssr_linkage
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.solve.execution.programs import compilations
+from jaxkin.solve.execution.compiler import compilations
 from reference.mechanisms import planar_fourbar
 
 TURN = np.linspace(0.0, 2 * np.pi, 20)

@@ -46,7 +46,7 @@ from jaxkin.solve.correctors.levenberg_marquardt import (
 )
 from jaxkin.solve.correctors.newton import newton
 from jaxkin.solve.linear.blocks import solve_blocks
-from jaxkin.solve.lockstep import any_in_lockstep
+from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -141,8 +141,8 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     closed = is_closed(status)
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
-    good, deviation, slack = _accepted(fronts, attempt, found.state, closed, ratio)
-    step = _next_step(fronts, attempt, good, deviation - slack)
+    # every field of the fronts depends on the decision: XLA would compute it anew for each
+    good, step = computed_once(lambda ratio: _decision(fronts, attempt, found.state, closed, ratio), ratio)
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
     lost = attempt.following & ~good & fronts.along_tangent & (distance <= shortest)
 
@@ -221,19 +221,18 @@ def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarq
     return lax.cond(any_in_lockstep(left_open) & problem.follow_limits, damped, lambda: quick)
 
 
-def _accepted(
+def _decision(
     fronts: Fronts,
     attempt: _Attempt,
     state: State,
     closed: Bool[Array, " fronts"],
     ratio: Float[Array, "blocks fronts"],
-) -> tuple[Bool[Array, " fronts"], Float[Array, " fronts"], float]:
-    """Tell which fronts that follow the branch have made an acceptable step.
+) -> tuple[Bool[Array, " fronts"], Float[Array, " fronts"]]:
+    """Tell which fronts that follow the branch have made an acceptable step, and choose the length of the next one.
 
     A step is accepted if its pose is closed and near the prediction, if the prediction is not too far away, and if the
     step crosses no singular pose. `ratio` is the determinant of each block of the Jacobian at the end of the step over
-    that at the beginning. Returns the accepted fronts, the deviation of each corrected state from its prediction, and
-    the deviation that is due to rounding (both radians or characteristic lengths).
+    that at the beginning. Lengths are radians or characteristic lengths.
     """
     distance = jnp.abs(attempt.moved)
     deviation = difference(state, attempt.predicted)
@@ -243,7 +242,8 @@ def _accepted(
     falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.width < 0)
     crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
-    return attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed, deviation, slack
+    good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed
+    return good, _next_step(fronts, attempt, good, deviation - slack)
 
 
 def _next_step(

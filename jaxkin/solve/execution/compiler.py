@@ -14,16 +14,21 @@ COMPILER_OPTIONS = {
     "xla_cpu_use_fusion_emitters": False,
     "xla_cpu_experimental_ynn_fusion_type": "",
     "xla_cpu_multi_thread_eigen": False,
+    "xla_cpu_parallel_codegen_split_count": 1,
     "xla_llvm_disable_expensive_passes": True,
     "xla_disable_hlo_passes": "cpu-parallel-task-assigner,tree_reduction_rewriter",
 }
 """Options of XLA for the CPU. With its newer emitters XLA takes 1.7 times as long to compile the solver, with the
-costlier passes of LLVM 1.4 times, for a program that is no faster.
+costlier passes of LLVM 1.4 times, for a program that is no faster; in 32 modules of code in place of one, 1.14 to 1.2
+times, on a machine where threads for these gained nothing.
 
 The operations of the program take a few microseconds each. To call a library for reductions, to rewrite sums of about
 forty numbers as trees, or to split an operation among threads takes longer than the operation; and threads that wait
 for work occupy the core that another shard needs. Several cores work on shards of their own instead (`run_on_cores`).
 """
+
+_traces = 0
+"""Number of programs that find poses and were traced in this process."""
 
 
 def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
@@ -50,3 +55,14 @@ def jit_options() -> dict[str, Any]:
     except (TypeError, jax.errors.JaxRuntimeError):
         return {}
     return {"compiler_options": COMPILER_OPTIONS}
+
+
+def compilations() -> int:
+    """Count the programs that find poses and were compiled in this process: an increase shows a recompilation."""
+    return _traces
+
+
+def count_trace() -> None:
+    """Count a program that finds poses and is being traced: see `compilations`."""
+    global _traces  # noqa: PLW0603
+    _traces += 1

@@ -7,13 +7,12 @@ Only the program of the displacements is differentiated. Where the numbers are k
 from __future__ import annotations
 
 from functools import cache, partial
-from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
-from jaxtyping import Array, Bool, Float, Int
+from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import inside_trace, traced
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
@@ -28,31 +27,18 @@ from jaxkin.solve.closed_form.range_by_formula import (
     line_of,
 )
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
-from jaxkin.solve.execution.compiler import jit_options
-from jaxkin.solve.execution.cores import run_on_cores, shard_count
+from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
+from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, solve_numbers
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.poses import Poses
-from jaxkin.solve.range.solve_range import displacements, find_poses, shard
+from jaxkin.solve.range.solve_range import displacements, find_poses
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 
 Given = Float[Array | np.ndarray, "driven poses"]
 """Inputs, radians or lengths of the mechanism."""
-
-_limited: set[tuple[Any, ...]] = set()
-"""Systems, options and sizes of the ranges that were found to have limits on their way."""
-_traces = 0
-"""Number of programs that find poses and were traced in this process."""
-
-
-class Outcome(NamedTuple):
-    """The status and the residual norm of each pose."""
-
-    status: Int[Array, " poses"]
-    residual_norm: Float[Array, " poses"]
-    """Square root of Eq. 12, lengths over the characteristic length."""
 
 
 def solve(
@@ -82,7 +68,7 @@ def solve(
     # inside a function that is being traced, what a program returns is traced, though it is given numbers
     inside = inside_trace()
     if known and not inside:
-        return _solve_numbers(system, options, joints, np.asarray(inputs), tolerance, limits_ahead=by_formula)
+        return solve_numbers(KnownRange(system, options, joints, np.asarray(inputs), tolerance), by_formula)
     numbers = lax.stop_gradient((joints, inputs, tolerance))
     inside = inside or traced(numbers)
     if inside:
@@ -111,11 +97,6 @@ def project(
     """Find the closed poses nearest to `given` coordinates of all joints: see `correctors.nearest_pose`."""
     known = not (traced((joints, given, weights, tolerance)) or inside_trace())
     return _projection_program(known)(system, options.of_program, joints, given, weights, tolerance)
-
-
-def compilations() -> int:
-    """Count the programs that find poses and were compiled in this process: an increase shows a recompilation."""
-    return _traces
 
 
 def by_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
@@ -178,37 +159,6 @@ def _poses_by_formula(
     return by_formulas_in_groups(find)(joints, inputs, tolerance)
 
 
-def _solve_numbers(
-    system: LoopSystem,
-    options: SolverOptions,
-    joints: Joints,
-    inputs: np.ndarray,
-    tolerance: ClosureTolerance,
-    limits_ahead: bool,
-) -> tuple[Float[Array, "columns poses"], Outcome]:
-    """Solve for known (not traced) numbers, long ranges in shards.
-
-    Most ranges need only the program that follows no limits, which takes half as long to compile. The other program is
-    compiled where that one leaves a pose open, or with `limits_ahead`, and solves ranges of the same size from then on.
-    """
-    given = system, options.of_program
-    if options.method != CONTINUATION:
-        return _solve_program()(*given, joints, inputs, tolerance)
-    ordered, places = _in_order(inputs, options.interpolate_from)
-    count = shard_count(system, ordered.shape[1], options)
-
-    def solved(follow_limits: bool) -> tuple[Float[Array, "columns poses"], Outcome]:
-        program = partial(_solve_program(), *given, joints, shard_count=count, follow_limits=follow_limits)
-        return run_on_cores(system, lambda inputs, start=None: program(inputs, tolerance, start), ordered, count)
-
-    key = *given, ordered.shape, ordered.dtype
-    found = None if limits_ahead or key in _limited else solved(follow_limits=False)
-    if found is None or (np.asarray(found[1].status) != Status.CLOSED.value).any():
-        _limited.add(key)
-        found = solved(follow_limits=True)
-    return found if places is None else jax.tree.map(lambda rows: rows[..., places], found)
-
-
 def _of_all_designs(
     system: LoopSystem, options: SolverOptions, joints: Joints, inputs: Array, tolerance: ClosureTolerance
 ) -> Poses:
@@ -220,49 +170,8 @@ def _all_closed(poses: Poses) -> Array:
     return jnp.all(poses.status == Status.CLOSED.value)
 
 
-def _solve(
-    system: LoopSystem,
-    options: SolverOptions,
-    joints: Joints,
-    inputs: Float[Array, "driven poses"],
-    tolerance: ClosureTolerance,
-    shard_start: Int[Array, ""] | None = None,
-    shard_count: int = 1,
-    follow_limits: bool = True,
-) -> tuple[Float[Array, "columns shard"], Outcome]:
-    count_trace()
-    poses = find_poses(system, options, joints, inputs, tolerance, shard_count, shard_start, follow_limits)
-    own = shard(inputs, shard_count, shard_start)
-    return displacements(system, joints, own, poses), Outcome(poses.status, poses.residual_norm)
-
-
-def count_trace() -> None:
-    """Count a program that finds poses and is being traced: see `compilations`."""
-    global _traces  # noqa: PLW0603
-    _traces += 1
-
-
-def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np.ndarray | None]:
-    """Sort many poses of a single input, as interpolation needs them, and tell where each is to be put back."""
-    if len(inputs) != 1 or inputs.shape[1] < interpolate_from:
-        return inputs, None
-    before, after = inputs[0, :-1], inputs[0, 1:]
-    if np.all(after >= before) or np.all(after <= before):
-        return inputs, None
-    order = np.argsort(inputs[0], kind="stable")
-    places = np.empty_like(order)
-    places[order] = np.arange(len(order))
-    return inputs[:, order], places
-
-
 _displacements_program = jax.jit(displacements, static_argnames="system")
 """Displacements from poses that were found: the program that is differentiated."""
-
-
-@cache
-def _solve_program():
-    """Make the program of a plain sweep: poses and displacements."""
-    return jax.jit(_solve, static_argnames=("system", "options", "shard_count", "follow_limits"), **jit_options())
 
 
 @cache
