@@ -189,19 +189,19 @@ def ball_screw_axis(random):
     cover = cut(box((-half + 10, -14, 0), (-half + 12, 14, 26)), bore(axis, X, 6.5, 900))
     drawing.add("cover", cover)
     drawing.add("spacer", tube((-half + 8, 0, 12), X, 4, 5.5, 6))
-    drawing.add("lock nut", tube((-half - 6, 0, 12), -X, 4, 8, 7))
+    drawing.add("lock nut", tube((-half - 6, 0, 12), -X, 4, 7.5, 7))
     drawing.add("floating clip", circlip((half + 5, 0, 12), X, 4, 0.8))
     m = at(-half - 100, 0, 12)
     drawing.add("motor shaft", cyl(m - 30 * X, X, 2.5, 56))
     motor = cut(box(m + at(-45, -21, -12), m + at(0, 21, 21)), cyl(m - 30 * X, X, 2.5, 56))
-    drawing.add("motor", cut(motor, *(cyl(p - 6 * X, X, 1.5, 7) for p in hollow(m, X, 17, 2, 0.0))))
+    drawing.add("motor", cut(motor, *(cyl(p - 6 * X, X, 1.5, 7) for p in hollow(m, X, 15, 2, np.pi / 2))))
     bracket = box(m + at(0, -24, -12), m + at(6, 24, 24))
     foot = union(bracket, box(m + at(0, -24, -12), m + at(26, 24, -8.5)))
     bed_ties = [m + at(20, y, -12) for y in (-16, 16)]
     foot = cut(
         foot,
         bore(m, X, 11, 7),
-        *(bore(p, X, 1.6, 7) for p in hollow(m, X, 17, 2, 0.0)),
+        *(bore(p, X, 1.6, 7) for p in hollow(m, X, 15, 2, np.pi / 2)),
         *(bore(p, Z, 2.2, 7) for p in bed_ties),
     )
     drawing.add("motor bracket", foot)

@@ -101,6 +101,7 @@ def bucket_linkage(random):
     drawing.joint("Revolute", "rocker 1", "stick", r, Z)
     drawing.joint("Revolute", "rocker -1", "stick", r, Z)
     drawing.joint("Revolute", "link", "rocker 1", k, Z)
+    drawing.joint("Revolute", "link", "rocker -1", k, Z)
     drawing.joint("Revolute", "rod", "rocker 1", k, Z)
     drawing.joint("Revolute", "bucket", "link", lug, Z)
     drawing.joint("Revolute", "barrel", "stick", c, Z)

@@ -83,7 +83,7 @@ def robot_arm(random):
     drawing.add(
         "wrist shaft", union(cyl(wrist - 26 * X, X, 6, 32), cyl(wrist - 26 * X, X, 8, 4), cyl(wrist - 6 * X, X, 9, 6))
     )
-    tool = cut(union(cyl(wrist + 0 * X, X, 25, 10)), cyl(wrist - X, X, 6, 7))
+    tool = cut(cyl(wrist + X, X, 25, 9), cyl(wrist - X, X, 6, 7))
     grips = hollow(wrist, X, 18, 4)
     drawing.add("tool flange", cut(tool, *(bore(p, X, 2, 20) for p in grips), bore(wrist, X, 1.6, 20)))
     drawing.parts["wrist shaft"] = cut(drawing.parts["wrist shaft"], cyl(wrist - 8 * X, X, 1.6, 20))

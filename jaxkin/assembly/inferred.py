@@ -207,13 +207,14 @@ def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) ->
 
 
 def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
-    """Tell whether a joint is a turn about an axis, or along and about it, but for the distance `near`."""
+    """Tell whether a joint is a turn about an axis, or along and about it, or about a point on it, but for the distance
+    `near`."""
     frame = np.asarray(joint.frames_1, float)[0]
     offset = frame[:3, 3] - point
     apart = float(np.linalg.norm(np.cross(offset, axis)))
     along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
-    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL)
-    return turns and along and apart <= near
+    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL) and along
+    return (turns or joint.kind is JointKind.SPHERICAL) and apart <= near
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:

@@ -13,11 +13,8 @@ from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
     bolted_bodies,
-    butting_pins,
-    embedded_pins,
     pressed_rings,
     rollers,
-    standing_rods,
     with_hosts,
 )
 from jaxkin.assembly.inference.hinges import Stop, hinges
@@ -31,6 +28,7 @@ from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
+from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -73,7 +71,9 @@ def infer(
     known.add(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
+    pinned = {frozenset(pair.parts) for pair in known.axes if not pair.virtual}  # a flat head on a tube is of a rivet
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
+    apart = [parts for parts in apart if frozenset(parts) not in pinned]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
