@@ -172,7 +172,9 @@ def _seats(mechanism: Mechanism, inexact: bool) -> list[Inference]:
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        screwed = inexact and joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
+        held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
+        turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
+        screwed = turning and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue

@@ -6,11 +6,22 @@ import numpy as np
 
 from jaxkin.assembly.inference.fasteners import Stack
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Plane
 
 WIDER = 1.05
 """Distance of a head from the axis over the radius of the pin, at least."""
 NEAR = 1.0
 """Distance of heads from the outermost holes, over the radius of the pin, at most: with a washer that is not drawn."""
+
+
+def is_head_on_tube(known: Known, contact: Contact) -> bool:
+    """Tell whether a contact is that of the flat head of a pin with the outside of the tube that the pin goes
+    through."""
+    pairs = [pair for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
+    planes = [surface for surface in contact.surfaces if isinstance(surface, Plane)]
+    return any(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes for pair in pairs)
 
 
 def is_headed(known: Known, stack: Stack) -> bool:

@@ -10,6 +10,7 @@ from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
+from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
     bolted_bodies,
@@ -71,9 +72,8 @@ def infer(
     known.add(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
-    pinned = {frozenset(pair.parts) for pair in known.axes if not pair.virtual}  # a flat head on a tube is of a rivet
+    others = [each for each in others if not is_head_on_tube(known, each)]
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
-    apart = [parts for parts in apart if frozenset(parts) not in pinned]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
     known.add(embedded_pins(known, fastening))
