@@ -1,7 +1,12 @@
 """Kinds of assemblies that designers draw, each with the joints that it is meant to have: those imported here."""
 
 from drawings import devices as devices
+from drawings import driveline as driveline
 from drawings import drives as drives
 from drawings import fittings as fittings
+from drawings import folding as folding
+from drawings import guided as guided
+from drawings import linkages as linkages
+from drawings import machines as machines
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop

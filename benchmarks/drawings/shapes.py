@@ -68,6 +68,12 @@ def bore(point, axis, radius: float, reach: float = 500.0) -> Shape:
     return cyl(np.asarray(point, float) - reach * unit, unit, radius, 2 * reach)
 
 
+def laid(shape: Shape, origin, x, z) -> Shape:
+    """A shape that was drawn in the plane xy, laid into the plane at a point with these directions of x and z."""
+    plane = cq.Plane(*(tuple(np.asarray(each, float).tolist()) for each in (origin, x, z)))
+    return cq.Workplane(obj=shape.val().moved(cq.Location(plane)))
+
+
 def union(*shapes: Shape) -> Shape:
     """One solid of several."""
     first, *others = shapes

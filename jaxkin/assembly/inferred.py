@@ -172,7 +172,9 @@ def _seats(mechanism: Mechanism, inexact: bool) -> list[Inference]:
     result = []
     for joint in mechanism.all_joints:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
-        screwed = inexact and joint.kind is JointKind.REVOLUTE and _is_in_line(mechanism, joint, owner)
+        held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
+        turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
+        screwed = turning and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue
@@ -207,13 +209,14 @@ def _is_in_line(mechanism: Mechanism, joint: Joint, owner: Mapping[str, str]) ->
 
 
 def _is_about(joint: Joint, point: Vector, axis: Vector, near: float) -> bool:
-    """Tell whether a joint is a turn about an axis, or along and about it, but for the distance `near`."""
+    """Tell whether a joint is a turn about an axis, or along and about it, or about a point on it, but for the distance
+    `near`."""
     frame = np.asarray(joint.frames_1, float)[0]
     offset = frame[:3, 3] - point
     apart = float(np.linalg.norm(np.cross(offset, axis)))
     along = bool(np.linalg.norm(np.cross(frame[:3, 2], axis)) < NEAR_ANGLE)
-    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL)
-    return turns and along and apart <= near
+    turns = joint.kind in (JointKind.REVOLUTE, JointKind.CYLINDRICAL) and along
+    return (turns or joint.kind is JointKind.SPHERICAL) and apart <= near
 
 
 def _counted(mechanism: Mechanism, inferences: Sequence[Inference]) -> Mechanism:

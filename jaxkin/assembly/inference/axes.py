@@ -162,11 +162,13 @@ def shared_length(one: Bore, other: Bore) -> float:
 def _sleeved(pair: CommonAxis, pins: Sequence[CommonAxis]) -> bool:
     """Tell whether a third part is between: a thicker pin that fills the hole, or a tighter hole that holds the pin.
 
-    A pin that is thicker than the hole is not in it where another hole holds it without interference.
+    A pin that is thicker than the hole is not in it where another hole holds it without interference, or another pin
+    is in the hole without one.
     """
     apart = MIN_ENGAGED * pair.other.radius
     for each in pins:
         thicker = each.other is pair.other and each.one.radius > _OTHER_RADIUS * pair.one.radius
+        thicker = thicker and (pair.tight or not each.tight)
         if thicker and each.one.part != pair.one.part and shared_length(pair.one, each.one) > apart:
             return True
         tighter = each.one is pair.one and _OTHER_RADIUS * each.other.radius < pair.other.radius

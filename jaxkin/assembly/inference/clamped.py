@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,14 +22,21 @@ FITTED = 0.02
 """Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
 MAX_ACROSS = 0.6
 """Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
+WIDER = 1.05
+"""Radius of a face of a pin that stops a hole on it, over that of the hole, at least."""
+MAX_BESIDE = 3.0
+"""Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
+MAX_SLIT = 0.5
+"""Width of a slit over the radius of the shaft, at most: a fork is wider."""
 FILLED = 0.5
 """Share of a hub's hole that its shaft fills, at least: a piston fills less of its cylinder, which has holes across
 it, too."""
 
 
 def clamped_hubs(known: Known) -> list[Inference]:
-    """Join hubs with the shafts that screws across them hold: set screws and pins that are drawn, in any hub; those of
-    round hubs also where only their holes are drawn, radial ones and those of clamps beside the shaft.
+    """Join hubs with the shafts that screws across them hold: set screws and pins that are drawn, and those of slits,
+    in any hub; those of round hubs also where only their holes are drawn, radial ones and those of clamps beside the
+    shaft.
 
     Only with shafts that are round: where shaft and motor are one solid, it is the hub that turns on it.
     """
@@ -43,10 +51,12 @@ def clamped_hubs(known: Known) -> list[Inference]:
             continue
         screws = [screw for bore in across if (screw := _screw(known, bore, pair)) is not None]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
+        slit = any(_is_slit(bore, pair) for bore in across)
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
         filled = shared_length(pair.one, pair.other) >= FILLED * 2 * pair.other.half
-        if screws or (alone and filled):
+        if screws or slit or (alone and filled):
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
+            what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
             parts = tuple(sorted({*pair.parts, *screws[:1]}, key=known.order.__getitem__))
             sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
@@ -66,6 +76,13 @@ def _is_across(hole: Bore, pair: CommonAxis) -> bool:
 def _from_axis(hole: Bore, pair: CommonAxis) -> float:
     """Measure the distance between the axis of a hole across a shaft and that of the shaft."""
     return abs(float((hole.point - pair.one.point) @ np.cross(hole.axis, pair.one.axis)))
+
+
+def _is_slit(hole: Bore, pair: CommonAxis) -> bool:
+    """Tell whether the hole of a screw beside a shaft goes across a slit of the hub, which the screw draws together."""
+    radius, apart = pair.one.radius, _from_axis(hole, pair)
+    gaps = [low - high for (_, high), (low, _) in pairwise(hole.spans)]
+    return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
 
 
 def _screw(known: Known, hole: Bore, pair: CommonAxis) -> str | None:
@@ -103,6 +120,7 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
             own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
             ahead = after * float(pin.axis @ pair.other.axis) > 0
+            own = [stop for stop in own if stop.outer > WIDER * pair.other.radius]  # its end passes through the hole
             one, other = (own, theirs) if ahead else (theirs, own)
             if not beyond and gap(one, other, pair.other.radius) is None:
                 text = f"{pin.part!r} is screwed into {host!r} and locked by {nut!r}"

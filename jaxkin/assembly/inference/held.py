@@ -8,61 +8,22 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
+from jaxkin.assembly.inference.heads import is_headed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, play
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.assembly.inference.trapped import MAX_PLAY, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
 """Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
 WIDER = 1.05
 """Radius of a collar over that of the pin, at least."""
+PRESSED = 0.02
+"""Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
 STICKS_OUT = 2.0
 """Length of a loose pin beyond its hole, over its radius, on both sides from which on it is a bar that slides."""
-
-
-def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find pins that stand in the material of parts that have no hole for them."""
-    related = known.touching | {frozenset(pair.parts) for pair in known.axes}
-    result = []
-    for part in (known.solids[name] for name in known.names if name in fastening):
-        thinnest = min((bore.radius for bore in known.bores[part.name] if not bore.hole), default=np.inf)
-        near = [each for each in known.measured.beside(part) if frozenset((each.name, part.name)) not in related]
-        found = [(known.measured.depth_inside(part, each), each.name) for each in near]
-        found = [(depth, name) for depth, name in found if depth >= MIN_DEPTH * thinnest]
-        for depth, host in sorted(found, reverse=True)[:1]:
-            text = f"{part.name!r} stands in the material of {host!r}, {depth:.3g} deep"
-            evidence = Evidence(EvidenceKind.ENCLOSED, (("depth", depth),), text)
-            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
-    return result
-
-
-def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial
-    end."""
-    axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
-    directions: dict[tuple[str, str], set[bool]] = {}
-    for contact in known.contacts:
-        for pin, other in (contact.parts, contact.parts[::-1]):
-            surface = contact.surfaces[contact.parts.index(pin)]
-            if not contact.contact_state.is_flat or pin not in axis_of or frozenset(contact.parts) in known.pinned:
-                continue
-            if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis_of[pin].axis)) < ACROSS:
-                directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
-    result = []
-    for (pin, other), ways in directions.items():
-        # where there is a hole on the axis, the pin or what it is on goes through
-        sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
-        coaxial, between = sides == {False}, len(ways) == 2 and True not in sides
-        if between or coaxial:
-            where = "between two faces" if between else "on the coaxial end"
-            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
-            result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
-    return result
 
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
@@ -103,7 +64,8 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
     for stack in every:
         owners = {body[part] for part in stack.fasteners}
         hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
-        slides = stack.guides and len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
+        several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
+        slides = stack.guides and several and not is_headed(known, stack)
         holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
         turning = all(part in fastening or _is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
@@ -180,6 +142,7 @@ def _keepers(
     tightest = min(fits, key=fits.__getitem__)
     looser = min((fits[owner] for owner in keeping if owner != tightest), default=0.0) - fits[tightest]
     pressed = tightest not in keeping and looser > SAME_FIT * stack.axis.radius
+    pressed = pressed and fits[tightest] <= PRESSED * stack.axis.radius
     return [tightest] if pressed and not all(part in known.sleeves for *_, part in reach[tightest]) else keeping
 
 
@@ -236,29 +199,6 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
     one, other = (known.measured.stops(known.solids[part], hole) for part in (pin, hole.part))
     room = play(one, other, hole.radius)
     return room is not None and room <= MAX_PLAY * hole.radius
-
-
-def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find plain rods that fit a hole exactly and stand on its floor: posts and dowels, which are set into it, and rods
-    with caps that touch nothing else on both ends."""
-    on: dict[str, set[str]] = {}
-    for contact in known.contacts:
-        if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
-            for part, other in (contact.parts, contact.parts[::-1]):
-                on.setdefault(part, set()).add(other)
-    neighbours: dict[str, set[str]] = {}
-    for pair in known.touching:
-        for part in pair:
-            neighbours.setdefault(part, set()).update(pair - {part})
-    result = []
-    for rod in (name for name in known.names if name in fastening):
-        if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(known.solids[rod].faces) != 3:
-            continue  # it has faces beside those of a pin with two ends
-        caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
-        for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
-            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
-            result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
-    return result
 
 
 def rollers(known: Known, fastening: Collection[str]) -> set[str]:

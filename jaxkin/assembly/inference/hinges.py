@@ -176,12 +176,15 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         room = between if room is None else min(room, between)
     free = None if room is None or room > MAX_PLAY * hole.radius else room
     free = 0.0 if touching else free
+    jams = short and room is not None
+    if not exact and free is None and jams:
+        free, stop = 0.0, Stop.SHORT
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
         elif min(abs(pair.one.point @ pair.one.axis - middle) for middle in middles) <= CENTRED * hole.radius:
             free, stop = 0.0, Stop.CENTRED
-        elif short and room is not None:
+        elif jams:
             free, stop = 0.0, Stop.SHORT
         else:
             return []
@@ -196,7 +199,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         ends = f"a face {free:.2g} away and the fastener stop its slide"
     elif exact and stop is Stop.CENTRED:
         ends = "the pin and its holes have one middle, where it is taken to stay"
-    elif exact and stop is Stop.SHORT:
+    elif stop is Stop.SHORT:
         ends = f"its hole is shorter than wide and would jam on a slide of {room:.2g} between faces: taken to turn"
     sizes += [] if free is None else [("play", free)]
     if pair.virtual:

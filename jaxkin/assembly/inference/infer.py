@@ -10,14 +10,12 @@ from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
+from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
     bolted_bodies,
-    butting_pins,
-    embedded_pins,
     pressed_rings,
     rollers,
-    standing_rods,
     with_hosts,
 )
 from jaxkin.assembly.inference.hinges import Stop, hinges
@@ -31,6 +29,7 @@ from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
+from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -73,6 +72,7 @@ def infer(
     known.add(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
+    others = [each for each in others if not is_head_on_tube(known, each)]
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))

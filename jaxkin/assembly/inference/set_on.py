@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge, Line, Stop, lines
 from jaxkin.assembly.inference.inference import Inference
@@ -15,6 +17,10 @@ from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.topology.components import connected
+
+FITTED = 0.02
+"""Distance of the axis of a bearing from that of its shaft, over the radius of the shaft, at most."""
 
 
 def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
@@ -34,6 +40,9 @@ def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
             )
             text += f" of a radius of {pair.other.radius:.4g}: it would jam on a slide"
             result.append(_held(known, pair, text, ("length", length), Stop.SHORT))
+        elif other := _turning(known, line):
+            text = f"it fits the shaft of {pair.one.part!r} exactly, which turns in {other!r}: it turns with it"
+            result.append(_held(known, pair, text, ("clearance", pair.clearance), Stop.TIGHT))
         elif all(line.pins) and (play := _looser(known, pair)):
             text = f"it fits the pin of {pair.one.part!r} exactly, on which others have a play of {play:.2g}"
             result.append(_held(known, pair, text, ("play", play), Stop.TIGHT))
@@ -72,6 +81,46 @@ def _shared(known: Known, contact: Contact, axis: Vector) -> tuple[float, float]
         along = face.triangles.reshape(-1, 3) @ axis
         spans.append((float(along.min()), float(along.max())))
     return max(low for low, _ in spans), min(high for _, high in spans)
+
+
+def _turning(known: Known, line: Line) -> str | None:
+    """Find the part in which a shaft turns, by a bearing on the axis of a line, where nothing but the shaft holds the
+    body on it, which fits it exactly.
+
+    A crank or a wheel goes round with its shaft. A rod on a crank, and a nut on a lead screw, are guided by others.
+    """
+    pair, body = line.first, known.body
+    shaft, hub = body[pair.one.part], body[pair.other.part]
+    if abs(pair.clearance) > SAME_FIT * pair.other.radius or pair.other.part in known.sleeves:
+        return None
+    for each in known.found:
+        if each.joint is None or each.evidence.kind is not EvidenceKind.BEARING:
+            continue
+        housing = next((part for part in each.parts if body[part] != shaft), None)
+        frame = np.asarray(each.joint.frames_1, float)[0]
+        offset = frame[:3, 3] - pair.one.point
+        apart = np.linalg.norm(np.cross(offset, pair.one.axis))
+        if (
+            housing is not None
+            and shaft in {body[part] for part in each.parts}
+            and body[housing] != hub
+            and np.linalg.norm(np.cross(frame[:3, 2], pair.one.axis)) < ACROSS
+            and apart <= FITTED * pair.one.radius
+            and not _is_tied(known, hub, shaft)
+        ):
+            return housing
+    return None
+
+
+def _is_tied(known: Known, hub: str, shaft: str) -> bool:
+    """Tell whether contacts, axes or joints tie a body to the fixed parts otherwise than over its shaft."""
+    body = known.body
+    pairs = [*known.touching, *known.by_hand, *(pair.parts for pair in known.axes)]
+    pairs += [each.parts for each in known.found if each.joint]
+    ties = [tuple(body[part] for part in pair) for pair in pairs]
+    free = [pair for pair in ties if shaft not in pair]
+    groups = connected({*body.values()} - {shaft}, free)
+    return any(hub in group and any(body[part] in group for part in known.fixed) for group in groups)
 
 
 def _looser(known: Known, pair: CommonAxis) -> float | None:

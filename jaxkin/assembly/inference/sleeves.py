@@ -22,6 +22,8 @@ SAME_FIT = 0.002
 """Clearances that differ by less, over the radius, are one fit: the loosest press fit of a tolerance table."""
 MIN_HOLLOW = 0.8
 """Share of the length of a sleeve that its holes have, at least: the rest is chamfers."""
+GROOVE = 0.5
+"""Play of a ring along the groove that it is in, over its width, at most."""
 FLUSH = 0.1
 """A sleeve that ends where its hole does, within so much over its radius, is set into the hole from there."""
 
@@ -47,7 +49,9 @@ def sleeves(known: Known) -> list[Sleeve]:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
-        if any(bore.hole for bore in own) and is_round(known, name, own) and _is_hollow(known, name, own):
+        if not any(bore.hole for bore in own) or _carries(known, name, housing):
+            continue
+        if is_round(known, name, own) and _is_hollow(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
@@ -72,9 +76,10 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
     """Join each sleeve with the part that it is in, or with the pin that it is on.
 
     It sits where it fits more tightly. Where it fits both alike, it is set into its hole, but for a ring in a groove of
-    the pin: that is held between faces of the pin, and not where its hole ends. Where the pin fills the same hole, as a
-    piston beside its gland, the hole is one to slide in, and nothing is set into it but where it ends. A flange that
-    two or more parallel axes hold to another part is screwed on there.
+    the pin: that is held between faces of the pin, and not where its hole ends; a ring of a piston fits its groove less
+    tightly than the cylinder. Where the pin fills the same hole, as a piston beside its gland, the hole is one to slide
+    in, and nothing is set into it but where it ends; the same holds of a piston that is a ring on its rod. A flange
+    that two or more parallel axes hold to another part is screwed on there.
     """
     result = []
     for each in found:
@@ -85,8 +90,10 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
             looser = max(each.housing.clearance, 0.0) - max(each.pin.clearance, 0.0)
             if looser > SAME_FIT * each.housing.one.radius:
                 seat, why = each.pin, "tighter on the pin of"
-            elif abs(looser) <= SAME_FIT * each.housing.one.radius and _in_groove(known, each.housing, each.pin):
+            elif _in_groove(known, each.housing, each.pin, abs(looser) <= SAME_FIT * each.housing.one.radius):
                 seat, why = each.pin, "held in a groove of"
+            elif _is_piston(known, each, found):
+                seat, why = each.pin, "the piston on"
         if seat is each.housing and _is_shared(known, each) and not _is_flush(each.housing):
             continue
         host = seat.other.part if seat is each.housing else seat.one.part
@@ -146,6 +153,18 @@ def _is_hollow(known: Known, name: str, own: list[Bore]) -> bool:
     return sum(high - low for low, high in through) >= MIN_HOLLOW * float(np.ptp(heights))
 
 
+def _carries(known: Known, name: str, housing: CommonAxis) -> bool:
+    """Tell whether a pin across a round part is also in a hole of a third part, as that of a piston is in its rod, or
+    its hole has the axis of one there: it slides with what it carries."""
+    across = [bore for bore in known.bores[name] if bore.hole and abs(bore.axis @ housing.one.axis) < ACROSS]
+    for pair in known.axes:
+        if pair.one in across or pair.other in across:
+            inside = {*pair.parts} - {name} if pair.virtual else _around(known, pair.one)
+            if inside - {name, housing.other.part}:
+                return True
+    return False
+
+
 def _is_flange(known: Known, sleeve: Sleeve) -> bool:
     """Tell whether two or more parallel axes beside that of a sleeve are those of one other part, too."""
     beside: dict[str, int] = {}
@@ -168,10 +187,29 @@ def _is_flush(housing: CommonAxis) -> bool:
     return min(abs(low - first), abs(last - high)) <= FLUSH * housing.one.radius
 
 
-def _in_groove(known: Known, housing: CommonAxis, pin: CommonAxis) -> bool:
-    """Tell whether faces of the pin hold a sleeve on both sides, inside of a hole that goes on beyond it."""
+def _is_piston(known: Known, sleeve: Sleeve, found: list[Sleeve]) -> bool:
+    """Tell whether a sleeve is inside of a hole that ends with another one, round a thicker length of the same pin: the
+    gland, through which the rod of a piston comes out."""
+    hole, pin = sleeve.housing.other, sleeve.pin
+    if pin is None or _is_flush(sleeve.housing):
+        return False
+    return any(
+        each.pin is not None
+        and each.part != sleeve.part
+        and each.housing.other is hole
+        and each.pin.one.part == pin.one.part
+        and each.pin.one.radius > pin.one.radius
+        and _is_flush(each.housing)
+        for each in found
+    )
+
+
+def _in_groove(known: Known, housing: CommonAxis, pin: CommonAxis, alike: bool) -> bool:
+    """Tell whether faces of the pin hold a sleeve on both sides, inside of a hole that goes on beyond it; closely where
+    the fits on pin and hole are not `alike`."""
     (low, high), (first, last) = (bore.reach(housing.one.axis) for bore in (housing.one, housing.other))
     if min(low - first, last - high) <= FLUSH * housing.one.radius:
         return False
     one, other = (known.measured.stops(known.solids[part], housing.other) for part in (housing.one.part, pin.one.part))
-    return play(one, other, housing.one.radius) is not None
+    room = play(one, other, housing.one.radius)
+    return room is not None and (alike or room <= GROOVE * 2 * housing.one.half)

@@ -21,6 +21,9 @@ MAX_PLAY = 0.06
 """Play of a part between two faces, over its width there, in all: drawers that people drew have half a
 millimetre on each side of 20."""
 
+MIN_SLANT = 0.1
+"""Sine of the angle between two faces that are not parallel, at least: slanting faces of rails have 45 degrees."""
+
 TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
@@ -96,22 +99,41 @@ def _are_across(one: Vector, other: Vector) -> bool:
 
 
 def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
-    """Find the direction in which a part slides between faces of others, which are one body, and its largest play."""
-    held = between_faces(one, *others)
-    for normal, play in held:
-        for across, other_play in held:
+    """Find the direction in which a part slides between faces of others, which are one body, and its largest play.
+
+    It is between two walls, and kept from the third direction by other walls or by slanting faces, as a carriage is in
+    the grooves of its rail.
+    """
+    facing = _facing(one, others)
+    held = _walls(facing)
+    for normal, play, width in held:
+        for across, _, _ in facing:
             axis = np.cross(normal, across)
-            if np.linalg.norm(axis) > 0.5:
-                axis /= np.linalg.norm(axis)
-                stopped = any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, _ in held)
-                return None if stopped else (axis, max(play, other_play))
+            if np.linalg.norm(axis) <= MIN_SLANT:
+                continue
+            axis /= np.linalg.norm(axis)
+            if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
+                continue
+            beside = np.cross(axis, normal)
+            gaps = [(float(each @ beside), gap) for each, gap, _ in facing if abs(each @ axis) < ACROSS]
+            ahead, behind = (
+                min((gap / abs(along) for along, gap in gaps if side * along > MIN_SLANT), default=np.inf)
+                for side in (1, -1)
+            )
+            if ahead + behind <= MAX_PLAY * width:
+                return axis, max(play, ahead + behind)
     return None
 
 
 def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
     """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
     normals, and the play along them."""
-    facing = [
+    return [(normal, play) for normal, play, _ in _walls(_facing(one, others))]
+
+
+def _facing(one: Part, others: Sequence[Part]) -> list[tuple[Vector, float, float]]:
+    """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
+    return [
         (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
         for a in one.faces
         if isinstance(a.surface, Plane)
@@ -119,12 +141,16 @@ def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
         for b in other.faces
         if (gap := _gap(a, b)) is not None
     ]
-    held: list[tuple[Vector, float]] = []
+
+
+def _walls(facing: Sequence[tuple[Vector, float, float]]) -> list[tuple[Vector, float, float]]:
+    """Find the walls on both sides among faces that look at each other: normals, plays, and widths between."""
+    held: list[tuple[Vector, float, float]] = []
     for k, (normal, gap, place) in enumerate(facing):
         for back, other_gap, other_place in facing[:k]:
             width = abs(place + other_place)
             if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
-                held.append((normal, gap + other_gap))
+                held.append((normal, gap + other_gap, width))
     return held
 
 

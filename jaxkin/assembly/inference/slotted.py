@@ -25,16 +25,17 @@ SLOT = (1.05, 4.0)
 def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Find bodies that lie on a profile with a screw that ends in a slot of it, across its edges.
 
+    What lies there is no screw or pin itself: one that ends on the floor of a channel draws nothing onto its edges.
     The slot has a floor below the screw, as profiles have; a slot that a pin slides in is cut through, or filled by the
     pin.
     """
     body = known.body
-    flat: dict[frozenset[str], list[Vector]] = {}
-    elsewhere = set()
+    flat: dict[frozenset[str], list[tuple[Vector, tuple[str, str]]]] = {}
+    elsewhere, fastening = set(), {part for stack in every for part in stack.fasteners}
     for contact in known.contacts:
         owners, surface = frozenset(body[part] for part in contact.parts), contact.surfaces[0]
         if contact.contact_state.is_flat and isinstance(surface, Plane):
-            flat.setdefault(owners, []).append(surface.normal)
+            flat.setdefault(owners, []).append((surface.normal, contact.parts))
         else:
             elsewhere.add(owners)
     result = []
@@ -45,7 +46,8 @@ def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
             continue  # a nut, or a washer: their outside is that of no screw
         for part in known.parts:
             pair = frozenset((owner, body[part.name]))
-            normals = [] if len(pair) < 2 or pair in elsewhere else flat.get(pair, [])
+            lying = [] if len(pair) < 2 or pair in elsewhere else flat.get(pair, [])
+            normals = [normal for normal, parts in lying if not {*parts} & fastening]
             if any(np.linalg.norm(np.cross(normal, axis.axis)) < ACROSS for normal in normals) and _in_slot(axis, part):
                 screw = stack.fasteners[0]
                 text = f"the screw {screw!r} ends in a slot of {part.name!r}, on the edges of which {owner!r} lies"

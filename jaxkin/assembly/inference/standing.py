@@ -1,0 +1,77 @@
+"""Pins that stand in a part or on it, without a hole that they go through: posts, dowels, rods set into material."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+
+from jaxkin.assembly.inference.embedded import MIN_DEPTH
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find pins that stand in the material of parts that have no hole for them."""
+    related = known.touching | {frozenset(pair.parts) for pair in known.axes}
+    result = []
+    for part in (known.solids[name] for name in known.names if name in fastening):
+        thinnest = min((bore.radius for bore in known.bores[part.name] if not bore.hole), default=np.inf)
+        near = [each for each in known.measured.beside(part) if frozenset((each.name, part.name)) not in related]
+        found = [(known.measured.depth_inside(part, each), each.name) for each in near]
+        found = [(depth, name) for depth, name in found if depth >= MIN_DEPTH * thinnest]
+        for depth, host in sorted(found, reverse=True)[:1]:
+            text = f"{part.name!r} stands in the material of {host!r}, {depth:.3g} deep"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (("depth", depth),), text)
+            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial
+    end."""
+    axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
+    directions: dict[tuple[str, str], set[bool]] = {}
+    for contact in known.contacts:
+        for pin, other in (contact.parts, contact.parts[::-1]):
+            surface = contact.surfaces[contact.parts.index(pin)]
+            if not contact.contact_state.is_flat or pin not in axis_of or frozenset(contact.parts) in known.pinned:
+                continue
+            if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis_of[pin].axis)) < ACROSS:
+                directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
+    result = []
+    for (pin, other), ways in directions.items():
+        # where there is a hole on the axis, the pin or what it is on goes through
+        sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
+        coaxial, between = sides == {False}, len(ways) == 2 and True not in sides
+        if between or coaxial:
+            where = "between two faces" if between else "on the coaxial end"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
+            result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
+    return result
+
+
+def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find plain rods that fit a hole exactly and stand on its floor: posts and dowels, which are set into it, and rods
+    with caps that touch nothing else on both ends."""
+    on: dict[str, set[str]] = {}
+    for contact in known.contacts:
+        if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
+            for part, other in (contact.parts, contact.parts[::-1]):
+                on.setdefault(part, set()).add(other)
+    neighbours: dict[str, set[str]] = {}
+    for pair in known.touching:
+        for part in pair:
+            neighbours.setdefault(part, set()).update(pair - {part})
+    result = []
+    for rod in (name for name in known.names if name in fastening):
+        if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(known.solids[rod].faces) != 3:
+            continue  # it has faces beside those of a pin with two ends
+        caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
+        for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
+            result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
+    return result
