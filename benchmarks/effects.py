@@ -1,6 +1,6 @@
 """What each effect costs beside the sweep of 10,000 poses of the four-bar, and of the paper's Fig. 7.
 
-    python benchmarks/effects.py [poses]
+    python benchmarks/effects.py [poses] [name of a case ...]
 
 Whole calls of Python functions, compiled before, as users make them, each in turn with a sweep of the same poses. Times
 are of the processor, since the ratio of both is wanted also on a machine that has other work. Rates of parts are
@@ -25,17 +25,19 @@ POSES = 10_000
 RUNS = 7
 
 
-def main(poses: int = POSES) -> None:
+def main(poses: int = POSES, *names: str) -> None:
     print(f"{jax.default_backend()}, {poses} poses; times in sweeps\n")
-    headings = ("rates", "accel.", "jerk", "static", "inverse dyn.", "reactions")
+    headings = ("rates", "accel.", "jerk", "static", "inverse dyn.", "reactions", "friction")
     print(f"{'':<14}{'sweep [ms]':>11}" + "".join(f"{each:>{len(each) + 3}}" for each in headings))
-    for name in ("four-bar", "paper, Fig. 7"):
+    for name in names or ("four-bar", "paper, Fig. 7"):
         make, drive = CASES[name]
         mechanism, inputs = make(), drive(poses)
         moving = [part for part in mechanism.parts if part not in mechanism.fixed]
         masses = jk.masses(mechanism, given={part: jk.Mass(1.0, centre=(0, 0, 0), inertia=1e-3) for part in moving})
         motion = mechanism.sweep(inputs)
         speeds = dict.fromkeys(motion.inputs, 1.0)
+        hinge = next(name for name, joint in mechanism.joints.items() if joint.kind in ("revolute", "cylindrical"))
+        rubs = jk.joint_friction(hinge, 0.1, radius=1.0)
         calls = {
             "rates": lambda m=motion, s=speeds: jk.velocities(m, s),
             "accelerations": lambda m=motion, s=speeds: jk.accelerations(m, s),
@@ -43,6 +45,9 @@ def main(poses: int = POSES) -> None:
             "static": lambda m=motion, w=masses: jk.drive_forces(m, w),
             "inverse dynamics": lambda m=motion, w=masses, s=speeds: jk.drive_forces(m, w, rates=s),
             "reactions": lambda m=motion, w=masses, s=speeds: jk.reactions(m, w, rates=s),
+            "friction in one joint": lambda m=motion, w=masses, s=speeds, f=rubs: jk.drive_forces(
+                m, w, rates=s, applied=f
+            ),
         }
         found, sweeps = [], []
         for call in calls.values():
@@ -65,4 +70,4 @@ def _time(call: Callable[[], Any]) -> float:
 
 
 if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else POSES, *sys.argv[2:])

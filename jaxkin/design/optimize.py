@@ -119,7 +119,7 @@ def optimize(
     reason, active, unsettled = "", np.ones(starts, bool), np.full(starts, np.inf)
     ended = vectors
     losses, violations = np.full((2, starts), np.inf)
-    for _ in range(ROUNDS):
+    for number in range(1, ROUNDS + 1):
         vectors, reason = _search(downhill, vectors, penalty, active, solver, history, bar)
         verdict = downhill.judge(vectors, penalty.shifts)
         better = _better(verdict.losses, verdict.violations, losses, violations)
@@ -127,6 +127,8 @@ def optimize(
         losses, violations = np.where(better, (verdict.losses, verdict.violations), (losses, violations))
         best = _rank(losses, violations)
         met = solver.target is not None and violations[best] <= MET and losses[best] <= solver.target
+        if number > 1:
+            reason += f", in the last of {number} searches for what constraints touch"
         active = worth_more(penalty, verdict)
         if met or not active.any():
             break

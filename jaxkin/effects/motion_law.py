@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import partial
 from itertools import accumulate
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from jaxtyping import Array, Float
 
 from jaxkin._files import save_figure
 from jaxkin._names import closest
+from jaxkin.solve.execution.compiler import whole_program
 
 Law = Callable[[Array], Array]
 DWELL = "dwell"
@@ -125,10 +127,7 @@ class MotionLaw:
         """
         if not isinstance(order, int) or not 0 <= order <= 3:
             raise ValueError(f"order must be 0, 1, 2 or 3 (displacement, velocity, acceleration, jerk), got {order!r}")
-        function = self._at
-        for _ in range(order):
-            function = _derivative(function)
-        return jax.vmap(function)(jnp.asarray(times, float))
+        return _evaluated(self, order, jnp.asarray(times, float))
 
     def _at(self, time: Array) -> Array:
         found = jnp.asarray(self.start, time.dtype)
@@ -164,6 +163,15 @@ class MotionLaw:
                 each.axvline(segment_end, color="0.7", linewidth=0.8)
         axes[-1].set_xlabel("time")
         return save_figure(figure, target)
+
+
+@partial(whole_program, static=(0, 1))
+def _evaluated(law: MotionLaw, order: int, times: Float[Array, " poses"]) -> Float[Array, " poses"]:
+    """Compute a derivative of a motion law in one program: each operation by itself would be compiled, too."""
+    function = law._at
+    for _ in range(order):
+        function = _derivative(function)
+    return jax.vmap(function)(times)
 
 
 def _derivative(function: Callable[[Array], Array]) -> Callable[[Array], Array]:

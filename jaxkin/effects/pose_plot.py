@@ -33,13 +33,15 @@ def draw_lines(
     axes = figure.add_subplot()
     for name, row in zip(names, rows, strict=True):
         axes.plot(np.arange(len(row)) if at is None else at, np.where(np.isfinite(row), row, np.nan), label=name)
+    # zero is where parts touch and where forces change sign: it is always seen
+    axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=1)
     for place, marker in marks:
         axes.plot(place, 0.0, marker, color="black")
     axes.set(xlabel=along, ylabel=label)
     axes.set_title(title, fontsize="medium")
     axes.grid(alpha=0.3)
     if names:
-        figure.legend(fontsize="small", frameon=False, loc="outside lower center")
+        figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=min(len(names), 3))
     return save_figure(figure, path)
 
 

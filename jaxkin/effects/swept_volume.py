@@ -131,7 +131,8 @@ class SweptVolume:
             axes.imshow(seen.T, origin="lower", extent=extent, cmap="Blues_r", vmin=0.0, vmax=1.25)
             unit = f" ({self.unit})" if self.unit else ""
             axes.set(xlabel="xyz"[right] + unit, ylabel="xyz"[up] + unit)
-        figure.suptitle(f"swept by {self.part}, {self.volume:.5g} {self.unit or 'units'}^3", fontsize="medium")
+        volume = f"{self.volume:.5g}" if self.volume < 1e5 else f"{self.volume:,.0f}"
+        figure.suptitle(f"swept by {self.part}, {volume} {self.unit or 'units'}$^3$", fontsize="medium")
         return save_figure(figure, path)
 
     def save(self, path: str | Path) -> Path:

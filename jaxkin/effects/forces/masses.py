@@ -137,8 +137,10 @@ def masses(
             missing.append(name)
     if missing:
         raise ValueError(_what_is_missing(missing, solids, density))
+    # known numbers are put together on the host, where nothing is compiled for it
+    xp = jnp if traced(rows) else np
     mass, centre, inertia = (
-        jnp.stack([jnp.asarray(each, float) for each in column]) for column in zip(*rows, strict=True)
+        jnp.asarray(xp.stack([xp.asarray(each, float) for each in column])) for column in zip(*rows, strict=True)
     )
     return Masses(mechanism.parts, mass, centre, inertia, mechanism.unit)
 

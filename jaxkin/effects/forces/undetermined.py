@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import jax
 import numpy as np
@@ -10,9 +11,12 @@ from jaxtyping import Float
 
 from jaxkin._traced import traced
 from jaxkin.effects.forces.balance import Balance, balance
+from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.screws import places
+from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import known_motion
 from jaxkin.mechanism.motion import Motion
+from jaxkin.solve.execution.compiler import whole_program
 
 COMPONENTS = ("torque x", "torque y", "torque z", "force x", "force y", "force z")
 MAX_POSES = 3
@@ -54,11 +58,15 @@ def undetermined(motion: Motion) -> tuple[Undetermined, ...]:
     )
     drive, known = known_motion(some)
     driven = tuple((joint, k) for _, joint, k in drive.driven)
-    linkage = motion.mechanism.linkage
-    at = places(linkage, known.displacements, chords=True)
-    system = jax.tree.map(np.asarray, balance(linkage, at, known.displacements, driven))
+    system = jax.tree.map(np.asarray, _placed(driven, motion.mechanism.linkage, known.displacements))
     found = [_at(some, system, driven, pose) for pose in range(len(chosen))]
     return min(found, key=lambda each: each[0])[1]
+
+
+@partial(whole_program, static=(0,))
+def _placed(driven: tuple[tuple[int, int], ...], linkage: Linkage, displacements: Rows) -> Balance:
+    """Place all joints in one program: each operation by itself would be compiled, too."""
+    return balance(linkage, places(linkage, displacements, chords=True), displacements, driven)
 
 
 def _joint_at(system: Balance, joint: int, free: list[int], pose: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -4,6 +4,7 @@ Tolerance: 1e-8 of the largest force; the balance squares the condition of the c
 """
 
 from dataclasses import replace
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -205,3 +206,26 @@ def test_a_linkage_that_is_not_overconstrained_is_determined():
     plain = jk.reactions(planar.sweep({"A": TURN[:20]}), applied=jk.force("coupler", (30, 60, 0), (5, -3, 2)))
     for name in "ABCD":
         np.testing.assert_allclose(found.forces[name][:, :2], plain.forces[name][:, :2], atol=1e-8)
+
+
+@pytest.mark.long
+def test_many_poses_are_those_of_few():
+    """More poses than a group has, which they do not fill, with loads of each pose: every 70th is as it is alone."""
+    mechanism, few = fourbar(), slice(None, None, 70)
+    inputs = np.linspace(0.0, 2 * np.pi, 701)
+    push = np.stack([np.sin(3 * inputs), np.cos(inputs), 0.1 * inputs], axis=1)
+    masses = jk.masses(mechanism, given=FOURBAR_MASSES)
+
+    def given(some: slice) -> dict[str, Any]:
+        loads = [jk.force("coupler", (30.0, 60.0, 0.0), push[some], turns=True), jk.joint_load("D", push[some, 1])]
+        return dict(gravity=GRAVITY, applied=[*loads, *FOURBAR_SPRINGS], rates={"A": RATE})
+
+    motion, some = mechanism.sweep({"A": inputs}), mechanism.sweep({"A": inputs[few]})
+    every, alone = jk.reactions(motion, masses, **given(slice(None))), jk.reactions(some, masses, **given(few))
+    for name, forces in alone.forces.items():
+        assert every.forces[name].shape == (701, 3)
+        np.testing.assert_allclose(every.forces[name][few], forces, atol=1e-8 * np.abs(forces).max())
+        torques = alone.torques[name]
+        np.testing.assert_allclose(every.torques[name][few], torques, atol=1e-8 * np.abs(torques).max())
+    drive = jk.drive_forces(motion, masses, **given(slice(None))).forces["A.phi"]
+    np.testing.assert_allclose(every.drives["A.phi"], drive, atol=1e-8 * np.abs(drive).max())
