@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from jaxkin.joints.pairs import revolute, spherical
 from jaxkin.linkage.loop_class import LoopClass
+from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, scaled_geometry
 from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, turn_between
 from jaxkin.solve.execution.programs import solve
@@ -51,6 +53,20 @@ def test_only_balls_of_one_loop_that_nothing_drives_are_cut():
         ball, *_ = driven.cuts[0]
         free = LoopSystem(driven.movements, driven.loops, driven.balls[ball], driven.loop_class)
         assert ball not in free.cuts[0] and len(free.cuts[0]) == len(driven.cuts[0]) - 1
+
+
+def test_a_loop_whose_only_unknowns_are_those_of_a_cut_ball_is_followed():
+    """There is no block of equations to solve, and no determinant: the ball turns back what the arm turns."""
+    mechanism = Mechanism.build(
+        fixed=["ground"],
+        joints=[
+            revolute("A", "ground", "arm", point=(0, 0, 0), axis=(0, 0, 1)),
+            spherical("S", "arm", "ground", point=(0, 0, 1)),
+        ],
+    )
+    angle = np.linspace(0.0, 3.0, 5)
+    motion = mechanism.sweep({"A": angle}, throw=True)
+    np.testing.assert_allclose(motion.coordinates["S"], [(0, 0, -a) for a in angle], atol=1e-14)
 
 
 @pytest.mark.long

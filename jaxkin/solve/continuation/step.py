@@ -142,7 +142,9 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
 
     ratio = determinant_ratio(fronts.jacobian, found.closure.jacobian, equation_blocks(system))
     # every field of the fronts depends on the decision: XLA would compute it anew for each
-    good, step = computed_once(lambda ratio: _decision(fronts, attempt, found.state, closed, ratio), ratio)
+    good, step = computed_once(
+        lambda moved: _decision(fronts, attempt._replace(moved=moved), found.state, closed, ratio), attempt.moved
+    )
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
     lost = attempt.following & ~good & fronts.along_tangent & (distance <= shortest)
 
