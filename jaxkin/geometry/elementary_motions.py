@@ -101,3 +101,22 @@ def displaced_columns(columns: Sequence[Any], axis: int, advance: Any, turn: tup
         cos, sin = turn
         columns[j], columns[k] = columns[j] * cos + columns[k] * sin, columns[k] * cos - columns[j] * sin
     return columns
+
+
+def displaced_point(
+    point: Sequence[Any], axis: int, advance: Any, turn: tuple[Any, ...] | None, back: bool
+) -> tuple[Any, Any, Any]:
+    """Displace a point (x, y, z) of the local frame by an elementary motion E, or `back` by its inverse.
+
+    `axis`, `advance` and `turn` are those of `displaced_columns`.
+    """
+    i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
+    rows = list(point)
+    if advance is not None and back:
+        rows[i] = rows[i] - advance
+    if turn is not None:
+        cos, sin = turn[0], -turn[1] if back else turn[1]
+        rows[j], rows[k] = cos * rows[j] - sin * rows[k], sin * rows[j] + cos * rows[k]
+    if advance is not None and not back:
+        rows[i] = rows[i] + advance
+    return rows[0], rows[1], rows[2]

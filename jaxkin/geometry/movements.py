@@ -17,7 +17,7 @@ from typing import Literal, NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.elementary_motions import ElementaryMotion, Law, amount, displaced_columns
+from jaxkin.geometry.elementary_motions import ElementaryMotion, Law, amount, displaced_columns, displaced_point
 from jaxkin.geometry.figures import ROD, BallFigure, BoxFigure, CylinderFigure, Figure
 from jaxkin.geometry.patches import Followed
 from jaxkin.geometry.rigid import Rigid
@@ -276,3 +276,24 @@ def displaced(
         columns = displaced_columns([frame[:, column] for column in range(4)], element.axis, *how_far)
         frame = jnp.stack(jnp.broadcast_arrays(*columns), axis=1)
     return frame
+
+
+def carried(
+    point: Float[Array, "3 #poses"],
+    movement: str,
+    q: Float[Array, "k poses"],
+    pitch: Float[Array, ""] | float,
+    curve: Followed | None,
+    back: bool,
+) -> Float[Array, "3 poses"]:
+    """Displace a point of a frame by a movement T, in the axes of the frame, or `back` by its inverse.
+
+    Arguments are those of `displaced`.
+    """
+    followed = None if curve is None else curve.spline(jnp).at(*q, xp=jnp)
+    rows = tuple(point)
+    elements = MOVEMENTS[movement].elements
+    for element in elements if back else reversed(elements):
+        how_far = amount(element, q[element.coordinate], pitch, followed, cos_sin)
+        rows = displaced_point(rows, element.axis, *how_far, back)
+    return jnp.stack(jnp.broadcast_arrays(*rows))

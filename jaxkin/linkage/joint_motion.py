@@ -11,7 +11,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin._traced import traced
-from jaxkin.geometry.movements import MOVEMENTS, displaced
+from jaxkin.geometry.movements import MOVEMENTS, carried, displaced
 from jaxkin.geometry.rigid import Rigid, as_matrices, as_rigid, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -68,6 +68,40 @@ def moving_parts(
         # without this barrier XLA computes the whole chain anew for every child part, and rounds it otherwise
         found[part] = lax.optimization_barrier(product(found[parent], moved) if parent in found else moved)
     return found
+
+
+def point_path(
+    linkage: Linkage, displacements: Displacements, part: str, point: Float[Array, "3"]
+) -> Float[Array, "poses 3"]:
+    """Compute the path of a point of a part, given where it is in the assembled pose, in the world.
+
+    The point is carried from joint to joint down to the fixed parts: that takes a fraction of the operations of the
+    displacements of the parts, and of their derivatives.
+    """
+    hangs = {part: (parent, joint, sign) for part, parent, joint, sign in linkage.structure.tree}
+    here, poses = point[:, None], displacements[0].shape[0]
+    while part in hangs:
+        part, joint, sign = hangs[part]
+        here = _carried(linkage.joints[joint], jnp.asarray(displacements[joint]), here, sign)
+    return jnp.broadcast_to(here, (3, poses)).T
+
+
+def _carried(joint: Joint, q: Float[Array, "poses _"], point: Float[Array, "3 #poses"], sign: int) -> Array:
+    """Apply the displacement of a joint to a point, or its inverse where `sign` is negative."""
+    first, steps = 0, []
+    for frame, movement in enumerate(joint.movements):
+        count = len(MOVEMENTS[movement].coordinates)
+        steps.append((movement, frame, q[:, first : first + count].T))
+        first += count
+    enter, leave = (joint.frames_2, joint.frames_1) if sign > 0 else (joint.frames_1, joint.frames_2)
+    for movement, frame, own in reversed(steps) if sign > 0 else steps:
+        before, after = (jnp.asarray(side[frame], q.dtype) for side in (enter, leave))
+        curve = joint.curves[frame] if joint.curves else None
+        # products of matrices, whose derivatives by the frames add up all poses at once
+        local = before[:3, :3].T @ (point - before[:3, 3:])
+        local = carried(local, movement, own, jnp.asarray(joint.pitch, q.dtype), curve, back=sign < 0)
+        point = after[:3, :3] @ local + after[:3, 3:]
+    return point
 
 
 def joint_motion(joint: Joint, q: Float[Array, "poses _"]) -> Float[Array, "3 4 poses"]:

@@ -18,7 +18,7 @@ from jaxkin._named import Named
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.linkage.joint_motion import part_transforms
+from jaxkin.linkage.joint_motion import part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, limit_report
 from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
@@ -146,8 +146,10 @@ class Motion:
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Compute the path of a point of a part, given where it is in the assembled pose (world coordinates)."""
-        if part not in self.transforms:
+        if part not in self.mechanism.parts:
             raise ValueError(f"there is no part {part!r}{nearest(part, self.mechanism.parts)}")
+        if traced((self.mechanism.linkage, self.displacements, point)):
+            return point_path(self.mechanism.linkage, self.displacements, part, as_point(point))
         transforms = self.transforms[part]
         return jnp.einsum("pij,j->pi", transforms[:, :3, :3], as_point(point)) + transforms[:, :3, 3]
 

@@ -93,6 +93,45 @@ def test_slopes_of_a_chain_forward_and_backward(arm, angles):
     np.testing.assert_allclose(jnp.vdot(backward, along), jnp.vdot(found, forward), rtol=1e-12)
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("fixed", "part"), ["ah", "ha"])
+def test_a_point_is_carried_as_its_part_is_displaced(fixed, part):
+    """Through joints of all movements in space, from either end of the chain, with the same derivatives."""
+    at = {"point": (3.0, 1.0, -2.0)}
+    joints = [
+        jk.cylindrical("ab", "a", "b", axis=AXES["A"], **at),
+        jk.spherical("bc", "b", "c", point=POINTS["B"]),
+        jk.screw("cd", "c", "d", axis=AXES["B"], pitch=4.0, point=POINTS["C"]),
+        jk.universal("de", "d", "e", axis1=(1.0, 0.0, 0.0), axis2=(0.0, 1.0, 0.0), **at),
+        jk.planar("ef", "e", "f", normal=AXES["C"], **at),
+        jk.fixed("fg", "f", "g"),
+        jk.prismatic("gh", "g", "h", axis=AXES["A"]),
+    ]
+    mechanism = jk.Mechanism.build(fixed=[fixed], joints=joints)
+    random = np.random.default_rng(2)
+    q = tuple(jnp.asarray(random.uniform(-3, 3, (4, joint.freedoms))) for joint in joints)
+    point = np.array([20.0, -7.0, 11.0])
+
+    def carried(linkage, q):
+        return joint_motion.point_path(linkage, q, part, jnp.asarray(point))
+
+    def displaced(linkage, q):
+        found = part_transforms(linkage, q)[mechanism.parts.index(part)]
+        return found[:, :3, :3] @ point + found[:, :3, 3]
+
+    def rate(leaf):
+        """Of a number any, of frames that of a rigid displacement: a skew matrix and a shift, times the frames."""
+        skew = np.zeros((4, 4))
+        skew[:3, :3], skew[:3, 3] = np.cross(np.eye(3), random.uniform(-1, 1, 3)), random.uniform(-9, 9, 3)
+        return skew @ leaf if leaf.ndim == 3 else jnp.cos(leaf)
+
+    along = jax.tree.map(rate, (mechanism.linkage, q))
+    one, other = (jax.jit(lambda *at, f=f: jax.jvp(f, at, along))(mechanism.linkage, q) for f in (carried, displaced))
+    for found, expected in zip(one, other, strict=True):
+        # some hundred roundings of what was multiplied: lengths of 100 mm, slopes of frames as large as their places
+        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(np.asarray(expected)).max())
+
+
 def test_a_name_that_is_not_there_is_answered_with_those_that_are(arm):
     motion = arm.sweep({"A": np.zeros(2)})
     for named, unknown, answer in (

@@ -5,6 +5,7 @@
 | `complex_numbers`, `coordinate` | | turns as complex numbers; a coordinate known as a number or as a turn |
 | `equations` | A cos x + B sin x = C; (s + b)^2 = c | one angle; one displacement |
 | `planar_dyad` | planar, of turns R and slides P: RRR; RRP, RPR, PRR; RPP, PRP, PPR | three |
+| `planar_derivative` | the same | their derivatives, by the screws of a pose |
 | `spherical_triangle` | turns about axes through one point: RRR | three angles |
 | `rod` | a rod between two balls, whose other joints are known but for one | one angle or displacement |
 

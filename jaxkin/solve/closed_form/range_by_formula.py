@@ -36,6 +36,7 @@ from jaxkin.solve.closed_form.line import (
     turn_nodes,
     unknown_angles,
 )
+from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_groups, solve_once
 from jaxkin.solve.closed_form.way import at_intervals, reach, way
 from jaxkin.solve.closure.closure import scaled_geometry
@@ -134,7 +135,8 @@ def displacements_by_formula(
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
     `axes` are those of the joints, where they are known already. Displacements are in radians and lengths of the
-    mechanism. The derivatives are those of the formulas; a pose that did not close has derivatives of zero.
+    mechanism. The derivatives are those of the formulas, in the plane by the screws of the pose (`planar_derivative`);
+    a pose that did not close has derivatives of zero.
     """
     axes = assembled_axes(system, joints) if axes is None else axes
     found = lax.stop_gradient(found)
@@ -157,6 +159,12 @@ def _with_derivative(
 def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     axes, values, found = primals
     closed = is_closed(found.status)
+    if system.planar:
+        # what was found is a function of axes and inputs, too, for the next derivative
+        rows = _with_derivative(system, *primals)
+        d_axes, d_values, _ = tangents
+        slopes = planar_slopes(system, axes, rows, d_axes, d_values)
+        return rows, tuple(jnp.where(closed, slope, 0.0) for slope in slopes)
 
     def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> tuple[Float[Array, " poses"], ...]:
         solved = solve_groups(system, axes, list(found.signs), jnp.where(closed, values, 0.0))
