@@ -42,7 +42,11 @@ class Proposal:
     """Why nothing can be driven; empty where something can."""
 
     def __str__(self) -> str:
-        lines = f"fixed = {list(self.fixed)!r}"
+        return self.told(())
+
+    def told(self, others: Sequence[Proposal]) -> str:
+        """Tell the proposal in one line, with the parts of `others` that have the same effect."""
+        lines = f"fixed = {list(self.fixed)!r}" + "".join(f" or {list(each.fixed)!r}" for each in others)
         if self.problem:
             return f"with {lines}: {self.problem}"
         count = "one freedom" if self.freedoms == 1 else f"{self.freedoms} freedoms"
@@ -51,6 +55,15 @@ class Proposal:
         names = " and ".join(told) if more <= 0 else f"{', '.join(told[:_TOLD])} and {more} more"
         moves = "one joint moves" if self.moving == 1 else f"{self.moving} joints move"
         return f"with {lines} it has {count} in {self.bodies} bodies, and {names} can be driven; {moves}"
+
+
+def grouped(found: Sequence[Proposal]) -> list[str]:
+    """Tell proposals, those of the same effect in one line, each where the first of them comes."""
+    alike: dict[tuple, list[Proposal]] = {}
+    for each in found:
+        effect = (each.drive, each.freedoms, each.bodies, each.moving, each.problem)
+        alike.setdefault(effect, []).append(each)
+    return [first.told(others) for first, *others in alike.values()]
 
 
 MIN_MOVING = 0.5

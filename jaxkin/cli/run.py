@@ -123,14 +123,15 @@ def found(files: Sequence[Path], options: Options, step: Steps) -> Study:
 def proposed(study: Study, assembly: Assembly) -> tuple[Study, tuple[Proposal, ...]]:
     """Find the study with the parts fixed that do best of those that are tried; all proposals, which are printed
     too."""
+    from jaxkin.assembly.proposals import grouped
     from jaxkin.cli import report
 
     with progress(1) as step:
         step("trying what to fix and to drive")
         found = assembly.without(study.exclude).proposals(progress=step.within)
     report.say("No part is fixed. What was tried, the best first:")
-    for each in found:
-        report.say(f"  {each}")
+    for line in grouped(found):
+        report.say(f"  {line}")
     report.say()
     return replace(study, fixed=found[0].fixed), found
 

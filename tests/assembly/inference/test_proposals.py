@@ -3,6 +3,7 @@
 import pytest
 
 import jaxkin as jk
+from jaxkin.assembly.proposals import grouped
 from jaxkin.examples import path
 from reference.round_parts import assembly, block, part, pin, ring
 
@@ -45,6 +46,12 @@ def test_many_coordinates_are_counted():
     drive = tuple(f"j{number}.phi" for number in range(18))
     told = str(jk.Proposal(("base",), drive, 18, 19, 18))
     assert "'j0.phi'" in told and "and 13 more can be driven" in told and "'j17.phi'" not in told
+
+
+def test_proposals_of_one_effect_are_told_in_one_line():
+    one, other = (jk.Proposal((name,), ("a.phi",), 1, 3, 2) for name in ("base", "lid"))
+    lines = grouped([one, jk.Proposal(("arm",), ("b.phi",), 2, 3, 2), other])
+    assert len(lines) == 2 and lines[0].startswith("with fixed = ['base'] or ['lid'] it has one freedom")
 
 
 def test_several_fixed_parts_that_still_most_of_what_moves_come_after_single_ones():
