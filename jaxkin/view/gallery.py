@@ -19,7 +19,7 @@ from jaxkin.view.glass import canvas_of, see_through
 from jaxkin.view.illustration import INK, Canvas
 from jaxkin.view.inspection import legend_of_regions
 from jaxkin.view.regions import Region, region_of
-from jaxkin.view.sheet import CAPTION, GREY, MARGIN, clip, draw_legend, make_sheet
+from jaxkin.view.sheet import CAPTION, GREY, MARGIN, draw_legend, fitted, make_sheet
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
@@ -58,7 +58,7 @@ def draw_gallery(assembly: Assembly, path: Path | str, *, contacts: Sequence[Con
         sheet.write((left, top + 6), f"({contact.state})  {state.name}", 9, INK, weight="bold")
         freedoms = f"{state.freedoms} freedom{'' if state.freedoms == 1 else 's'}"
         sheet.write((left, top + 29), f"{contact.region}, {freedoms}", 7, GREY)
-    sheet.write((MARGIN, 50), clip(assembly.source, sheet.width // 18), 13, INK, weight="bold")
+    sheet.write((MARGIN, 50), fitted(assembly.source, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
     sheet.write((MARGIN, 87), f"{len(contacts)} contact{'' if len(contacts) == 1 else 's'}", 9, GREY)
     draw_legend(sheet, entries)
     with whole(Path(path)) as draft:

@@ -16,7 +16,7 @@ from jaxkin.view.drawing import FIXED_COLOR, PALETTE
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of
-from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Color, clip, draw_legend, draw_scale, make_sheet
+from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Color, clip, draw_legend, draw_scale, fitted, make_sheet
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -60,7 +60,7 @@ def draw_inspection(
         draw_axes(sheet, mechanism, _size(assembly), corner)
     else:
         draw_states(sheet, contacts, corner)
-    sheet.write((MARGIN, 50), clip(assembly.source, sheet.width // 18), 13, INK, weight="bold")
+    sheet.write((MARGIN, 50), fitted(assembly.source, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
     facts = [f"{len(assembly.parts)} parts", f"{len(contacts)} contact{'' if len(contacts) == 1 else 's'}"]
     facts += [f"{len(mechanism.all_joints)} joints"] if mechanism else []
     sheet.write((MARGIN, 87), "  ·  ".join([*facts, f"lengths in {assembly.unit}"]), 9, GREY)

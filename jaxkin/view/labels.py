@@ -48,7 +48,12 @@ def named(inputs: tuple[Input, ...], pose: int) -> str:
 
 def title(inputs: tuple[Input, ...], pose: int) -> str:
     """Write the bare value where a single joint is driven, otherwise as `named`."""
-    return inputs[0].at(pose) if len(inputs) == 1 else named(inputs, pose)
+    return values(inputs, pose) if len(inputs) == 1 else named(inputs, pose)
+
+
+def values(inputs: tuple[Input, ...], pose: int) -> str:
+    """Write the driven displacements at a pose without their names, in the order of the headline; of many the first."""
+    return _some([entry.at(pose) for entry in inputs], ", ")
 
 
 def headline(motion: Motion) -> tuple[str, str]:

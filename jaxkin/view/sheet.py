@@ -99,6 +99,23 @@ def draw_scale(sheet: Sheet, unit: str) -> None:
     sheet.write(((left + right) / 2, y - 18), f"{length:g} {unit}".strip(), 8, GREY, ha="center")
 
 
+def text_width(text: str, size: int, weight: str = "normal") -> float:
+    """Measure a line of text as `Sheet.write` writes it, in pixels."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import text_to_path
+
+    width, _, _ = text_to_path.get_text_width_height_descent(text, FontProperties(size=size, weight=weight), False)
+    return width * DPI / 72
+
+
+def fitted(text: str, room: float, size: int, weight: str = "normal") -> str:
+    """Return the text, cut off where it is wider than so many pixels."""
+    letters = len(text)
+    while letters > 1 and text_width(clip(text, letters), size, weight) > room:
+        letters -= 1
+    return clip(text, letters)
+
+
 def clip(text: str, letters: int) -> str:
     """Return the text, cut off where it is longer."""
     return text if len(text) <= letters else f"{text[: letters - 1]}…"

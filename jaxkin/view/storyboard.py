@@ -10,10 +10,22 @@ import numpy as np
 
 from jaxkin.view.drawing import body_label
 from jaxkin.view.illustration import FAINT_INK, INK, Canvas, Layer, compose, draw
-from jaxkin.view.labels import Input, headline, inputs, title
+from jaxkin.view.labels import Input, headline, inputs, title, values
 from jaxkin.view.lost_marks import WARNING, told
 from jaxkin.view.scene import Scene, make_scene
-from jaxkin.view.sheet import CAPTION, GREY, MARGIN, Sheet, clip, draw_legend, draw_scale, make_sheet
+from jaxkin.view.sheet import (
+    CAPTION,
+    GAP,
+    GREY,
+    MARGIN,
+    Sheet,
+    clip,
+    draw_legend,
+    draw_scale,
+    fitted,
+    make_sheet,
+    text_width,
+)
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -66,7 +78,7 @@ def storyboard(
     sheet = make_sheet(_canvas(scene, WIDTHS[columns]), columns, -(-len(shown) // columns) or 1, entries)
     _panels(sheet, scene, inputs(motion), shown)
     first, second = headline(motion)
-    sheet.write((MARGIN, 50), clip(first, sheet.width // 18), 13, INK, weight="bold")
+    sheet.write((MARGIN, 50), fitted(first, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
     sheet.write((MARGIN, 87), second, 9, GREY)
     draw_legend(sheet, entries)
     draw_scale(sheet, motion.mechanism.unit)
@@ -123,12 +135,13 @@ def _panels(sheet: Sheet, scene: Scene, entries: tuple[Input, ...], shown: list[
     fixed, ghost = (_layer(scene, canvas, still, None) for still in (True, False))
     for index, pose in enumerate(shown or [None]):
         left, top = sheet.place(index)
-        caption, color = ("the assembled pose", GREY) if pose is None else (title(entries, pose), INK)
-        warning = "" if pose is None else told(scene.lost, pose)
-        caption = clip(caption, canvas.width // (26 if warning else 13))
-        sheet.write((left, top + 14), caption, 10, color, weight="bold")
-        warning = clip(warning, (canvas.width - 13 * len(caption)) // 12)
+        warning = "" if pose is None else fitted(told(scene.lost, pose), canvas.width / 2, 9, "bold")
         sheet.write((left + canvas.width, top + 14), warning, 9, WARNING, weight="bold", ha="right")
+        room = canvas.width - (text_width(warning, 9, "bold") + GAP / 2 if warning else 0)
+        caption, color = ("the assembled pose", GREY) if pose is None else (title(entries, pose), INK)
+        if pose is not None and text_width(caption, 10, "bold") > room:
+            caption = values(entries, pose)
+        sheet.write((left, top + 14), fitted(caption, room, 10, "bold"), 10, color, weight="bold")
         moving = draw(canvas, [], []) if pose is None else _layer(scene, canvas, False, pose)
         image = compose(fixed, moving, ghost)
         sheet.figure.figimage(image, xo=left, yo=sheet.height - top - CAPTION - canvas.height)  # pixel on pixel
