@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from jaxkin.view.labels import Input, named, title
+from jaxkin.view.labels import Input, named, title, values
+from jaxkin.view.sheet import fitted, text_width
 
 
 @pytest.mark.parametrize(
@@ -24,3 +25,14 @@ def test_one_input_needs_no_name_and_of_many_some_are_told():
     assert title(entries[1:2], 0) == "10°" and named(entries[1:2], 0) == "j1 10°"
     assert title(entries[:2], 0) == named(entries[:2], 0) == "j0 0°, j1 10°"
     assert named(entries, 0) == "j0 0°, j1 10°, j2 20° and 2 more"
+    assert values(entries, 0) == "0°, 10°, 20° and 2 more"
+
+
+@pytest.mark.parametrize("text", ["iiiiiiiiiiiiiiiiiiiiiiii", "WWWWWWWWWWWWWWWWWWWWWWWW", "Kurbel #2, Höhe 3°"])
+def test_a_text_is_cut_to_its_measured_width(text):
+    """The longest beginning that fits: a letter more is too wide."""
+    whole = text_width(text, 10, "bold")
+    assert fitted(text, whole, 10, "bold") == text
+    cut = fitted(text, whole / 2, 10, "bold")
+    assert cut[-1] == "…" and text.startswith(cut[:-1])
+    assert text_width(cut, 10, "bold") <= whole / 2 < text_width(f"{text[: len(cut)]}…", 10, "bold")
