@@ -1,11 +1,14 @@
 """Cold starts: from process start to a finished sweep of 360 poses, each mechanism in processes of its own.
 
     python benchmarks/cold.py [NAME ...]
+    python benchmarks/cold.py derivatives
 
 *first* runs find no compiled program, *again* those find them in JAX's persistent cache, with the settings that the
 command line makes. Python's own compiled modules are there in both, as they are once a package is installed and used:
 they are kept in a temporary folder, whatever the environment says. Processor time counts all threads; of *again* the
 least of two runs. `imports` is the part of the processor time before the mechanism is made, `solids` its making.
+
+`derivatives` times first calls in one process, after a sweep of the four-bar of 360 poses: nothing is stored.
 """
 
 from __future__ import annotations
@@ -89,8 +92,42 @@ def main(names: list[str]) -> None:
             )
 
 
+def derivatives() -> None:
+    """Print the processor time of first derivatives of a rocker's angle, by the inputs and by a length."""
+    import jax
+    import jax.numpy as jnp
+
+    jax.config.update("jax_enable_x64", True)
+    from cases import CASES
+
+    make, drive = CASES["four-bar"]
+    mechanism, ((joint, angles),) = make(), drive(POSES).items()
+    angles = jnp.asarray(angles)
+    part, length = next((key, value) for key, value in mechanism.lengths.items() if len(key) == 3)
+    last = list(mechanism.joints)[-1]
+
+    def output(inputs, change):
+        changed = mechanism.with_lengths({part: length + change}) if change is not None else mechanism
+        return jnp.sum(changed.sweep({joint: inputs}).coordinates[last][:, 0] ** 2)
+
+    mechanism.sweep({joint: angles})
+    calls = {
+        "jvp by the inputs": lambda: jax.jvp(lambda u: output(u, None), (angles,), (jnp.ones(POSES),)),
+        "grad by the inputs": lambda: jax.grad(output)(angles, None),
+        "the same inside jit": lambda: jax.jit(lambda u: jax.grad(output)(u, None))(angles),
+        "grad by a length": lambda: jax.grad(output, 1)(angles, 0.0),
+        "that inside jit": lambda: jax.jit(jax.grad(output, 1))(angles, 0.0),
+    }
+    for name, call in calls.items():
+        begin = time.process_time()
+        jax.block_until_ready(call())
+        print(f"{name:20}{time.process_time() - begin:>8.1f} s", flush=True)
+
+
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--one"]:
         child(sys.argv[2])
+    elif sys.argv[1:2] == ["derivatives"]:
+        derivatives()
     else:
         main(sys.argv[1:])
