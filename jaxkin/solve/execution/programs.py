@@ -150,13 +150,15 @@ def _poses_by_formula(
 ) -> FormulaPoses:
     """Find poses by formulas; where the geometry is traced, there are no `axes` and no `line` yet."""
     count_trace()
-    if axes is not None and line is not None:
-        return find_poses_by_formula(system, axes, line, inputs, tolerance)
 
-    def find(joints: Joints, inputs: Array, tolerance: ClosureTolerance) -> FormulaPoses:
+    def find(
+        joints: Joints, inputs: Array, tolerance: ClosureTolerance, axes: Axes | None, line: Line | None
+    ) -> FormulaPoses:
+        if axes is not None and line is not None:
+            return find_poses_by_formula(system, axes, line, inputs, tolerance)
         return find_poses_and_line(system, assembled_axes(system, joints), inputs, tolerance)
 
-    return by_formulas_in_groups(find)(joints, inputs, tolerance)
+    return by_formulas_in_groups(find)(joints, inputs, tolerance, axes, line)
 
 
 def _of_all_designs(
