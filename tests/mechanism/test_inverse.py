@@ -48,7 +48,7 @@ def test_with_fewer_targets_the_inputs_move_as_little_as_they_can():
     np.testing.assert_allclose(there, goals, atol=1e-12)
     for move, slope in zip(q, slopes, strict=True):
         left = move - slope.T @ np.linalg.lstsq(slope.T, move, rcond=None)[0]
-        np.testing.assert_allclose(left, 0, atol=1e-9)  # steps become small linearly, and stop at 1e-13 of a turn
+        np.testing.assert_allclose(left, 0, atol=1e-12)  # the last step, 1e-13, becomes small linearly
 
 
 @pytest.mark.long

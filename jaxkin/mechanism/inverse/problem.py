@@ -40,6 +40,9 @@ RESTORATIONS = 3
 """Newton's steps by which the loops are closed after each step at most."""
 CLOSED = 1e-12
 """Closure residual up to which a pose is closed: the default tolerance of `sweep`."""
+ROUNDED = 1e-14
+"""Error, in radians and sizes, that is rounding: a step that leaves no more is right, whatever it was before. Rounding
+would refuse the last steps of inputs to where they rest, which change errors by less."""
 DAMPING = 1e-3
 """Damping after the first step that is refused."""
 GOOD = 0.5
@@ -110,9 +113,10 @@ class Problem:
                 break
             tried = x + found.move * np.minimum(1.0, LARGEST / np.maximum(largest, CONVERGED))[:, None]
             tried, there, reached = self._restored(tried, bounds, share)
-            taken = reached <= merit + FURTHER * found.to_rest**4
+            met = reached <= ROUNDED**2
+            taken = met | (reached <= merit + FURTHER * found.to_rest**4)
             errors = [np.sum(each.targets**2, axis=1) for each in (now, there)]
-            as_foreseen = errors[0] - errors[1] >= GOOD * (errors[0] - found.foreseen)
+            as_foreseen = met | (errors[0] - errors[1] >= GOOD * (errors[0] - found.foreseen))
             x = np.where(taken[:, None], tried, x)
             now = Equations(*(_where(taken, new, old) for new, old in zip(there, now, strict=True)))
             merit = np.where(taken, reached, merit)
