@@ -1,16 +1,19 @@
 """Many designs at once, what derivatives cost, and time to a given loss, beside what else there is, in one process.
 
     python benchmarks/design.py [gradient] [ratios] [batch] [race]
+    python benchmarks/design.py paths [a b c d e]
 
 Beside formulas written by hand in JAX; pylinkage's `Ensemble` where it is installed (`uv run --group peers`); SciPy's
 least squares with finite differences.
 
-The shortest of repeated runs, results awaited, since other work on the machine only lengthens them. Machines differ:
+`paths` searches for a path problem from 64 starts, and again, each in a process of its own. Of all else, the shortest
+of repeated runs, results awaited, since other work on the machine only lengthens them. Machines differ:
 compare the figures of one run.
 """
 
 from __future__ import annotations
 
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -299,8 +302,38 @@ def _scipy(problem, chosen, weight, target, vector) -> tuple[bool, int]:
 _compiled: dict[int, tuple] = {}
 
 
+def paths(names: list[str]) -> None:
+    """Print the time of a first search for each path problem, and of the same again, and what they find."""
+    print(f"{'':4}{'first: cpu':>12}{'wall':>8}{'again: cpu':>14}{'wall':>8}{'process':>10}  [s]", end="")
+    print(f"{'published':>13}{'found':>13}", flush=True)
+    for name in names or PATHS:
+        subprocess.run([sys.executable, __file__, "path", name], check=True)
+
+
+def path(name: str) -> None:
+    """Print the row of one path problem."""
+    import jaxkin as jk
+
+    times = []
+    for _ in range(2):
+        begin = time.process_time(), time.perf_counter()
+        found = jk.optimize(**PATHS[name].arguments(), starts=64, progress=False)
+        times += [time.process_time() - begin[0], time.perf_counter() - begin[1]]
+    cells = "".join(f"{value:>{width}.1f}" for value, width in zip(times, (12, 8, 14, 8), strict=True))
+    print(
+        f"({name}) {cells}{time.process_time():>10.1f}     {PATHS[name].published:>13.5g}{found.value:>13.5g}",
+        flush=True,
+    )
+
+
 if __name__ == "__main__":
     jax.config.update("jax_enable_x64", True)
+    if sys.argv[1:2] == ["path"]:
+        path(sys.argv[2])
+        sys.exit()
     print(f"jax {jax.__version__}, {jax.devices()[0].device_kind}, float64\n")
+    if sys.argv[1:2] == ["paths"]:
+        paths(sys.argv[2:])
+        sys.exit()
     for name in sys.argv[1:] or ("gradient", "ratios", "batch", "race"):
         {"gradient": gradient, "ratios": ratios, "batch": batch, "race": race}[name]()
