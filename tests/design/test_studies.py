@@ -11,7 +11,7 @@ from jaxkin.examples.paths import BARS, fourbar
 from reference import catalogue, planar, spatial
 from reference.mechanisms import cam, rssr_linkage
 
-pytestmark = [pytest.mark.long, pytest.mark.study]
+pytestmark = pytest.mark.long
 
 
 def freudenstein(inputs, outputs):
@@ -33,7 +33,8 @@ def chebyshev(low, high, count):
 def test_function_generator():
     """y = x^1.5 for 1 <= x <= 4 at three Chebyshev points, 60 degrees of crank, 90 of rocker: Freudenstein's bars.
 
-    Three equations for three bars: the error falls to none, and the bars agree to 1e-6 as asked for.
+    Three equations for three bars: the error falls to none, and the bars agree to 1e-6 as asked for. These cannot be
+    assembled at the input from which displacements count, so that all poses of the best design are in doubt.
     """
     x = chebyshev(1.0, 4.0, 3)
     inputs = np.radians(60.0 + 60.0 * (x - 1.0) / 3.0)
@@ -54,6 +55,7 @@ def test_function_generator():
     assert best.value < 1e-16
 
 
+@pytest.mark.study
 def test_cam_for_a_wanted_lift():
     """The lift of an eccentric disc is e sin(angle): e = 8 and the angle it starts at come out; its radius is idle."""
     turn = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
@@ -70,6 +72,7 @@ def test_cam_for_a_wanted_lift():
     assert best.values["(touch, radius)"] == pytest.approx(15.0, rel=1e-6)
 
 
+@pytest.mark.study
 def test_spatial_four_bar():
     """Crank, rod and rocker of an RSSR from what its rocker does, to 1e-6; the rod's idle spin does not disturb."""
     truth, turn = rssr_linkage(0.3), np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
@@ -90,14 +93,15 @@ def jansen_step(foot):
     return np.ptp(foot[:181, 0]), np.ptp(foot[:181, 1])
 
 
+@pytest.mark.study
 def test_jansen_leg_with_a_flatter_and_longer_step():
     """Jansen's own half turn that is most level: 63.5 long, 1.76 from level. Wanted: 8% more, as level as can be.
 
     All lengths but the crank's may change by 30%, and the foot's place in the shin; it must be lifted by 22 as it is,
-    and not touch the ground on its way back (by more than 0.2).
+    and not touch the ground on its way back (by more than 0.2). Its transmission angles are to be 20 degrees at least.
     """
     leg, foot = catalogue.jansen(), planar.jansen(np.array([1.0])).foot[0]
-    half, turn = 13, np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
+    half, turn = 25, np.linspace(0.0, 2 * np.pi, 48, endpoint=False)
     own = [jansen_step(planar.jansen(first + np.linspace(0.0, np.pi, 181)).foot) for first in np.radians(range(360))]
     before = own[np.argmin([height for _, height in own])]
     assert before == pytest.approx((63.5, 1.76), abs=0.1)
@@ -111,8 +115,9 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
 
     def lifted(motion, extras):
         height = path_of(motion, extras)[half:, 1] - extras["ground"]
-        return jnp.append(height[5] - 22.0, height + 0.2) / 22.0
+        return jnp.append(height[11] - 22.0, height + 0.2) / 22.0
 
+    pins = [("W", ("Z0", "Y0")), ("U0", ("Z1", "Y1")), ("T", ("V", "U1"))]  # else it may lock between two poses
     keys = [("ground", "O", "Y0"), ("rocker", "Y1", "U0"), ("upper rod", "Z0", "W"), ("lower rod", "Z1", "U0")]
     keys += [("thigh", "Y0", "W"), ("thigh", "Y0", "V"), ("thigh", "W", "V"), ("link", "V", "T"), ("shin", "U1", "T")]
     best = jk.optimize(
@@ -127,7 +132,7 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
             "ground": design.Free(-91.7, -130.0, -60.0),
             "first": design.Free(-2.48, -3.5, -1.5),
         },
-        constraints=[lifted],
+        constraints=[lifted, *(design.transmission_within(*pin, *np.radians([20.0, 160.0])) for pin in pins)],
         solver=design.LevenbergMarquardt(iterations=60),
     )
     assert best.feasible and best.moves.everywhere
@@ -139,6 +144,7 @@ def test_jansen_leg_with_a_flatter_and_longer_step():
     assert np.ptp(found[:, 1]) > 22.0
 
 
+@pytest.mark.study
 def test_lengths_of_an_assembly_from_step():
     """A crank-rocker read from STEP, frame as it is: 50 degrees of swing with the best transmission.
 

@@ -135,8 +135,8 @@ def displacements_by_formula(
     """Compute the displacements of all joints in the poses found, as differentiable functions of joints and inputs.
 
     `axes` are those of the joints, where they are known already. Displacements are in radians and lengths of the
-    mechanism. The derivatives are those of the formulas, in the plane by the screws of the pose (`planar_derivative`);
-    a pose that did not close has derivatives of zero.
+    mechanism. The derivatives are those of the formulas, in the plane by the screws of the pose (`planar_derivative`),
+    also of poses that close and are in doubt; a pose that did not close has derivatives of zero.
     """
     axes = assembled_axes(system, joints) if axes is None else axes
     found = lax.stop_gradient(found)
@@ -160,6 +160,8 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     axes, values, found = primals
     closed = is_closed(found.status)
     if system.planar:
+        # loops of a pose in doubt close as well, and a search for a design is to get on from there
+        closed = closed | (found.status == Status.STALLED.value)
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)
         d_axes, d_values, _ = tangents
