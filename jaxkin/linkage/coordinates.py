@@ -82,7 +82,7 @@ def with_finite_inputs(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Boo
     on_host = all(isinstance(values, np.ndarray) for values in given)
     # under `jvp` and `grad` alone the numbers are known: to look at them here saves some twenty small programs
     numbers = given if on_host else lax.stop_gradient(given)
-    if not traced(numbers) and all(math.isfinite(np.sum(values)) for values in numbers):
+    if (on_host or not traced(numbers)) and all(math.isfinite(np.sum(values)) for values in numbers):
         return given, None
     xp = jnp if not on_host and traced(given) else np
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)

@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import is_round
-from jaxkin.assembly.inference.trapped import ACROSS, gap
+from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane, Sphere
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -22,8 +22,6 @@ FITTED = 0.02
 """Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
 MAX_ACROSS = 0.6
 """Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
-WIDER = 1.05
-"""Radius of a face of a pin that stops a hole on it, over that of the hole, at least."""
 MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5

@@ -6,12 +6,10 @@ import numpy as np
 
 from jaxkin.assembly.inference.fasteners import Stack
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.trapped import ACROSS, WIDER
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 
-WIDER = 1.05
-"""Distance of a head from the axis over the radius of the pin, at least."""
 NEAR = 1.0
 """Distance of heads from the outermost holes, over the radius of the pin, at most: with a washer that is not drawn."""
 

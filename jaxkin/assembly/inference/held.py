@@ -13,13 +13,11 @@ from jaxkin.assembly.inference.heads import is_headed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
-from jaxkin.assembly.inference.trapped import MAX_PLAY, play
+from jaxkin.assembly.inference.trapped import MAX_PLAY, WIDER, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
 """Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
-WIDER = 1.05
-"""Radius of a collar over that of the pin, at least."""
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
 STICKS_OUT = 2.0

@@ -29,7 +29,7 @@ MIN_MET = 0.02
 """Width, over the radius, of the ring about the axis in which two faces meet, at least: a piston passes a shoulder that
 begins where the piston ends."""
 
-_WIDER = 1.05
+WIDER = 1.05
 """Distance from the axis over the radius of a pin from which on it is shoulders that are met, not the pin itself."""
 
 
@@ -102,7 +102,7 @@ def between_bores(parts: Sequence[Part], pin: Bore, spans: Sequence[tuple[float,
     corners = np.concatenate([part.triangles.reshape(-1, 3) for part in parts]) - pin.point
     along = corners @ pin.axis
     away = np.linalg.norm(corners - np.outer(along, pin.axis), axis=1)
-    along = along[(away > _WIDER * pin.radius) & (away <= REACH * pin.radius)] + pin.point @ pin.axis
+    along = along[(away > WIDER * pin.radius) & (away <= REACH * pin.radius)] + pin.point @ pin.axis
     slack = MAX_OVERLAP * pin.radius
     for (_, low), (high, _) in pairwise(spans):
         inside = along[(along >= low - slack) & (along <= high + slack)]
