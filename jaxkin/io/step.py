@@ -30,7 +30,7 @@ _TOLD_DEFECTS = 3
 MAX_STEP_BYTES = 500_000_000
 """Bytes of a file; a large assembly has some fifty million."""
 
-_PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator.*")
+_PLACEHOLDER = re.compile(r"|\d+|NAUO\d+|=>\[.*\].*|Open CASCADE STEP translator.*|COMPOUND|COMPSOLID|SOLID|SHELL")
 """What translators write where nobody gave a name."""
 
 
@@ -122,8 +122,9 @@ def _checked(path: Path) -> bytes:
 
 
 def _name(instance: Instance, number: int) -> str:
-    """Find the name of the instance, else of its product, cleaned; a damaged one only where there is no other."""
-    given = _given(instance)
+    """Find the name of the instance, of its product, or else of the sub-assembly that it is in, cleaned; a damaged one
+    only where there is no other."""
+    given = _given(instance) or [name for name in instance.path[::-1] if not _PLACEHOLDER.fullmatch(name)]
     sound = [name for name in given if not is_damaged(name)]
     return next(filter(None, map(cleaned, sound + given)), f"part {number}")
 

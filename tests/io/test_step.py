@@ -167,6 +167,13 @@ def test_parts_without_a_name_are_numbered(tmp_path):
     assert [part.name for part in read_step(file)[0]] == ["part 1", "part 2"]
 
 
+def test_parts_without_a_name_have_that_of_their_subassembly(tmp_path):
+    file = tmp_path / "nested.step"
+    file.write_text((DATA / "nested.step").read_text().replace("'bolt'", "'COMPOUND'"))
+    names = [part.name for part in read_step(file)[0]]
+    assert names == ["washer", "left", "other bolt", "washer#2", "right", "right#2"]
+
+
 def test_a_torus_is_named_and_the_cone_beside_it_is_read():
     (shaft,), _ = read(DATA / "fillet.step")
     (note,) = shaft.notes

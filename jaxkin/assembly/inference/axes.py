@@ -149,6 +149,13 @@ def _equal(pair: CommonAxis) -> bool:
     return -engaged(pair) <= (MIN_ENGAGED if pair.tapped else MAX_GAP) * radius
 
 
+def apart(one: Bore, other: Bore) -> tuple[float, float]:
+    """Measure the distance between the axes of two bores, at the middle of the first, and the angle between them."""
+    offset = one.point - other.point
+    across = offset - (offset @ other.axis) * other.axis
+    return float(np.linalg.norm(across)), float(np.linalg.norm(np.cross(one.axis, other.axis)))
+
+
 def engaged(pair: CommonAxis) -> float:
     """Measure the length along the axis that both bores share; negative where there is a gap between them."""
     return shared_length(pair.one, pair.other)

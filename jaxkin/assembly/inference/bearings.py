@@ -48,12 +48,14 @@ class _Ring(NamedTuple):
 
 
 def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list[Bearing]:
-    """Find the bearings among the parts: each ring belongs to one, the tightest pairs come first.
+    """Find the bearings among the parts: each ring belongs to one, those with the most room between come first.
 
     `bores` are the bores and pins of each part by its name.
     """
     rings = [ring for part in parts if (ring := _ring(part, bores[part.name])) is not None]
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
+    flush = [pair for pair in nested if _flush(*pair)]
+    nested = [pair for pair in nested if not _hides_a_bearing(*pair, flush)]
     found: list[Bearing] = []
     taken: set[str] = set()
     coaxial = {ring.part.name for ring in rings}
@@ -102,6 +104,21 @@ def _inside(outer: _Ring, inner: _Ring) -> bool:
         return False
     (low1, high1), (low2, high2) = (_ends(ring, outer.hole) for ring in (outer, inner))
     return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2
+
+
+def _hides_a_bearing(outer: _Ring, inner: _Ring, flush: Sequence[tuple[_Ring, _Ring]]) -> bool:
+    """Tell whether a ring between two others makes a bearing with one of them and is seated on the other one, as in the
+    hub of a roller that is as wide as its bearing."""
+    return any(
+        (within is inner and _is_seated(around.outside, outer.hole))
+        or (around is outer and _is_seated(inner.outside, within.hole))
+        for around, within in flush
+    )
+
+
+def _is_seated(pin: Bore, hole: Bore) -> bool:
+    """Tell whether a round part fills a hole on its axis."""
+    return 1 / ROUND < pin.radius / hole.radius < ROUND and pin.on_axis_of(hole)
 
 
 def _ends(ring: _Ring, axis: Bore) -> tuple[float, float]:

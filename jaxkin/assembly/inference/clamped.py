@@ -13,13 +13,16 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import is_round
+from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.surfaces import Plane, Sphere
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
 """Clearance of a shaft in a hub that is clamped on it, or of a thread drawn as a plain cylinder, over the radius."""
+DRAWN_TOGETHER = 0.05
+"""The same of a shaft in a hub with a slit, which a screw draws together."""
 MAX_ACROSS = 0.6
 """Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
 MAX_BESIDE = 3.0
@@ -39,7 +42,8 @@ def clamped_hubs(known: Known) -> list[Inference]:
     Only with shafts that are round: where shaft and motor are one solid, it is the hub that turns on it.
     """
     result = []
-    pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= FITTED * pair.other.radius]
+    near = DRAWN_TOGETHER
+    pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= near * pair.other.radius]
     housed = {pair.one.part for pair in known.axes if not pair.virtual}
     for pair in pins:
         shaft, hub = pair.parts
@@ -50,9 +54,10 @@ def clamped_hubs(known: Known) -> list[Inference]:
         screws = [screw for bore in across if (screw := _screw(known, bore, pair)) is not None]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
         slit = any(_is_slit(bore, pair) for bore in across)
+        fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
         filled = shared_length(pair.one, pair.other) >= FILLED * 2 * pair.other.half
-        if screws or slit or (alone and filled):
+        if slit or (fitted and (screws or (alone and filled))):
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
             what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
@@ -146,32 +151,28 @@ def bolted_balls(known: Known) -> list[Inference]:
     What turns does so about the middle of the ball, in the race of the rod end.
     """
     result = []
-    for contact in known.contacts:
-        if not all(isinstance(surface, Sphere) for surface in contact.surfaces):
-            continue
-        for ball, race in (contact.parts, contact.parts[::-1]):
-            for pair in known.axes:
-                if ball not in pair.parts or race in pair.parts or not _through(contact, pair, ball):
-                    continue
-                bolt = pair.one if pair.one.part != ball else pair.other
-                on = [each for each in known.axes if bolt.part in each.parts and each.one.on_axis_of(bolt)]
-                parts = {part for each in on for part in each.parts} - {race}
-                if len(held := _stacked(known, ball, parts, bolt)) > 1:
-                    text = f"{bolt.part!r} holds the ball {ball!r} of the rod end {race!r}"
-                    names = tuple(sorted({*held, bolt.part}, key=known.order.__getitem__))
-                    sizes = (("radius", bolt.radius),)
-                    result.append(Inference(names, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    for socket in known.sockets:
+        ball, race = socket.parts
+        for pair in known.axes:
+            if ball not in pair.parts or race in pair.parts or not _through(socket, pair):
+                continue
+            bolt = pair.one if pair.one.part != ball else pair.other
+            on = [each for each in known.axes if bolt.part in each.parts and each.one.on_axis_of(bolt)]
+            parts = {part for each in on for part in each.parts} - {race}
+            if len(held := _stacked(known, ball, parts, bolt)) > 1:
+                text = f"{bolt.part!r} holds the ball {ball!r} of the rod end {race!r}"
+                names = tuple(sorted({*held, bolt.part}, key=known.order.__getitem__))
+                sizes = (("radius", bolt.radius),)
+                result.append(Inference(names, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 
-def _through(contact: Contact, pair: CommonAxis, ball: str) -> bool:
+def _through(socket: Socket, pair: CommonAxis) -> bool:
     """Tell whether an axis that a ball with a hole has in common with another part goes through its middle."""
-    bore = pair.one if pair.one.part == ball else pair.other
-    sphere = contact.surfaces[contact.parts.index(ball)]
-    if not bore.hole or not isinstance(sphere, Sphere):
-        return False
-    offset = sphere.centre - bore.point
-    return bool(np.linalg.norm(offset - (offset @ bore.axis) * bore.axis) <= FITTED * sphere.radius)
+    bore = pair.one if pair.one.part == socket.ball.part else pair.other
+    offset = socket.ball.centre - bore.point
+    apart = np.linalg.norm(offset - (offset @ bore.axis) * bore.axis)
+    return bore.hole and bool(apart <= FITTED * socket.ball.radius)
 
 
 def _stacked(known: Known, ball: str, parts: Collection[str], axis: Bore) -> Sequence[str]:

@@ -15,6 +15,7 @@ from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, between_bores, nearest, play
+from jaxkin.assembly.inference.walls import turns
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -26,6 +27,9 @@ CENTRED = 0.02
 MIN_GUIDED = 2.0
 """Length of a hole that slides along a pin, over the radius, at least: one that is shorter than its diameter jams, as a
 drawer does, so that a plate on a rod between two lugs turns on it."""
+
+MIN_TURN = 0.05
+"""Radians by which a part turns on a hinge with play before faces beside its axis meet, at least."""
 
 
 class Hinge(NamedTuple):
@@ -127,6 +131,10 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
     pinned = [each.one for each in line.found if not each.virtual]
     if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
         return [_guided(known, pair)]
+    if not any(pins):
+        one, other = (known.solids[part] for part in pair.parts)
+        if turns(one, other, pair.other.point, pair.one.axis) <= MIN_TURN:
+            return []  # as a bolt with a knob in its slot, which slides between walls
     return _hinge(known, line, any(across), pair.one.part in fastening, kept)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
@@ -20,17 +21,20 @@ from jaxkin.assembly.inference.held import (
 )
 from jaxkin.assembly.inference.hinges import Stop, hinges
 from jaxkin.assembly.inference.inference import Inference
-from jaxkin.assembly.inference.islands import lying_on_one, tied_to_nothing
+from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, tied_to_nothing
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
+from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
+from jaxkin.assembly.inference.wheels import on_wheels
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -56,6 +60,7 @@ def infer(
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.add(bearing_bodies(known, rolling))
+    known.add(clamped_on_rings(known, rolling))
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
     known.add(collets(known))
@@ -80,19 +85,23 @@ def infer(
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
     known.add(pressed_rings(known))
-    every = with_hosts(stacks(known.axes, fastening, known.touching, known.order), known)
+    drawn = stacks(known.axes, fastening, known.touching, known.order)
+    every = with_hosts([*drawn, *spacers(known, fastening)], known)
     while added := bolted_bodies(known, every):
         known.add(added)
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
+    known.found += ball_joints(known)
     joined = hinges(known, fastening)
     joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
+    known.found += on_wheels(known, [each for each in known.found if each.joint])
     known.add(screwed_flat(known))
     known.add(lying_on_one(known))
+    known.add(sunk_in_siblings(known))
     far = far_joints(known)
     known.add([each for each in far if each.joint is None])
     known.found += [each for each in far if each.joint]

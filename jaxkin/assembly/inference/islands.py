@@ -7,6 +7,7 @@ from itertools import combinations
 
 import numpy as np
 
+from jaxkin.assembly.inference.embedded import inside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS
@@ -18,6 +19,8 @@ from jaxkin.topology.components import connected
 
 CANDIDATES = 6
 """Parts that a part may be nearest to, by their boxes: those that are measured."""
+MIN_SUNK = 0.05
+"""Share of the corners of a part in the material of another one, at least: what only touches it has less."""
 NEAR = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
@@ -67,6 +70,24 @@ def _together(known: Known, body: Mapping[str, str], one: str, other: str) -> bo
     """Tell whether some parts of two bodies are in one sub-assembly that does not hold everything."""
     groups = [{known.group[part] for part in known.names if body[part] == owner} - {()} for owner in (one, other)]
     return bool(groups[0] & groups[1])
+
+
+def sunk_in_siblings(known: Known) -> list[Inference]:
+    """Join parts that nothing ties with the part of their sub-assembly whose material they are drawn into, such as the
+    thread of a screw that is a solid of its own."""
+    tied = {part for tie in (*known.touching, *(each.parts for each in known.found)) for part in tie}
+    tied |= {part for tie in (*known.rigid, *known.by_hand, known.fixed) for part in tie}
+    result = []
+    for part in (known.solids[name] for name in known.names if name not in tied):
+        siblings = [each for each in known.measured.beside(part) if known.group[each.name] == known.group[part.name]]
+        corners = part.outermost
+        shares = [(float(inside(corners, each.triangles).mean()), each.name) for each in siblings]
+        share, host = max(shares, default=(0.0, ""))
+        if share > MIN_SUNK and known.group[part.name] != ():
+            text = f"{share:.0%} of {part.name!r} is drawn into {host!r}, which is in its sub-assembly"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (("share", share),), text)
+            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
+    return result
 
 
 def tied_to_nothing(known: Known) -> list[Inference]:

@@ -7,6 +7,7 @@ from collections.abc import Collection, Mapping, Sequence
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.sockets import sockets
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.joints.joint import Joint
@@ -44,6 +45,7 @@ class Known:
         self.bores, found = measured.bores, measured.axes(clearance)
         self.ignored, self.clearance = ignored, clearance
         found = [pair for pair in found if frozenset(pair.parts) not in ignored]
+        self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
         self.axes = [pair for pair in found if not pair.tapped]
         self.tapped = [pair for pair in found if pair.tapped]
 

@@ -11,21 +11,15 @@ from jaxkin.assembly.inference.hinges import Hinge, Stop
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.geometry.part import Face, Part
+from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
+from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MAX_PLAY = 0.06
-"""Play of a part between two faces, over its width there, in all: drawers that people drew have half a
-millimetre on each side of 20."""
-
 MIN_SLANT = 0.1
 """Sine of the angle between two faces that are not parallel, at least: slanting faces of rails have 45 degrees."""
-
-TOUCHING = 1e-3
-"""Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
 
 def loose_slides(known: Known) -> list[Inference]:
@@ -104,10 +98,10 @@ def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     It is between two walls, and kept from the third direction by other walls or by slanting faces, as a carriage is in
     the grooves of its rail.
     """
-    facing = _facing(one, others)
-    held = _walls(facing)
+    looking = facing(one, others)
+    held = walls(looking)
     for normal, play, width in held:
-        for across, _, _ in facing:
+        for across, _, _ in looking:
             axis = np.cross(normal, across)
             if np.linalg.norm(axis) <= MIN_SLANT:
                 continue
@@ -115,7 +109,7 @@ def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
                 continue
             beside = np.cross(axis, normal)
-            gaps = [(float(each @ beside), gap) for each, gap, _ in facing if abs(each @ axis) < ACROSS]
+            gaps = [(float(each @ beside), gap) for each, gap, _ in looking if abs(each @ axis) < ACROSS]
             ahead, behind = (
                 min((gap / abs(along) for along, gap in gaps if side * along > MIN_SLANT), default=np.inf)
                 for side in (1, -1)
@@ -123,46 +117,3 @@ def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             if ahead + behind <= MAX_PLAY * width:
                 return axis, max(play, ahead + behind)
     return None
-
-
-def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
-    """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
-    normals, and the play along them."""
-    return [(normal, play) for normal, play, _ in _walls(_facing(one, others))]
-
-
-def _facing(one: Part, others: Sequence[Part]) -> list[tuple[Vector, float, float]]:
-    """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
-    return [
-        (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
-        for a in one.faces
-        if isinstance(a.surface, Plane)
-        for other in others
-        for b in other.faces
-        if (gap := _gap(a, b)) is not None
-    ]
-
-
-def _walls(facing: Sequence[tuple[Vector, float, float]]) -> list[tuple[Vector, float, float]]:
-    """Find the walls on both sides among faces that look at each other: normals, plays, and widths between."""
-    held: list[tuple[Vector, float, float]] = []
-    for k, (normal, gap, place) in enumerate(facing):
-        for back, other_gap, other_place in facing[:k]:
-            width = abs(place + other_place)
-            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
-                held.append((normal, gap + other_gap, width))
-    return held
-
-
-def _gap(a: Face, b: Face) -> float | None:
-    """Measure the gap between two faces that look at each other; None where they do not, or only beside each other."""
-    one, other = a.surface, b.surface
-    if not isinstance(one, Plane) or not isinstance(other, Plane) or np.linalg.norm(one.normal + other.normal) > ACROSS:
-        return None
-    gap = float((other.point - one.point) @ one.normal)
-    x = np.cross(one.normal, np.eye(3)[np.argmin(np.abs(one.normal))])
-    across = np.column_stack([x, np.cross(one.normal, x)])
-    first, second = (face.triangles.reshape(-1, 3) @ across for face in (a, b))
-    low, high = np.maximum(first.min(axis=0), second.min(axis=0)), np.minimum(first.max(axis=0), second.max(axis=0))
-    touching = TOUCHING * float(np.max(high - low))
-    return max(gap, 0.0) if np.all(high > low) and gap >= -touching else None

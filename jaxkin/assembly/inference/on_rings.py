@@ -1,0 +1,74 @@
+"""What lies flat on one ring of a rolling bearing: washers, spacers, shoulders and plates, which are clamped to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.bearings import Bearing
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.fasteners import MAX_NUT
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def clamped_on_rings(known: Known, found: Sequence[Bearing]) -> list[Inference]:
+    """Join each ring of a bearing with what lies flat on it and not on the other ring, through washers and spacers.
+
+    It would rub there otherwise: what turns does so between the rings. A stack ends with the first part that reaches
+    farther from the axis than a washer or a spacer does, such as the plate that a bolt holds the wheel to.
+    """
+    result = []
+    for each in found:
+        on = {ring: _flat_on(known, ring, each.axis) for ring in (each.inner, each.outer)}
+        for ring, other in ((each.inner, each.outer), (each.outer, each.inner)):
+            shut_out = {each.inner, each.outer, *each.between, *on[other]}
+            stack = _stack(known, ring, each.axis, shut_out)
+            if stack:
+                parts = tuple(sorted((ring, *stack), key=known.order.__getitem__))
+                text = f"{', '.join(map(repr, stack))} clamped to the ring {ring!r} of a bearing, and not to {other!r}"
+                evidence = Evidence(EvidenceKind.BEARING, (("radius", each.axis.radius),), text)
+                result.append(Inference(parts, evidence))
+    return result
+
+
+def _stack(known: Known, ring: str, axis: Bore, shut_out: set[str]) -> list[str]:
+    """Find the parts that lie on a ring, and on the washers and spacers among them."""
+    found = [ring]
+    for part in found:  # grows while it is read
+        if part == ring or _is_slim(known, part, axis):
+            found += [each for each in _flat_on(known, part, axis) if each not in shut_out and each not in found]
+    return found[1:]
+
+
+def _flat_on(known: Known, part: str, axis: Bore) -> list[str]:
+    """Find the parts that lie flat on a part across an axis, and have a hole or a pin there that the axis goes
+    through."""
+    result = []
+    for contact in known.contacts:
+        plane = contact.surfaces[0]
+        if part in contact.parts and contact.contact_state.is_flat and isinstance(plane, Plane):
+            other = next(each for each in contact.parts if each != part)
+            flat = np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS
+            if flat and other not in result and any(_is_around(bore, axis) for bore in known.bores[other]):
+                result.append(other)
+    return result
+
+
+def _is_around(bore: Bore, axis: Bore) -> bool:
+    """Tell whether an axis goes through a hole or a pin, along it."""
+    offset = axis.point - bore.point
+    apart = np.linalg.norm(offset - (offset @ bore.axis) * bore.axis)
+    return bool(np.linalg.norm(np.cross(bore.axis, axis.axis)) < ACROSS and apart < bore.radius)
+
+
+def _is_slim(known: Known, part: str, axis: Bore) -> bool:
+    """Tell whether a part is a washer or a spacer: it reaches little farther from the axis than its hole."""
+    holes = [bore.radius for bore in known.bores[part] if bore.hole and _is_around(bore, axis)]
+    corners = known.solids[part].outermost - axis.point
+    away = np.linalg.norm(corners - np.outer(corners @ axis.axis, axis.axis), axis=1)
+    return bool(holes) and bool(away.max() <= MAX_NUT * min(holes))

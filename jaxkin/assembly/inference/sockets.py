@@ -1,0 +1,94 @@
+"""Balls in sockets: spheres of two parts about one centre, which fit exactly, with clearance or with interference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import MAX_INTERFERENCE, MAX_OFFSET
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Sphere
+
+MAX_CLEARANCE = 0.1
+"""Radial clearance over the radius of the socket, at most."""
+MIN_SHARE = 0.2
+"""Share of a whole sphere that faces of a ball and of its socket have, at least: rounded corners have an eighth."""
+SAME = 1e-3
+"""Distance between centres of faces of one sphere, and the difference of their radii, over the radius."""
+
+
+class SphericalFaces(NamedTuple):
+    """Faces of one part on one sphere."""
+
+    part: str
+    centre: Vector
+    radius: float
+    hole: bool
+    """Whether the material is outside, as in a socket; otherwise the faces are those of a ball."""
+
+
+class Socket(NamedTuple):
+    """A ball in a socket."""
+
+    ball: SphericalFaces
+    hole: SphericalFaces
+
+    @property
+    def parts(self) -> tuple[str, str]:
+        return self.ball.part, self.hole.part
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance; negative where the ball is thicker."""
+        return self.hole.radius - self.ball.radius
+
+    @property
+    def offset(self) -> float:
+        """Distance between the centres."""
+        return float(np.linalg.norm(self.ball.centre - self.hole.centre))
+
+
+def sockets(parts: Iterable[Part], clearance: float | None = None) -> list[Socket]:
+    """Find the balls of parts that are in sockets of others.
+
+    `clearance` is the largest radial clearance, in the unit of the file; by default MAX_CLEARANCE times the radius of
+    the socket.
+    """
+    spheres = [sphere for part in parts for sphere in _spheres(part)]
+    found = []
+    for hole in (each for each in spheres if each.hole):
+        for ball in (each for each in spheres if not each.hole and each.part != hole.part):
+            pair = Socket(ball, hole)
+            most = MAX_CLEARANCE * hole.radius if clearance is None else clearance
+            fits = -MAX_INTERFERENCE * hole.radius <= pair.clearance <= most
+            if fits and pair.offset <= max(pair.clearance, 0.0) + MAX_OFFSET * hole.radius:
+                found.append(pair)
+    return found
+
+
+def _spheres(part: Part) -> list[SphericalFaces]:
+    """Find the spheres of a part that are no rounded corners."""
+    groups: list[tuple[Sphere, float]] = []
+    for face in part.faces:
+        surface = face.surface
+        if isinstance(surface, Sphere):
+            corners = face.triangles
+            area = (
+                np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+            )
+            share = float(area) / (4 * np.pi * surface.radius**2)
+            for index, (first, known) in enumerate(groups):
+                apart = np.linalg.norm(first.centre - surface.centre) + abs(first.radius - surface.radius)
+                if first.side == surface.side and apart <= SAME * first.radius:
+                    groups[index] = first, known + share
+                    break
+            else:
+                groups.append((surface, share))
+    return [
+        SphericalFaces(part.name, sphere.centre, sphere.radius, sphere.side < 0)
+        for sphere, share in groups
+        if share >= MIN_SHARE
+    ]

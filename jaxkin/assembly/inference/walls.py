@@ -1,0 +1,79 @@
+"""Walls: plane faces of two parts that look at each other, which leave slides, and keep from turning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
+
+MAX_PLAY = 0.06
+"""Play of a part between two faces, over its width there, in all: drawers that people drew have half a
+millimetre on each side of 20."""
+TOUCHING = 1e-3
+"""Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
+
+
+def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
+    """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
+    normals, and the play along them."""
+    return [(normal, play) for normal, play, _ in walls(facing(one, others))]
+
+
+def facing(one: Part, others: Sequence[Part]) -> list[tuple[Vector, float, float]]:
+    """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
+    return [
+        (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
+        for a, _, gap in _pairs(one, others)
+        if isinstance(a.surface, Plane)
+    ]
+
+
+def walls(found: Sequence[tuple[Vector, float, float]]) -> list[tuple[Vector, float, float]]:
+    """Find the walls on both sides among faces that look at each other: normals, plays, and widths between."""
+    held: list[tuple[Vector, float, float]] = []
+    for k, (normal, gap, place) in enumerate(found):
+        for back, other_gap, other_place in found[:k]:
+            width = abs(place + other_place)
+            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
+                held.append((normal, gap + other_gap, width))
+    return held
+
+
+def turns(one: Part, other: Part, point: Vector, axis: Vector) -> float:
+    """Measure the angle by which a part can turn about an axis in all, to and fro, until faces along the axis meet.
+
+    A face of the part that looks at one of the other at a gap g, and reaches from t1 to t2 beside the axis, along
+    axis x normal, meets it after g / -t1 one way and g / t2 the other way.
+    """
+    room = [np.inf, np.inf]
+    for a, b, gap in _pairs(one, [other]):
+        if isinstance(a.surface, Plane) and abs(float(a.surface.normal @ axis)) < ACROSS:
+            along = np.cross(axis, a.surface.normal)
+            first, second = ((face.triangles.reshape(-1, 3) - point) @ along for face in (a, b))
+            low, high = max(first.min(), second.min()), min(first.max(), second.max())
+            room = [min(most, gap / arm) if arm > 0 else most for most, arm in zip(room, (-low, high), strict=True)]
+    return float(sum(room))
+
+
+def _pairs(one: Part, others: Sequence[Part]) -> list[tuple[Face, Face, float]]:
+    """Find the plane faces of a part that look at plane faces of others, with the gaps between them."""
+    return [(a, b, gap) for a in one.faces for other in others for b in other.faces if (gap := _gap(a, b)) is not None]
+
+
+def _gap(a: Face, b: Face) -> float | None:
+    """Measure the gap between two faces that look at each other; None where they do not, or only beside each other."""
+    one, other = a.surface, b.surface
+    if not isinstance(one, Plane) or not isinstance(other, Plane) or np.linalg.norm(one.normal + other.normal) > ACROSS:
+        return None
+    gap = float((other.point - one.point) @ one.normal)
+    x = np.cross(one.normal, np.eye(3)[np.argmin(np.abs(one.normal))])
+    across = np.column_stack([x, np.cross(one.normal, x)])
+    first, second = (face.triangles.reshape(-1, 3) @ across for face in (a, b))
+    low, high = np.maximum(first.min(axis=0), second.min(axis=0)), np.minimum(first.max(axis=0), second.max(axis=0))
+    touching = TOUCHING * float(np.max(high - low))
+    return max(gap, 0.0) if np.all(high > low) and gap >= -touching else None
