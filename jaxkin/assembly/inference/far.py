@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from itertools import combinations
 
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.fasteners import bolted, patterns
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
 
 
@@ -23,7 +25,25 @@ def far_joints(known: Known) -> list[Inference]:
     if not axes:
         return []
     body = known.body
+    set_in = [_set_in(known, pair) for pair in axes if not pair.virtual and _ends_in(pair)]
+    axes = [pair for pair in axes if pair.virtual or not _ends_in(pair)]
     held = bolted(patterns(axes, [], body), known.order)
-    apart = {frozenset(body[part] for part in each.parts) for each in held}
+    apart = {frozenset(body[part] for part in each.parts) for each in (*set_in, *held)}
     single = [pair for pair in axes if frozenset(body[part] for part in pair.parts) not in apart]
-    return [*held, *(each.inference for each in hinges(known, axes=single))]
+    return [*set_in, *held, *(each.inference for each in hinges(known, axes=single))]
+
+
+def _ends_in(pair: CommonAxis) -> bool:
+    """Tell whether a pin ends in its hole and is mostly outside; what slides in a hole that is much wider goes through
+    it."""
+    (low, high), (first, last) = (bore.reach(pair.one.axis) for bore in (pair.one, pair.other))
+    return (first < low < last) != (first < high < last) and engaged(pair) < pair.one.half
+
+
+def _set_in(known: Known, pair: CommonAxis) -> Inference:
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    text = (
+        f"{pair.one.part!r} ends in a hole of {pair.other.part!r}, {pair.clearance:.2g} wider, and is tied to nothing"
+    )
+    sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
+    return Inference(parts, Evidence(EvidenceKind.ENCLOSED, sizes, text))

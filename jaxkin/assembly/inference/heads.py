@@ -22,6 +22,16 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     return any(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes for pair in pairs)
 
 
+def lies_across(known: Known, part: str, stack: Stack) -> bool:
+    """Tell whether a part lies flat on a fastener of a stack, across the axis, as a plate on the head of a bolt."""
+    for contact in known.contacts:
+        if part in contact.parts and {*contact.parts} & {*stack.fasteners}:
+            plane = contact.surfaces[0]
+            if isinstance(plane, Plane) and np.linalg.norm(np.cross(plane.normal, stack.axis.axis)) < ACROSS:
+                return True
+    return False
+
+
 def is_headed(known: Known, stack: Stack) -> bool:
     """Tell whether a stack has something wider than its pin on both sides of all holes that the pin is in, near to
     them."""

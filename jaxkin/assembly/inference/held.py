@@ -9,7 +9,7 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
-from jaxkin.assembly.inference.heads import is_headed
+from jaxkin.assembly.inference.heads import is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
@@ -68,6 +68,8 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         turning = all(part in fastening or _is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
             holder, where = crank, "alone, as it turns in bushes of others"
+            if (clamped := _clamped_on(known, stack, body)) is not None:
+                holder, where = clamped, "on which its head lies, as what turns does so on its bushes"
         if slides and holder is None:
             continue
         parts = (*([holder] if holder else []), *stack.fasteners)
@@ -158,6 +160,19 @@ def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
     rest = [pair.other.part for pair in rest if pair.clearance <= loosest + SAME_FIT * stack.axis.radius]
     carried = [part for part in rest if not _is_round_about(known, part, stack.axis)] or rest
     return carried[0] if len({body[part] for part in carried}) == 1 else None
+
+
+def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
+    """Find the part that the head of a screw with its nut lies on, where a bush or a bearing on the screw turns: of the
+    only body without one on the screw that lies flat on the stack, but for washers and spacers."""
+    if not any(bore.hole for part in stack.fasteners for bore in known.bores[part]):
+        return None  # neither a nut nor a washer
+    bushed = {body[part] for part in stack.held if part in known.sleeves}
+    on = [pair.other.part for pair in known.axes if pair.one.part in stack.fasteners]
+    found = [
+        part for part in stack.held if part not in on and body[part] not in bushed and lies_across(known, part, stack)
+    ]
+    return found[0] if len({body[part] for part in found}) == 1 else None
 
 
 def _is_round_about(known: Known, part: str, axis: Bore) -> bool:

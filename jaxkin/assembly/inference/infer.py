@@ -98,7 +98,7 @@ def infer(
     joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
-    known.found += on_wheels(known, [each for each in known.found if each.joint])
+    known.found += on_wheels(known)
     known.add(screwed_flat(known))
     known.add(lying_on_one(known))
     known.add(sunk_in_siblings(known))

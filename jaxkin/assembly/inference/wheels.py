@@ -16,7 +16,6 @@ from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
-from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
 MAX_PLAY = 0.05
@@ -45,7 +44,7 @@ class _Run(NamedTuple):
     gap: float
 
 
-def on_wheels(known: Known, hinges: Sequence[Inference]) -> list[Inference]:
+def on_wheels(known: Known) -> list[Inference]:
     """Infer prismatic joints of bodies with the rails that wheels of theirs run on, with a little play or overlap.
 
     The wheels are at two places along the rail, at least, and meet faces on both sides of it. Wheels that fit their
@@ -53,14 +52,11 @@ def on_wheels(known: Known, hinges: Sequence[Inference]) -> list[Inference]:
     """
     body, result = known.body, []
     tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
-    tied |= {frozenset(body[part] for part in each.parts) for each in hinges}
+    tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     runs: dict[tuple[str, str], list[_Run]] = {}
-    for each in hinges:
-        if each.joint is None or each.joint.kind is not JointKind.REVOLUTE:
-            continue
-        owners = [body[part] for part in each.parts]
+    for owners, point, axis in _hinges(known):
         for turning, carrier in (owners, owners[::-1]):
-            wheel = _wheel([part for part in known.parts if body[part.name] == turning], each.joint)
+            wheel = _wheel([part for part in known.parts if body[part.name] == turning], point, axis)
             for rail in known.measured.beside(wheel.part) if wheel else ():
                 owner = body[rail.name]
                 if wheel and owner not in owners and frozenset((owner, turning)) not in tied:
@@ -86,10 +82,24 @@ def on_wheels(known: Known, hinges: Sequence[Inference]) -> list[Inference]:
     return result
 
 
-def _wheel(parts: Sequence[Part], hinge: Joint) -> _Wheel | None:
+def _hinges(known: Known) -> list[tuple[list[str], Vector, Vector]]:
+    """Find the axes about which bodies turn on each other: of inferred hinges, and of pins that fit exactly."""
+    body, found = known.body, []
+    for each in known.found:
+        if each.joint and each.joint.kind is JointKind.REVOLUTE:
+            pose = np.asarray(each.joint.frames_1, float)[0]
+            found.append(([body[part] for part in each.parts], pose[:3, 3], pose[:3, 2]))
+    seen = set()
+    for contact in known.contacts:
+        owners, pin = [body[part] for part in contact.parts], contact.surfaces[0]
+        if contact.contact_state.is_pin and isinstance(pin, Cylinder) and frozenset(owners) not in seen:
+            seen.add(frozenset(owners))
+            found.append((owners, pin.point, pin.axis))
+    return [each for each in found if each[0][0] != each[0][1]]
+
+
+def _wheel(parts: Sequence[Part], point: Vector, axis: Vector) -> _Wheel | None:
     """Find the wheel among the parts of a body that turns on a hinge: None where none has round faces about it."""
-    pose = np.asarray(hinge.frames_1, float)[0]
-    point, axis = pose[:3, 3], pose[:3, 2]
     found = []
     for part in parts:
         faces = tuple(face for face in part.faces if _is_tread(face, point, axis))

@@ -183,3 +183,38 @@ def test_the_slit_of_a_clamp_takes_more_play_than_a_set_screw():
     body, mechanism = of(assembly(base, shaft, hub), 0)
     assert any("a screw across its slit" in note for note in mechanism.notes)
     assert body["hub"] == body["shaft"]
+
+
+def test_proposals_lead_with_the_slide_and_tell_what_only_turns_wheels():
+    best = carriage(0.1, both=True).proposals()[0]
+    assert best.fixed in (("base",), ("plate",))
+    assert len(best.wheels) == 4 and best.freedoms == 5
+    assert best.drive[0].endswith(".z") and best.drive[1:] == best.wheels
+    assert "5 freedoms in 6 bodies, 4 of which only turn wheels or rollers" in str(best)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("nut", "clamped"), [(True, True), (False, False)])
+def test_a_screw_with_its_nut_clamps_what_its_head_lies_on_where_a_bush_on_it_turns(seed, nut, clamped):
+    """The eccentric has a hole of its own in the base, beside the screw; the roller turns with its two bushes."""
+    off = (1.0, 0.0)
+    base = part("base", ring(4.0, 30.0, -6, 0, off))
+    eccentric = part("eccentric", pin(4.0, -5, 0, off)[2:], ring(2.5, 6.0, 0, 4))
+    bushes = [part(f"bush {k}", ring(2.5, 5.0, low, low + 4)) for k, low in enumerate((4, 8))]
+    roller = part("roller", ring(5.0, 12.0, 4, 12))
+    screw = part("screw", pin(2.5, -6, 20), pin(7.0, -9, -6))
+    parts = [base, eccentric, *bushes, roller, screw, *([part("nut", ring(2.5, 4.6, 12, 16))] if nut else [])]
+    body, mechanism = of(assembly(*parts), seed)
+    told = any("on which its head lies" in note for note in mechanism.notes)
+    assert told == clamped and (body["screw"] == body["base"]) >= clamped
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("end", "set_in"), [(6.0, True), (30.0, False)])
+def test_a_rod_that_ends_in_a_wide_hole_is_set_in_and_one_that_goes_through_slides(seed, end, set_in):
+    base = part("base", ring(6.0, 20.0, 0, 14), block((19, -5, 0), (60, 5, 14)))
+    rod = part("rod", pin(4.0, -120, end))
+    lever = part("lever", ring(3.1, 6.0, 14, 19, (50.0, 0.0)), block((55, -2, 14), (90, 2, 19)))
+    post = part("post", pin(3.0, 2, 25, (50.0, 0.0)))
+    body, _ = of(assembly(base, rod, lever, post), seed)
+    assert (body["rod"] == body["base"]) == set_in
