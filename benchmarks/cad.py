@@ -8,6 +8,10 @@ known joints the part to fix comes from `assembly.proposals`.
 A labelled pair of parts is right where the bodies of the two parts have the same joint about the same axis, or are one
 body if they are welded; right but for an idle slide or spin where the kinds differ by a coordinate that moves nothing
 else; other where they have another joint; missed where no joint is between them.
+
+*lines* are those of a study that moves the assembly: one for the fixed parts, where the file does not say what is held,
+and one for the range of each drive. *closed* are the poses that close where each drive runs through a small range by
+itself, 0.1 rad or a fiftieth of the size of the assembly to both sides.
 """
 
 from __future__ import annotations
@@ -23,6 +27,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import jax
 import numpy as np
 
 import jaxkin as jk
@@ -159,6 +164,17 @@ def processor_seconds() -> float:
     return sum(os.times()[:4])
 
 
+def moved(mechanism: Mechanism, size: float) -> tuple[int, int]:
+    """Count the poses that close, and all of them, where each drive runs through a small range by itself."""
+    drives, closed, poses = mechanism.mobility().drivable, 0, 0
+    for name in drives:
+        reach = 0.1 if name.rsplit(".", 1)[1].startswith(("phi", "theta", "psi")) else size / 50
+        path = np.linspace(-reach, reach, 21)
+        motion = mechanism.sweep(dict.fromkeys(drives, 0 * path) | {name: path})
+        closed, poses = closed + int(np.sum(motion.closed)), poses + motion.closed.size
+    return closed, poses
+
+
 def row(path: Path, verbose: bool) -> str:
     """One line of the table."""
     start = processor_seconds()
@@ -178,6 +194,8 @@ def row(path: Path, verbose: bool) -> str:
             pairs = [(v, each) for v, each in zip(verdicts, data["joints"], strict=True) if v not in ("right", "idle")]
             for v, each in pairs:
                 print(f"  {v}: {each['type']} {each['a']['part']} - {each['b']['part']}")
+    corners = np.array([part.box for part in assembly.parts])
+    closed, poses = moved(mechanism, float(np.linalg.norm(np.ptp(corners, axis=(0, 1)))))
     cells = [
         f"{name}{' (export)' if said else ''}",
         len(assembly.parts),
@@ -185,6 +203,8 @@ def row(path: Path, verbose: bool) -> str:
         *((counts[v] for v in VERDICTS) if data else "----"),
         mobility.useful,
         mobility.freedoms,
+        (not said) + len(mobility.drivable),
+        f"{closed} of {poses}",
         f"{seconds:.1f}",
     ]
     return "| " + " | ".join(map(str, cells)) + " |"
@@ -205,8 +225,9 @@ def assemblies(folder: Path, names: Collection[str]) -> list[Path]:
 
 def main(folder: str, names: Collection[str]) -> None:
     """Print the table of all assemblies in a folder, or of those named."""
+    jax.config.update("jax_enable_x64", True)
     paths = assemblies(Path(folder), names)
-    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "processor seconds"]
+    head = ["file", "parts", "bodies", *VERDICTS, "useful freedoms", "freedoms", "lines", "closed", "processor seconds"]
     print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
     for path in paths:
         print(row(path, verbose=bool(names)), flush=True)

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.geometry.outline import roundness
+from jaxkin.assembly.wheels import wheels_of
 from jaxkin.geometry.part import Part
-from jaxkin.joints.kinds import JointKind
 from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
@@ -23,8 +22,6 @@ TRIED = 3
 assembly that a person drew is among its largest or best connected bodies."""
 
 
-ROUND = 0.95
-"""Roundness of a wheel about its axis, at least: a hexagon has 0.87."""
 _TOLD = 5
 """Coordinates that a proposal tells: without a fixed frame an assembly of 175 parts has 18 of them, a screen full."""
 
@@ -129,33 +126,13 @@ def _with_ends(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[list[st
     for one, other in ([owner[part] for part in joint.parts] for joint in mechanism.all_joints if joint.freedoms):
         around.setdefault(one, set()).add(other)
         around.setdefault(other, set()).add(one)
-    turning = {owner[part] for part in _wheels(mechanism).values()}
+    turning = {owner[part] for part in wheels_of(mechanism).values()}
     ends = [body for body, others in around.items() if len(others) == 1 and body != owner[mechanism.fixed[0]]]
     ends = [body for body in ends if body not in turning]
     parts = [max(mechanism.bodies[body], key=lambda part: _extent(solids[part])) for body in ends]
     base = max(mechanism.fixed, key=lambda part: _extent(solids[part]))
     alone = [parts] if len(parts) > 1 else []
     return [[base, *parts], *alone] if parts and len(around) > 2 else []
-
-
-def _wheels(mechanism: Mechanism) -> dict[str, str]:
-    """Find the turns of bodies that are round about their only hinge, as wheels and rollers are: a part of each body by
-    the coordinate."""
-    solids = {part.name: part for part in mechanism.solids}
-    members = {part: parts for parts in mechanism.bodies.values() for part in parts}
-    free = [joint for joint in mechanism.all_joints if joint.freedoms]
-    count = Counter(members[part][0] for joint in free for part in joint.parts)
-    found = {}
-    for joint in (each for each in free if each.kind is JointKind.REVOLUTE):
-        pose = np.asarray(joint.frames_1, float)[0]
-        for part in joint.parts:
-            own = [solids[name] for name in members[part] if name in solids]
-            if part in mechanism.fixed or count[members[part][0]] != 1 or not own:
-                continue
-            outline = np.concatenate([each.outermost for each in own]) - pose[:3, 3]
-            if roundness(outline @ pose[:3, :2], np.zeros(2)) > ROUND:
-                found[f"{joint.name}.phi"] = part
-    return found
 
 
 def _likely(mechanism: Mechanism, solids: Mapping[str, Part]) -> list[str]:
@@ -180,13 +157,12 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
     mobility = mechanism.mobility()
     if not mobility.useful:
         return Proposal(fixed, (), 0, bodies, 0, "nothing can move")
-    wheels = tuple(name for name in mobility.drivable if name in _wheels(mechanism))
-    driven = tuple(name for name in mobility.drivable if name not in wheels) + wheels
-    driven = tuple(drive) if drive is not None else driven
+    turning = wheels_of(mechanism)
+    driven = tuple(drive if drive is not None else sorted(mobility.drivable, key=turning.__contains__))
     plan = mechanism.plan(driven)
     if drive is not None and plan.notes:
         return Proposal(fixed, (), mobility.useful, bodies, 0, "; ".join(plan.notes))
-    wheels = tuple(name for name in driven if name in wheels)
+    wheels = tuple(name for name in driven if name in turning)
     return Proposal(fixed, driven, mobility.useful, bodies, _moved(mechanism), wheels=wheels)
 
 

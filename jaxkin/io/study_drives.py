@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.assembly.wheels import wheels_of
 from jaxkin.geometry.movements import is_length
 from jaxkin.geometry.part import size
 from jaxkin.mechanism.drive_plan import plan_drive
@@ -49,7 +50,7 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     """Return small ranges for coordinates that determine the motion of solids; none where nothing can be driven.
 
     These are those that the mobility names, but where one of them moves the others by far more than itself: then the
-    one that does so least.
+    one that does so least. Wheels, which move nothing else, come last and stay as they are.
     """
     if opening(mechanism.linkage, mechanism.unit) is not None:
         return {}
@@ -58,7 +59,9 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     if len(driven) == 1 and _shares(mechanism, driven)[0] < _POOR:
         others = [name for name in useful_coordinates(mechanism) if can_drive(mechanism, [name])]
         driven = (max(others, key=lambda name: _shares(mechanism, [name])[0], default=driven[0]),)
-    return small_ranges(mechanism, driven)
+    wheels = wheels_of(mechanism)
+    wheels = {name: f"0:0:{_COUNT}" for name in driven if name in wheels and len(wheels) < len(driven)}
+    return small_ranges(mechanism, [name for name in driven if name not in wheels]) | wheels
 
 
 def small_ranges(mechanism: Mechanism, driven: Sequence[str]) -> dict[str, str]:
