@@ -14,6 +14,7 @@ from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.bores import NEAR_ANGLE
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import size
@@ -38,6 +39,8 @@ _NEAR = 1e-4
 """Distance of two axes that are one, over the size of the assembly."""
 _ROUNDS = 3
 """Times that seats are looked for: what is one body by some may be seated on others."""
+_LYING = 6
+"""Bodies that lie on others that are held there one by one, where not all can be held together."""
 _TRIED = 12
 """Inferences that are left out in turn, the weakest first, where nothing can move with all of them."""
 
@@ -47,7 +50,8 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
 
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
     mechanism has fewer freedoms but still some; where all of it leaves none, without the least sure of it. Bodies that
-    seats of faces leave a slide of no use are one body. Where the inferences lock it, the weakest one without which it
+    seats of faces leave a slide of no use are one body, and so are those that only lie on each other, where all that
+    moves still does then. Where the inferences lock it, the weakest one without which it
     moves is dropped, and that is said.
     """
     source = told_by(assembly, contacts)
@@ -74,8 +78,19 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         if _not_idle(other) != _not_idle(mechanism) and not (useful_freedoms(other) and count == plainly):
             break
         mechanism, found, plainly = other, more, count
+    for held in _choices(resting(mechanism)) if useful_freedoms(mechanism) else ():
+        if held[0] in seats:
+            break  # all are held together
+        other, more, _ = made([*seats, *held])
+        if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
+            seats, mechanism, found = [*seats, *held], other, more
     unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
     return unlocked or _counted(mechanism, found)
+
+
+def _choices(lying: Sequence[Inference]) -> list[Sequence[Inference]]:
+    """List what is tried of bodies that lie on others: all together, then one after another, of a few."""
+    return [lying, *([each] for each in lying[:_LYING])] if len(lying) > 1 else [lying] if lying else []
 
 
 def _not_idle(mechanism: Mechanism) -> int:

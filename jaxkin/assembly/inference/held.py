@@ -68,8 +68,8 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         turning = all(part in fastening or _is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
             holder, where = crank, "alone, as it turns in bushes of others"
-            if (clamped := _clamped_on(known, stack, body)) is not None:
-                holder, where = clamped, "on which its head lies, as what turns does so on its bushes"
+        if (clamped := _clamped_on(known, stack, body)) is not None:
+            holder, where = clamped, "on which its head lies, as what turns does so on its bushes"
         if slides and holder is None:
             continue
         parts = (*([holder] if holder else []), *stack.fasteners)
@@ -165,9 +165,10 @@ def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
 def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
     """Find the part that the head of a screw with its nut lies on, where a bush or a bearing on the screw turns: of the
     only body without one on the screw that lies flat on the stack, but for washers and spacers."""
-    if not any(bore.hole for part in stack.fasteners for bore in known.bores[part]):
-        return None  # neither a nut nor a washer
+    with_hole = [any(bore.hole for bore in known.bores[part]) for part in stack.fasteners]
     bushed = {body[part] for part in stack.held if part in known.sleeves}
+    if all(with_hole) or not any(with_hole) or not bushed:
+        return None  # no screw with a nut, or nothing that turns on it
     on = [pair.other.part for pair in known.axes if pair.one.part in stack.fasteners]
     found = [
         part for part in stack.held if part not in on and body[part] not in bushed and lies_across(known, part, stack)

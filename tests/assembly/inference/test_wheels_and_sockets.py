@@ -218,3 +218,25 @@ def test_a_rod_that_ends_in_a_wide_hole_is_set_in_and_one_that_goes_through_slid
     post = part("post", pin(3.0, 2, 25, (50.0, 0.0)))
     body, _ = of(assembly(base, rod, lever, post), seed)
     assert (body["rod"] == body["base"]) == set_in
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_bearing_blocks_that_only_lie_on_their_base_stay_there(seed):
+    """No screw is drawn, and the shaft turns all the same."""
+    base = block((-60, -60, -10), (160, 160, 0))
+    blocks = [part(f"block {k}", to_y(ring(5.0, 12.0, low, low + 10), 12.0)) for k, low in enumerate((0.0, 80.0))]
+    shaft = part("shaft", to_y(pin(5.0, -20, 130), 12.0), block((-3, 120, 12), (3, 126, 60)))
+    drawn = assembly(part("base", base), *blocks, shaft)
+    body, mechanism = of(drawn, seed)
+    assert body["block 0"] == body["block 1"] == body["base"] != body["shaft"]
+    assert sum("nothing else needs it to move there" in note for note in mechanism.notes) == 2
+    assert [joint.kind for joint in moving(mechanism)] in (["cylindrical"], ["revolute"])
+
+
+def to_y(piece, height):
+    """A piece about an axis along y, above a foot that lies on the plane z = 0."""
+    to_y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, height], [0, 0, 0, 1]])
+    turned = [(face.surface, face.triangles) for face in moved(part("turned", piece), to_y).faces]
+    heights = np.concatenate([triangles.reshape(-1, 3) for _, triangles in turned])[:, 1]
+    low, high = float(heights.min()), float(heights.max())
+    return turned + (block((-12, low, 0), (12, high, 2)) if len(piece) == 4 else [])

@@ -1,0 +1,63 @@
+"""Bodies that only lie on another one, as a bearing block does on its base, and need not move there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from typing import TYPE_CHECKING
+
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.joints.joint import Joint
+from jaxkin.joints.kinds import JointKind
+from jaxkin.mobility.loop_freedoms import loop_freedoms
+from jaxkin.mobility.mobility import moving_columns, names
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
+
+
+def resting(mechanism: Mechanism) -> list[Inference]:
+    """Find the bodies that faces hold to another one in one direction only: they lie there, and nothing that is drawn
+    keeps them in their place."""
+    found = []
+    for joint in mechanism.all_joints:
+        if joint.kind is JointKind.PLANAR and joint.name in mechanism.contacts:
+            one, other = map(repr, joint.parts)
+            text = f"{one} lies on {other}, with no screw drawn, and nothing else needs it to move there"
+            found.append(Inference(joint.parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
+    return found
+
+
+def leaves_all_moving(mechanism: Mechanism, other: Mechanism, held: Collection[Inference]) -> bool:
+    """Tell whether all bodies that move on each other by a joint still do so in another mechanism, in the same
+    coordinates, but for those that are held to each other there. Those that are one body then had nothing but empty
+    bores in common."""
+    owner = {part: body for body, parts in other.bodies.items() for part in parts}
+    gone = {frozenset(each.parts) for each in held}
+
+    def seen(found: Mechanism, wanted: Callable[[Joint], bool]) -> set[tuple[frozenset[str], str]]:
+        """Find which bodies of the other mechanism move on each other, by which coordinates."""
+        moving, joints = _moving(found), filter(wanted, found.all_joints)
+        return {
+            (frozenset(owner[part] for part in joint.parts), name)
+            for joint in joints
+            for name in joint.coordinates
+            if f"{joint.name}.{name}" in moving
+        }
+
+    def stays(joint: Joint) -> bool:
+        empty = joint.evidence is not None and joint.evidence.kind is EvidenceKind.VIRTUAL_PIN
+        return not empty and frozenset(joint.parts) not in gone
+
+    return seen(mechanism, stays) <= seen(other, lambda _: True)
+
+
+def _moving(mechanism: Mechanism) -> set[str]:
+    """Name the coordinates in which more moves than idle parts."""
+    in_loops, found = set(), set()
+    for each in loop_freedoms(mechanism.linkage):
+        in_loops |= {joint for joint, _ in each.columns}
+        found |= {*names(mechanism.linkage, each, moving_columns(each, each.motions))}
+    outside = (joint for k, joint in enumerate(mechanism.linkage.joints) if k not in in_loops)
+    found |= {f"{joint.name}.{name}" for joint in outside for name in joint.coordinates}
+    return found - {*mechanism.mobility().idle}
