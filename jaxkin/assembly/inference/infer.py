@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 from jaxkin.assembly.inference.ball_joints import ball_joints
 from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joints
 from jaxkin.assembly.inference.bearings import outside_of
+from jaxkin.assembly.inference.carriages import carriages
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
@@ -34,7 +35,6 @@ from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
-from jaxkin.assembly.inference.wheels import on_wheels
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -98,7 +98,7 @@ def infer(
     joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
-    known.found += on_wheels(known)
+    known.found += carriages(known)
     known.add(screwed_flat(known))
     known.add(lying_on_one(known))
     known.add(sunk_in_siblings(known))

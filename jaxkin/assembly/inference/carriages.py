@@ -44,7 +44,7 @@ class _Run(NamedTuple):
     gap: float
 
 
-def on_wheels(known: Known) -> list[Inference]:
+def carriages(known: Known) -> list[Inference]:
     """Infer prismatic joints of bodies with the rails that wheels of theirs run on, with a little play or overlap.
 
     The wheels are at two places along the rail, at least, and meet faces on both sides of it. Wheels that fit their
