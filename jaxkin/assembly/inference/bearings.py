@@ -71,13 +71,17 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
 
 def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[CommonAxis]:
-    """Leave out common axes that only bearings have: between the parts of one, and of what is between its rings."""
+    """Leave out common axes that only bearings have: between the parts of one, of what is between its rings, and of the
+    holes of outer rings, which are full."""
     of = {name: number for number, each in enumerate(found) for name in (each.outer, each.inner, *each.between)}
     hidden = {name for each in found for name in each.between}
+    outer = {each.outer for each in found}
     return [
         pair
         for pair in axes
-        if not {*pair.parts} & hidden and (pair.one.part not in of or of[pair.one.part] != of.get(pair.other.part))
+        if not (pair.virtual and {*pair.parts} & outer)
+        and not {*pair.parts} & hidden
+        and (pair.one.part not in of or of[pair.one.part] != of.get(pair.other.part))
     ]
 
 

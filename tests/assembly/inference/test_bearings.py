@@ -63,6 +63,13 @@ def test_rings_of_different_width_without_balls_are_no_bearing():
     assert EvidenceKind.BEARING not in kinds
 
 
+def test_outer_rings_of_two_housings_have_no_hinge_about_their_raceways():
+    housings = [part(f"housing {k}", ring(OUTSIDE, 25.0, low, low + 8)) for k, low in enumerate((-14.0, 6.0))]
+    drawn = assembly(*housings, SHAFT, *bearing("A", -10), *bearing("B", 10))
+    mechanism = drawn.mechanism(fixed=["housing 0"])
+    assert {joint.evidence.kind for joint in mechanism.all_joints if joint.freedoms} == {EvidenceKind.BEARING}
+
+
 def test_a_bearing_that_is_one_solid_is_set_into_the_housing():
     drawn = assembly(HOUSING, SHAFT, part("A", ring(BORE, OUTSIDE, -14, -6)), part("B", ring(BORE, OUTSIDE, 6, 14)))
     mechanism = drawn.mechanism(fixed=["housing"])
