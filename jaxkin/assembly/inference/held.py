@@ -6,14 +6,14 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.axes import CommonAxis, apart, engaged, shared_length
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.heads import is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
-from jaxkin.assembly.inference.trapped import MAX_PLAY, WIDER, play
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, WIDER, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -164,16 +164,29 @@ def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
 
 def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
     """Find the part that the head of a screw with its nut lies on, where a bush or a bearing on the screw turns: of the
-    only body without one on the screw that lies flat on the stack, but for washers and spacers."""
+    only body without one on the screw that lies flat on the stack, with a hole that the screw goes through, by
+    however much it is wider."""
     with_hole = [any(bore.hole for bore in known.bores[part]) for part in stack.fasteners]
     bushed = {body[part] for part in stack.held if part in known.sleeves}
     if all(with_hole) or not any(with_hole) or not bushed:
         return None  # no screw with a nut, or nothing that turns on it
     on = [pair.other.part for pair in known.axes if pair.one.part in stack.fasteners]
+    pins = [bore for part in stack.fasteners for bore in known.bores[part] if not bore.hole]
     found = [
-        part for part in stack.held if part not in on and body[part] not in bushed and lies_across(known, part, stack)
+        part
+        for part in stack.held
+        if part not in on
+        and body[part] not in bushed
+        and lies_across(known, part, stack)
+        and any(_goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
     ]
     return found[0] if len({body[part] for part in found}) == 1 else None
+
+
+def _goes_through(pin: Bore, hole: Bore) -> bool:
+    """Tell whether a pin goes through a hole that may be wider and beside it, as that of an eccentric round the pin."""
+    offset, tilt = apart(pin, hole)
+    return tilt < ACROSS and offset + pin.radius < hole.radius and shared_length(pin, hole) > hole.half
 
 
 def _is_round_about(known: Known, part: str, axis: Bore) -> bool:

@@ -3,8 +3,10 @@
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
 
+import numpy as np
 import pytest
 
+from jaxkin.geometry.part import moved
 from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -100), (60, -50, 100))
@@ -118,3 +120,29 @@ def test_what_is_between_two_bearings_stops_a_slide_whatever_its_faces(seed, gap
     ring_ = part("ring", *stubs, rounded, block((20, -5, -5), (60, 5, 5)))
     mechanism = anywhere(assembly(yoke, ring_), seed).mechanism(fixed=["yoke"])
     assert [joint.kind for joint in moving(mechanism)] == [kind]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("coupled", "turns"), [(True, True), (False, False)])
+def test_a_rod_on_the_floor_of_its_hole_is_the_shaft_of_a_motor_where_it_is_coupled(seed, coupled, turns):
+    """With a collar it is a post; with a hub that touches the shaft beyond its end it is what drives that shaft."""
+    motor = part(
+        "motor", ring(5.0, 20.0, 0, 20), block((-20, -20, -10), (20, 20, 0)), block((-20, 20, -10), (20, 30, 90))
+    )
+    rod = part("rod", pin(5.0, 0, 40))
+    screw = ring(1.5, 1.6, 5, 9, (0.0, 0.0))
+    across = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 35], [0, 0, 0, 1]])
+    hole = [(face.surface, face.triangles) for face in moved(part("hole", screw), across).faces]
+    hub = part("hub", ring(5.0, 9.0, 30, 40), hole)
+    bearing = part("bearing", ring(5.0, 12.0, 60, 70), block((-12, 11, 60), (12, 20, 70)))
+    shaft = part("shaft", pin(9.0, 40, 50), pin(5.0, 50, 90), block((-3, -40, 80), (3, 0, 86)))
+    drawn = assembly(motor, rod, hub, *([bearing, shaft] if coupled else []), LEVER, POST)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["motor"], rigid=[["motor", "bearing"]] if coupled else [])
+    body = owners(mechanism)
+    assert (body["rod"] != body["motor"]) == turns and body["hub"] == body["rod"]
+
+
+LEVER = part("lever", ring(3.1, 6.0, -20, -14, (60.0, 0.0)), block((65, -2, -20), (90, 2, -14)))
+POST = part(
+    "post", pin(3.0, -30, -10, (60.0, 0.0)), block((0, -8, -36), (70, 8, -30)), block((0, -8, -36), (8, 8, -10))
+)
