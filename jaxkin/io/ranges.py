@@ -48,7 +48,7 @@ def read_range(text: str) -> Values:
         raise ValueError(f"displacements must be finite numbers, got {text!r}; write {FORM}")
     if not 1 <= count <= MAX_POSES:
         raise ValueError(f"COUNT must be a number from 1 to {MAX_POSES}, got {count}; write {FORM}")
-    return np.linspace(*numbers, count) if ranged else np.array(numbers)
+    return np.linspace(numbers[0], numbers[1], count) if ranged else np.array(numbers)
 
 
 def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, Values]:
