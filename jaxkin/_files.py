@@ -32,6 +32,12 @@ def check_file(path: Path, kind: str) -> int:
     return path.stat().st_size
 
 
+def check_folder(target: Path) -> None:
+    """Raise FileNotFoundError, with what to do, where the folder of a file that is to be written is not there."""
+    if not target.parent.is_dir():
+        raise FileNotFoundError(f"cannot write {target}: there is no folder {target.parent}; make it, or name another")
+
+
 @contextmanager
 def whole(target: Path) -> Iterator[Path]:
     """Yield a draft of a file, which takes the place of the file when it is written, and never if that fails.
@@ -39,8 +45,7 @@ def whole(target: Path) -> Iterator[Path]:
     It lies in a folder beside the file, on the same disk, so that the move is a mere renaming. Raises FileNotFoundError
     where the folder of the file is not there.
     """
-    if not target.parent.is_dir():
-        raise FileNotFoundError(f"cannot write {target}: there is no folder {target.parent}; make it, or name another")
+    check_folder(target)
     with TemporaryDirectory(prefix=".", dir=target.parent) as folder:
         draft = Path(folder) / target.name
         yield draft

@@ -242,7 +242,9 @@ class Assembly:
 def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence[str]:
     """Replace patterns with "*", "?" or "/" by names in full; other names are checked where they are used."""
     if isinstance(names, str):
-        return names
+        return names  # refused where it is used
+    if names is None:
+        raise ValueError(f"{what} must be a list of part names, got None; leave it out where there are none")
     known = {part.name for part in parts}
     found: dict[str, None] = {}
     for name in names:

@@ -1,4 +1,4 @@
-"""The command line: `jaxkin demo`, `jaxkin inspect`, `jaxkin loops`, `jaxkin sweep`."""
+"""The command line: `jaxkin demo`, `inspect`, `loops`, `accuracy` and `sweep`."""
 
 from __future__ import annotations
 

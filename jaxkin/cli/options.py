@@ -69,9 +69,14 @@ class Options:
             return Study(files[0].name, load(files[0], unit=self.unit, seconds=self.seconds, progress=progress))
         parts = {file.stem: file for file in files}
         if len(parts) < len(files):
-            twice = next(file for file in files if parts[file.stem] != file)
+            first: dict[str, Path] = {}
+            one, other = next(
+                (file, first[file.stem]) for file in files if first.setdefault(file.stem, file) is not file
+            )
+            if one == other:
+                raise ValueError(f"{one} is given twice: give each file once")
             raise ValueError(
-                f"{twice} and {parts[twice.stem]}: two parts would be called {twice.stem!r}; rename a file, or name "
+                f"{one} and {other}: two parts would be called {one.stem!r}; rename a file, or name "
                 "the parts in a study"
             )
         assembly = load(parts, unit=self.unit, seconds=self.seconds, progress=progress)

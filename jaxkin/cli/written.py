@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -75,4 +76,4 @@ def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], 
         )
     if not drive:
         return "Nothing can drive in it yet: see its last line."
-    return f"Choose among its lines, then: jaxkin sweep {target} --out motion"
+    return f"Choose among its lines, then: jaxkin sweep {shlex.quote(str(target))} --out motion"

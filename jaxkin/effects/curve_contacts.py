@@ -27,13 +27,13 @@ SAMPLES = 8
 
 
 def curve_contacts(motion: Motion) -> CurveContacts:
-    """Check at each closed pose of a motion whether what follows curves could be there.
+    """Check at each closed pose of a motion whether followers of curves and surfaces fit there.
 
     A roller must not meet its profile anywhere but at the contact, nor be larger than a hollow of the profile (undercut
     of the pitch curve), nor a ball its surface (looked for at samples of the surface); a flat face must have all of the
     profile on one side; of two curves that touch neither may pass through the other (looked for where the one of part 1
-    is closed). A point passes everywhere. Nobody may leave the ends of an open curve or surface. Only the joint itself
-    is looked at, and of parts only their profiles; the rest tells `jk.clashes`. Raises ValueError for a mechanism
+    is closed). A point passes everywhere. No follower may leave the ends of an open curve or surface. Only the
+    profiles of each joint are looked at; `jk.clashes` looks at the solids. Raises ValueError for a mechanism
     without joints along curves or over surfaces, and inside `jit`, `vmap` and `grad`.
     """
     if traced(motion):

@@ -140,20 +140,22 @@ jax.tree_util.register_dataclass(Rates, data_fields=["motion", "inputs", "orders
 
 
 def velocities(motion: Motion, rates: Mapping[str, Any]) -> Rates:
-    """Velocities of all joints and parts in every pose of a motion, for given rates of its driven displacements.
+    """Find the velocities of all joints and parts in every pose of a motion, for given rates of its drive.
 
     `rates` maps a driven "joint" or "joint.coordinate" to one number or one a pose, in radians or lengths per time;
-    driven coordinates that it does not name are at rest. They follow from the poses of the motion, which are not found
-    anew: J q' = 0 in all loops, of least norm where that leaves freedoms. Works inside `jit`, `vmap` and `grad`. Raises
-    ValueError for a name that is not driven and for arrays of another length.
+    driven coordinates that it does not name are at rest. Velocities follow from the poses of the motion, which are not
+    found anew: J q' = 0 in all loops, with J the Jacobian of the closure equations and q' the rates of the coordinates,
+    of least norm where that leaves freedoms. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a name that
+    is not driven and for arrays of another length.
     """
     return _rates(motion, tangents_of(motion, rates))
 
 
 def accelerations(motion: Motion, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> Rates:
-    """Accelerations, for given rates and accelerations (none: constant rates) of the driven displacements.
+    """Find the accelerations of all joints and parts, second derivatives with respect to time.
 
-    As `velocities`; second derivatives with respect to time.
+    `rates` and `accelerations` are those of the driven coordinates, as of `velocities`; without `accelerations` the
+    rates are constant.
     """
     return _rates(motion, tangents_of(motion, rates), tangents_of(motion, accelerations or {}))
 
@@ -164,9 +166,10 @@ def jerks(
     accelerations: Mapping[str, Any] | None = None,
     jerks: Mapping[str, Any] | None = None,
 ) -> Rates:
-    """Jerks, for given rates, accelerations and jerks (none: zero) of the driven displacements.
+    """Find the jerks of all joints and parts, third derivatives with respect to time.
 
-    As `velocities`; third derivatives with respect to time.
+    `rates`, `accelerations` and `jerks` are those of the driven coordinates, as of `velocities`; without them
+    accelerations and jerks of the drive are zero.
     """
     return _rates(motion, *(tangents_of(motion, given or {}) for given in (rates, accelerations, jerks)))
 

@@ -42,10 +42,11 @@ def load(
     STEP (.step, .stp) or meshes (.stl, .obj, .ply, .3mf, .glb). Faces of meshes are recovered from their triangles; in
     one mesh file a part is a node, or a connected body where there is but one node. Of an export for Simscape Multibody
     (.xml), which SolidWorks, Creo, Inventor and Onshape write, the joints, mates and rigid groups are read too; the
-    files of its solids are those beside it. Of a robot (.urdf) the links are the parts, in metres, and its joints are
-    read with their limits and motors. A URDF is a tree; `loops` is the YAML file that closes its loops, as in Gepetto's
-    example-parallel-robots. Assemblies of FreeCAD (.FCStd) are read in the same way, in mm, without their
-    solids. Where the file's own pose is open, the loops are closed, and a note says how far parts were moved.
+    files of its solids are those beside it. Of a robot in URDF (.urdf), MJCF (.xml, .mjcf) or SDF (.sdf, .world) the
+    links are the parts, in metres, and its joints are read with their limits and motors. A URDF is a tree; `loops` is
+    the YAML file that closes its loops, as in Gepetto's example-parallel-robots. Assemblies of FreeCAD (.FCStd, in mm)
+    and of its solver (.asmt, in `unit`) are read in the same way, without solids. Where the file's own pose is open,
+    the loops are closed, and a note says how far parts were moved.
 
     A mechanism that `Mechanism.save` wrote (.json) comes back whole: `jk.load(path).mechanism()`.
 
@@ -117,8 +118,9 @@ def _read(
         return read_mesh(path, name, seconds)
     if suffix not in STEP_SUFFIXES:
         raise ValueError(
-            f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}) and meshes ({', '.join(MESHES)}); got "
-            f"{path.suffix or 'no suffix'}. Export the assembly as STEP from the CAD program"
+            f"{path}: load reads STEP files ({', '.join(STEP_SUFFIXES)}), meshes ({', '.join(MESHES)}), "
+            f"{XML} exports and robots ({', '.join(ROBOT_SUFFIXES)}); got {path.suffix or 'no suffix'}. Export the "
+            "assembly as STEP from the CAD program"
         )
     parts, unit = read_step(path, seconds, progress)
     if name is None:

@@ -34,16 +34,21 @@ class Range(NamedTuple):
 def read_range(text: str) -> Values:
     """Read the displacements of a text "START:STOP:COUNT", ends included, or "VALUE,VALUE,..."; ValueError
     otherwise."""
+    ranged = ":" in text
     try:
-        if ":" not in text:
-            return np.array([float(value) for value in text.split(",")])
-        start, stop, count = text.split(":")
-        start, stop, count = float(start), float(stop), int(count)
+        if ranged:
+            start, stop, last = text.split(":")
+            numbers, count = [float(start), float(stop)], int(last)
+        else:
+            numbers = [float(value) for value in text.split(",")]
+            count = len(numbers)
     except ValueError:
         raise ValueError(f"cannot read {text!r} as a range; write {FORM}") from None
+    if not np.all(np.isfinite(numbers)):
+        raise ValueError(f"displacements must be finite numbers, got {text!r}; write {FORM}")
     if not 1 <= count <= MAX_POSES:
         raise ValueError(f"COUNT must be a number from 1 to {MAX_POSES}, got {count}; write {FORM}")
-    return np.linspace(start, stop, count)
+    return np.linspace(numbers[0], numbers[1], count) if ranged else np.array(numbers)
 
 
 def in_radians(mechanism: Mechanism, ranges: Mapping[str, Range]) -> dict[str, Values]:

@@ -35,7 +35,8 @@ def messages(error: ValidationError, file: str, keys: Mapping[tuple[str, ...], S
     """Tell all mistakes that pydantic found, a line each. `keys` are those that the tables know; "*" is any name."""
     found = error.errors(include_url=False)
     lines = [f"{file}: {_said(one, keys)}" for one in found[:_MAX_MISTAKES]]
-    more = [f"{file}: and {len(found) - _MAX_MISTAKES} more mistakes"] if len(found) > _MAX_MISTAKES else []
+    left = len(found) - _MAX_MISTAKES
+    more = [f"{file}: and {left} more mistake{'s' if left > 1 else ''}"] if left > 0 else []
     return "\n".join(lines + more)
 
 

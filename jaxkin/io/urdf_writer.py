@@ -19,7 +19,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
-from jaxkin._files import whole
+from jaxkin._files import check_folder, whole
 from jaxkin._names import listed
 from jaxkin.geometry.units import METRES
 from jaxkin.io.names import unique
@@ -64,6 +64,7 @@ def write_urdf(mechanism: Mechanism, path: str | os.PathLike[str], *, masses: Ma
     target = Path(path)
     if target.suffix.lower() != ".urdf":
         raise ValueError(f"a robot in URDF is a .urdf file, got {str(target)!r}")
+    check_folder(target)
     writer = _Writer(mechanism, target.stem, written_inertials(mechanism, masses))
     ElementTree.indent(writer.root)
     loops = target.with_suffix(".yaml")

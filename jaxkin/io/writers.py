@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jaxkin._files import whole
+from jaxkin._traced import traced
 from jaxkin.io.gltf import write_animation
 from jaxkin.io.tables import write_arrays, write_table
 from jaxkin.view.page import page
@@ -38,10 +39,12 @@ def save(
 ) -> tuple[Path, ...]:
     """Write the motion's files into a directory, made if it is not there; `only` chooses some of them by name.
 
-    Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name,
-    NotADirectoryError where the directory is a file, and OSError, naming the file, where one cannot be written: those
-    before it are there by then, those after it are not.
+    Returns the paths written. Each file appears whole or not at all. Raises ValueError for an unknown file name and
+    for traced numbers, NotADirectoryError where the directory is a file, and OSError, naming the file, where one cannot
+    be written: those before it are there by then, those after it are not.
     """
+    if traced(motion):
+        raise ValueError("the numbers of the motion are traced by JAX: call save outside of jit, vmap and grad")
     chosen = _choose(only, writers)
     directory = Path(directory)
     try:

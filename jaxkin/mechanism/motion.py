@@ -163,6 +163,11 @@ class Motion:
         return save(self, directory, only)
 
     def __str__(self) -> str:
+        if traced(self):
+            return (
+                f"Motion of {len(self.mechanism.parts)} parts over {self.status.shape[0]} poses, driven by "
+                f"{', '.join(self.inputs)}: traced by JAX, its numbers are known outside of jit, vmap and grad"
+            )
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
         told = tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts, breaches(self))
         if not any(joint.curves for joint in self.mechanism.all_joints):

@@ -58,6 +58,8 @@ def plan(mechanism: Mechanism, drive: Iterable[Key]) -> Plan:
     """
     if isinstance(drive, str):
         raise ValueError(f"the drive must be a list of coordinates, got the text {drive!r}; write [{drive!r}]")
+    if not isinstance(drive, Iterable):
+        raise ValueError(f"the drive must be a list of coordinates, such as plan(['A']), got {drive!r}")
     mechanism, drive = names_with_targets(mechanism, drive)
     linkage = mechanism.linkage
     keys = {coordinate(linkage, key): key for key in drive}

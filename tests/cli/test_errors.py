@@ -1,5 +1,7 @@
 """Mistakes of the user are one line and exit code 2; ours keep their traceback."""
 
+import warnings
+
 import numpy as np
 import pytest
 import typer
@@ -39,3 +41,22 @@ def test_a_defect_in_a_writer_keeps_its_traceback():
             np.zeros(2) + np.zeros(3)
         except ValueError as error:
             raise OSError("could not write motion.png") from error
+
+
+def test_warnings_are_one_line_without_source(capsys):
+    before = warnings.showwarning
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        with one_line_errors():
+            warnings.warn("a.step does not say its length unit: taken for mm", stacklevel=1)
+    assert capsys.readouterr().err == "jaxkin: warning: a.step does not say its length unit: taken for mm\n"
+    assert warnings.showwarning is before
+
+
+def test_warnings_that_are_not_for_users_tell_where_they_come_from(capsys):
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        with one_line_errors():
+            _ = np.float64(1) / np.float64(0)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("jaxkin: warning: divide by zero") and f"RuntimeWarning at {__file__}:" in line

@@ -1,11 +1,12 @@
 """`--drive`, `--rigid`, `--ignore`: what is read, in which unit, and what is refused."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from jaxkin.cli.options import parse_drives, parse_parts
+from jaxkin.cli.options import Options, parse_drives, parse_parts
 from jaxkin.io.ranges import Range, in_radians
 from jaxkin.joints.pairs import cylindrical, revolute
 from jaxkin.mechanism.mechanism import Mechanism
@@ -43,6 +44,10 @@ def test_angles_are_degrees_and_lengths_are_not():
         (["hinge=0:360:many"], "cannot read '0:360:many'"),
         (["hinge=0:360:2.5"], "cannot read '0:360:2.5'"),
         (["hinge=0:360:0"], "COUNT must be a number from 1 to 10000000, got 0"),
+        (["hinge=0:nan:5"], "displacements must be finite numbers, got '0:nan:5'; write START:STOP:COUNT"),
+        (["hinge=0:inf:5"], "displacements must be finite numbers, got '0:inf:5'"),
+        (["hinge=1,nan"], "displacements must be finite numbers, got '1,nan'"),
+        (["hinge=0:1:2:3"], "cannot read '0:1:2:3'"),
         (["hinge=a,b"], "cannot read 'a,b'"),
         (["hinge=0:1:2", "hinge=0:2:2"], "hinge was given a range already"),
     ],
@@ -51,6 +56,14 @@ def test_unreadable_options_are_refused(options, said):
     with pytest.raises(ValueError, match="--drive") as error:
         parse_drives(options)
     assert said in str(error.value)
+
+
+def test_a_file_given_twice_is_named():
+    crank, other = Path("crank.stl"), Path("other/crank.stl")
+    with pytest.raises(ValueError, match=r"^crank\.stl is given twice: give each file once$"):
+        Options().on([crank, Path("rod.stl"), Path("crank.stl")])
+    with pytest.raises(ValueError, match=r"other.crank\.stl and crank\.stl: two parts would be called 'crank'"):
+        Options().on([crank, other])
 
 
 def test_parts_of_an_option():

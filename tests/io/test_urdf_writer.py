@@ -63,6 +63,8 @@ def test_what_cannot_be_written_is_refused(tmp_path):
     mechanism = planar_fourbar()
     with pytest.raises(ValueError, match=r"\.urdf file"):
         jk.write_urdf(mechanism, tmp_path / "model.xml")
+    with pytest.raises(FileNotFoundError, match=r"cannot write .*robot\.urdf: there is no folder .*nowhere; make it"):
+        jk.write_urdf(mechanism, tmp_path / "nowhere" / "robot.urdf")
     with pytest.raises(ValueError, match="close"):
         jk.write_urdf(mechanism.with_lengths({next(iter(mechanism.lengths)): 45.0}), tmp_path / "robot.urdf")
     joints = [

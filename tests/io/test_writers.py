@@ -1,5 +1,6 @@
 from pathlib import Path
 
+import jax
 import jax.numpy as jnp
 import pytest
 
@@ -94,3 +95,18 @@ def test_a_motion_saves_itself(motion, tmp_path):
     paths = motion.save(tmp_path)
     assert [path.name for path in paths][:2] == ["motion.npz", "motion.csv"]
     assert {path.name for path in tmp_path.iterdir()} == set(WRITERS) >= {"motion.glb"}
+
+
+def test_a_traced_motion_prints_itself_and_is_not_saved(motion, tmp_path):
+    texts = []
+
+    def traced(angles):
+        swept = motion.mechanism.sweep({"A": angles})
+        texts.append(str(swept))
+        with pytest.raises(ValueError, match="traced by JAX: call save outside of jit, vmap and grad"):
+            swept.save(tmp_path / "out")
+        return swept.status
+
+    jax.jit(traced)(jnp.linspace(0.0, 1.0, 5))
+    assert texts[0].startswith("Motion of 2 parts over 5 poses, driven by A.phi: traced by JAX")
+    assert not list(tmp_path.iterdir())

@@ -123,7 +123,12 @@ def test_what_rests_and_what_is_left_free_is_told():
 
 @pytest.mark.parametrize(
     ("drive", "message"),
-    [("A", r"got the text 'A'; write \['A'\]"), ([], "the drive is empty"), (["a"], "there is no joint 'a' to drive")],
+    [
+        ("A", r"got the text 'A'; write \['A'\]"),
+        ([], "the drive is empty"),
+        (None, r"such as plan\(\['A'\]\), got None"),
+        (["a"], "there is no joint 'a' to drive"),
+    ],
 )
 def test_a_drive_that_makes_no_sense_is_refused(drive, message):
     with pytest.raises(ValueError, match=message):

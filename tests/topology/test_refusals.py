@@ -27,6 +27,13 @@ LOOSE = [("E", "handle", "knob")]
             None,
             "joint 'E' .* 'copuler'; did you mean 'coupler'?",
         ),
+        (
+            PARTS,
+            [*JOINTS, (5, "rocker", "crank")],
+            ["ground"],
+            None,
+            "name of a joint must be a text, got 5; write '5'",
+        ),
         (PARTS, [*JOINTS, ("E", "rocker", "rocker")], ["ground"], None, "joint 'E' joins part 'rocker' to itself"),
         ([*PARTS, "handle"], JOINTS, ["ground"], None, "no joint holds 'handle'; join .* or leave it out"),
         ([*PARTS, "handle", "knob"], [*JOINTS, *LOOSE], ["ground"], None, "no chain of joints ties 'handle', 'knob'"),
