@@ -149,7 +149,8 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
         return Proposal(fixed, (), 0, bodies, 0, "its loops are open as it is drawn; see mechanism.close()")
     mobility = mechanism.mobility()
     if not mobility.useful:
-        return Proposal(fixed, (), 0, bodies, 0, "nothing can move")
+        structure = ": all parts are one body" if bodies == 1 < len(mechanism.parts) else ""
+        return Proposal(fixed, (), 0, bodies, 0, f"nothing can move{structure}")
     driven = tuple(drive) if drive is not None else mobility.drivable
     plan = mechanism.plan(driven)
     if drive is not None and plan.notes:

@@ -12,3 +12,8 @@ METRES = {
     "": 1.0,
 }
 """Metres in a unit; where no unit was said, lengths are taken for metres."""
+
+
+def unit_name(unit: str) -> str:
+    """Name a unit in a sentence: its abbreviation, but "inches" for "in", which reads as a preposition."""
+    return "inches" if unit == "in" else unit

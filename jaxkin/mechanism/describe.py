@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import listed
+from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
@@ -29,7 +30,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     together, and of many loops and notes the first of a kind, unless `verbose`.
     """
     brief = len(mechanism.all_joints) > SCREEN and not verbose
-    unit = f", lengths in {mechanism.unit}" if mechanism.unit else ""
+    unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
     fixed = (listed if brief else ", ".join)(mechanism.fixed)
     lines = [f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {fixed}{unit}", ""]
@@ -84,6 +85,8 @@ def describe_mobility(mechanism: Mechanism) -> list[str]:
         return [f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     mobility = mechanism.mobility()
     lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
+    if len(mechanism.bodies) == 1 < len(mechanism.parts):
+        return [*lines, "It cannot move: all its parts are one body."]
     moving = len(mechanism.parts) > len(mechanism.fixed)
     return lines if mobility.useful or not moving else [*lines, *_why_it_cannot_move(mechanism, mobility.freedoms)]
 

@@ -16,6 +16,7 @@ from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
@@ -79,7 +80,7 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
     facts += [f"{len(bodies)} bodies", f"joints that move: {len(axes)}"] if mechanism else []
     return {
         "title": source,
-        "subtitle": "  ·  ".join([*facts, f"lengths in {found.unit or 'no known unit'}"]),
+        "subtitle": "  ·  ".join([*facts, f"lengths in {unit_name(found.unit) or 'no known unit'}"]),
         "labels": [""],
         "problems": [""],
         "lost": [""],
