@@ -43,6 +43,10 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     lines += ["", *describe_mobility(mechanism)]
+    if doubtful := [(each, doubt) for each in joints if (doubt := each.evidence and each.evidence.doubt)]:
+        rows = [f"  {each.name} is taken as {each.kind}, and {doubt}" for each, doubt in doubtful]
+        head = f"Doubtful: {len(rows)} of {len(joints)} joints; jaxkin inspect --study tries the other readings"
+        lines += ["", head, *(shortened(rows) if brief else rows)]
     if mechanism.notes:
         notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
         lines += ["", "Notes:", *(f"  {note}" for note in notes)]

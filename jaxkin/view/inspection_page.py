@@ -149,7 +149,7 @@ def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict
         "kind": str(joint.kind),
         "coordinates": [f"{joint.name}.{coordinate}" for coordinate in joint.coordinates],
         "parts": [index[part] for part in joint.parts],
-        "evidence": str(evidence or ""),
+        "evidence": f"{evidence or ''}" + (f" (Doubtful: {evidence.doubt})" if evidence and evidence.doubt else ""),
         "sizes": [[name, f"{value:.4g}"] for name, value in (evidence.sizes if evidence else ())],
         "inferred": not known,
         "contacts": [str(contact) for contact in contacts],
