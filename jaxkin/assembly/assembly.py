@@ -20,7 +20,7 @@ from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.units import lengths_in
+from jaxkin.geometry.units import unit_name
 from jaxkin.joints.joint import Joint
 
 if TYPE_CHECKING:
@@ -215,8 +215,9 @@ class Assembly:
 
     def describe(self, verbose: bool = False) -> str:
         """Tell the parts, their faces and what was noted of them; of many parts one a product, unless `verbose`."""
-        unit = lengths_in(self.unit or "a unit that the file does not say")
-        lines = [f"Assembly of {len(self.parts)} parts from {self.source}, {unit}"]
+        unit = unit_name(self.unit) or "a unit that the file does not say"
+        count = "1 part" if len(self.parts) == 1 else f"{len(self.parts)} parts"
+        lines = [f"Assembly of {count} from {self.source}, lengths in {unit}"]
         notes = sum(len(part.notes) for part in self.parts)
         if verbose or len(self.parts) + notes <= SCREEN:
             width = max(len(name) for name in self.names)

@@ -134,7 +134,8 @@ def _unlocked(
     otherwise.
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
-    without which a part would hang on nothing stay.
+    without which a part would hang on nothing stay, and so do those without which screws and nuts alone would turn: a
+    structure of bolted plates is no mechanism.
     """
     movable = None
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
@@ -143,6 +144,8 @@ def _unlocked(
         if _loose(assembly, contacts, said, fewer):
             continue
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
+        if _frees_fasteners_only(other, dropping):
+            continue
         dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
         if useful_freedoms(other):
@@ -150,6 +153,14 @@ def _unlocked(
         if movable is None and any(joint.freedoms for joint in other.all_joints):
             movable = other
     return movable
+
+
+def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
+    """Tell whether all else is one body without an inference, but for the fasteners that it holds: those named after
+    their host."""
+    fasteners = {*dropped.parts[1:]}
+    others = [parts for parts in mechanism.bodies.values() if not fasteners.issuperset(parts)]
+    return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) < 2
 
 
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:

@@ -156,7 +156,8 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
         return Proposal(fixed, (), 0, bodies, 0, "its loops are open as it is drawn; see mechanism.close()")
     mobility = mechanism.mobility()
     if not mobility.useful:
-        return Proposal(fixed, (), 0, bodies, 0, "nothing can move")
+        structure = ": all parts are one body" if bodies == 1 < len(mechanism.parts) else ""
+        return Proposal(fixed, (), 0, bodies, 0, f"nothing can move{structure}")
     turning = wheels_of(mechanism)
     driven = tuple(drive if drive is not None else sorted(mobility.drivable, key=turning.__contains__))
     plan = mechanism.plan(driven)

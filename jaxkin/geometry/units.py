@@ -12,10 +12,8 @@ METRES = {
     "": 1.0,
 }
 """Metres in a unit; where no unit was said, lengths are taken for metres."""
-SPELLED = {"in": "inches", "ft": "feet"}
-"""Units whose names are words."""
 
 
-def lengths_in(unit: str) -> str:
-    """Say in which unit lengths are; inches and feet in full, since "in in" reads badly."""
-    return f"lengths in {SPELLED.get(unit, unit)}"
+def unit_name(unit: str) -> str:
+    """Name a unit in a sentence: its abbreviation, but "inches" for "in", which reads as a preposition."""
+    return "inches" if unit == "in" else unit

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from jaxkin._files import check_file
+from jaxkin._names import listed
 from jaxkin.geometry.part import Part
 from jaxkin.io.names import cleaned, is_damaged, unique
 from jaxkin.io.step_check import far_away, missing
@@ -23,6 +24,8 @@ from jaxkin.io.step_unit import length_unit, uncertainty
 from jaxkin.io.time_limit import TimeLimit
 
 _SOLIDS = re.compile(rb"MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP|TESSELLATED_SOLID")
+_DOCUMENT = re.compile(rb"DOCUMENT_FILE\s*\(\s*'([^']+)'")
+"""The name of another file that an assembly has its parts in."""
 
 _TOLD_DEFECTS = 3
 """Defects of a file that its warning tells."""
@@ -117,6 +120,11 @@ def _checked(path: Path) -> bytes:
     if not re.search(rb"END-ISO-10303-21\s*;", data[-1000:]):
         raise ValueError(f"{path.name} is cut off: it does not end with END-ISO-10303-21; copy or export it again")
     if not _SOLIDS.search(data):
+        if elsewhere := [name.decode("utf-8", "replace") for name in dict.fromkeys(_DOCUMENT.findall(data))]:
+            raise ValueError(
+                f"{path.name} holds no solids: it places those of other files, {listed(elsewhere)}; "
+                "export the assembly with all parts in one file"
+            )
         raise ValueError(f"{path.name} holds no solids, only surfaces, curves or nothing: export the parts as solids")
     return data
 

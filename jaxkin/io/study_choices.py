@@ -19,6 +19,7 @@ from jaxkin.io.study_drives import can_drive, small_ranges, useful_coordinates
 from jaxkin.io.toml_text import toml
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
+from jaxkin.joints.pairs import JOINTS_BY_HAND
 from jaxkin.mobility.open_loops import opening
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ class Choices:
     exclude: tuple[str, ...] = ()
     off: Mapping[str, str] = field(default_factory=dict)
     """By joint."""
+    doubts: Mapping[str, str] = field(default_factory=dict)
+    """By joint: what to write in place of its kind, why, and what that gives."""
 
 
 NONE = Choices()
@@ -55,7 +58,8 @@ def find_choices(
     driven = tuple(drive or ())
     instead = [*_other_fixed(tried, proposals), *islice(_other_drives(mechanism, driven), _DRIVES)]
     off = {joint.name: _off(tried, joint, driven) for joint in tried.joints if _inferred(joint)}
-    return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off)
+    doubts = {joint.name: _doubt(tried, joint, driven) for joint in tried.joints if _is_doubtful(joint)}
+    return Choices(tuple(instead), tuple(_needless(mechanism, bodies)), off, doubts)
 
 
 class _Tried:
@@ -70,8 +74,8 @@ class _Tried:
     def with_fixed(self, fixed: Sequence[str]) -> Mechanism:
         return self._assembly.of_joints(fixed=fixed, rigid=self._rigid, joints=self.joints)
 
-    def without(self, joint: Joint) -> Mechanism:
-        others = [each for each in self.joints if each is not joint]
+    def without(self, joint: Joint, *instead: Joint) -> Mechanism:
+        others = [*(each for each in self.joints if each is not joint), *instead]
         return self._assembly.of_joints(fixed=self.fixed, rigid=self._rigid, joints=others)
 
 
@@ -107,6 +111,21 @@ def _off(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
     if driven and not can_drive(mechanism, driven):
         return "# (Without it what is driven could not move.)"
     return f"# off = true  # without it: {_told(mechanism)}"
+
+
+def _is_doubtful(joint: Joint) -> bool:
+    return joint.evidence is not None and joint.evidence.doubt is not None
+
+
+def _doubt(tried: _Tried, joint: Joint, driven: Sequence[str]) -> str:
+    """Write the other reading of a joint as the end of the line of its kind, with what it gives."""
+    doubt = joint.evidence.doubt if joint.evidence else None
+    assert doubt is not None
+    pose = np.asarray(joint.frames_1, float)[0]
+    other = JOINTS_BY_HAND[doubt.kind](joint.name, *joint.parts, point=pose[:3, 3], axis=pose[:3, 2])
+    mechanism = tried.without(joint, other)
+    sweeps = "" if not driven or can_drive(mechanism, driven) else ", which need another drive"
+    return f'or "{doubt.kind}", since {doubt.why}: it has {_told(mechanism)} then{sweeps}'
 
 
 def _needless(mechanism: Mechanism, bodies: Bodies) -> list[str]:

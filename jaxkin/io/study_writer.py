@@ -122,7 +122,8 @@ def _joints(mechanism: Mechanism, choices: Choices) -> list[str]:
         lines += ["", f"[joints.{toml(joint.name)}]", *comment(str(joint.evidence or ""))]
         lines += [choices.off[joint.name]] if joint.name in choices.off else []
         kind, keys = _keys(joint)
-        lines += [f"kind = {toml(kind)}", f"parts = {toml(joint.parts)}"]
+        other = f"  # {choices.doubts[joint.name]}" if joint.name in choices.doubts else ""
+        lines += [f"kind = {toml(kind)}{other}", f"parts = {toml(joint.parts)}"]
         lines += [f"{key} = {toml(value)}" for key, value in (keys | _limits(joint)).items()]
     return lines
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from jaxkin.joints.kinds import JointKind
+
 
 class EvidenceKind(StrEnum):
     """Where the knowledge of a joint comes from; it prints as, and is equal to, its text."""
@@ -36,6 +38,18 @@ class EvidenceKind(StrEnum):
 
 
 @dataclass(frozen=True)
+class Doubt:
+    """Another reading of the solids of a joint, about as likely."""
+
+    kind: JointKind
+    """The kind that the joint would be of, about the same axis."""
+    why: str
+
+    def __str__(self) -> str:
+        return f"may be {self.kind}: {self.why}"
+
+
+@dataclass(frozen=True)
 class Evidence:
     """What a joint is known from."""
 
@@ -44,6 +58,7 @@ class Evidence:
     """What was measured, by name, such as ("clearance", 0.05): lengths in the unit of the file, angles in radians."""
     text: str = ""
     """The same in one line, for reports."""
+    doubt: Doubt | None = None
 
     def __str__(self) -> str:
         return f"{self.kind}: {self.text}" if self.text else str(self.kind)

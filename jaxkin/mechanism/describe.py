@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin._grouped import SCREEN, grouped, kind_of, shortened
 from jaxkin._names import listed
-from jaxkin.geometry.units import lengths_in
+from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mobility.infeasible_drive import InfeasibleDrive
@@ -30,7 +30,7 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     together, and of many loops and notes the first of a kind, unless `verbose`.
     """
     brief = len(mechanism.all_joints) > SCREEN and not verbose
-    unit = f", {lengths_in(mechanism.unit)}" if mechanism.unit else ""
+    unit = f", lengths in {unit_name(mechanism.unit)}" if mechanism.unit else ""
     moving = len(mechanism.parts) - len(mechanism.fixed)
     fixed = (listed if brief else ", ".join)(mechanism.fixed)
     lines = [f"Mechanism of {len(mechanism.parts)} parts ({moving} moving), fixed: {fixed}{unit}", ""]
@@ -43,6 +43,10 @@ def describe_mechanism(mechanism: Mechanism, verbose: bool = False) -> str:
     loops = [f"{' - '.join((*loop.path, loop.path[0]))}" for loop in mechanism.structure.loops]
     lines += ["", f"Loops: {len(loops)}", *(f"  {loop}" for loop in (shortened(loops) if brief else loops))]
     lines += ["", *describe_mobility(mechanism)]
+    if doubtful := [(each, doubt) for each in joints if (doubt := each.evidence and each.evidence.doubt)]:
+        rows = [f"  {each.name} is taken as {each.kind}, and {doubt}" for each, doubt in doubtful]
+        head = f"Doubtful: {len(rows)} of {len(joints)} joints; jaxkin inspect --study tries the other readings"
+        lines += ["", head, *(shortened(rows) if brief else rows)]
     if mechanism.notes:
         notes = grouped(((kind_of(note.rpartition(": ")[2]), note) for note in mechanism.notes), not brief)
         lines += ["", "Notes:", *(f"  {note}" for note in notes)]
@@ -85,6 +89,8 @@ def describe_mobility(mechanism: Mechanism) -> list[str]:
         return [f"Not closed in this pose: {gap}; mechanism.close() closes it"]
     mobility = mechanism.mobility()
     lines = [f"Mobility: {mobility}", *([f"  {mobility.counting}"] if mobility.counting else [])]
+    if len(mechanism.bodies) == 1 < len(mechanism.parts):
+        return [*lines, "It cannot move: all its parts are one body."]
     moving = len(mechanism.parts) > len(mechanism.fixed)
     return lines if mobility.useful or not moving else [*lines, *_why_it_cannot_move(mechanism, mobility.freedoms)]
 

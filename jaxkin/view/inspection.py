@@ -11,7 +11,7 @@ import numpy as np
 from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
-from jaxkin.geometry.units import lengths_in
+from jaxkin.geometry.units import unit_name
 from jaxkin.view.callouts import CHAIN, COLORS, MAX_CALLOUTS, draw_axes, draw_contacts, draw_states
 from jaxkin.view.drawing import FIXED_COLOR, PALETTE
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
@@ -64,7 +64,7 @@ def draw_inspection(
     sheet.write((MARGIN, 50), fitted(assembly.source, sheet.width - 2 * MARGIN, 13, "bold"), 13, INK, weight="bold")
     facts = [f"{len(assembly.parts)} parts", f"{len(contacts)} contact{'' if len(contacts) == 1 else 's'}"]
     facts += [f"{len(mechanism.all_joints)} joints"] if mechanism else []
-    sheet.write((MARGIN, 87), "  ·  ".join([*facts, lengths_in(assembly.unit)]), 9, GREY)
+    sheet.write((MARGIN, 87), "  ·  ".join([*facts, f"lengths in {unit_name(assembly.unit)}"]), 9, GREY)
     draw_legend(sheet, entries)
     draw_scale(sheet, assembly.unit)
     with whole(Path(path)) as draft:

@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.contacts.contact import Contacts
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.units import lengths_in
+from jaxkin.geometry.units import unit_name
 from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.mechanism.mechanism import Mechanism
@@ -80,7 +80,7 @@ def _scene(found: Mechanism | Assembly, source: str) -> dict:
     facts += [f"{len(bodies)} bodies", f"joints that move: {len(axes)}"] if mechanism else []
     return {
         "title": source,
-        "subtitle": "  ·  ".join([*facts, lengths_in(found.unit or "no known unit")]),
+        "subtitle": "  ·  ".join([*facts, f"lengths in {unit_name(found.unit) or 'no known unit'}"]),
         "labels": [""],
         "problems": [""],
         "lost": [""],
@@ -149,7 +149,7 @@ def _joint(joint: Joint, mechanism: Mechanism, index: Mapping[str, int]) -> dict
         "kind": str(joint.kind),
         "coordinates": [f"{joint.name}.{coordinate}" for coordinate in joint.coordinates],
         "parts": [index[part] for part in joint.parts],
-        "evidence": str(evidence or ""),
+        "evidence": f"{evidence or ''}" + (f" (Doubtful: {evidence.doubt})" if evidence and evidence.doubt else ""),
         "sizes": [[name, f"{value:.4g}"] for name, value in (evidence.sizes if evidence else ())],
         "inferred": not known,
         "contacts": [str(contact) for contact in contacts],

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.movements import is_length
-from jaxkin.geometry.units import lengths_in
+from jaxkin.geometry.units import unit_name
 from jaxkin.solve.status import Status
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def headline(motion: Motion) -> tuple[str, str]:
         facts.append(f"beyond joint limits at {limited}")
     if lost := np.sum(np.any([each.loose for each in motion.lost_contacts], axis=0)):
         facts.append(f"contact lost at {lost}")
-    facts.append(lengths_in(motion.mechanism.unit or "the unit of the input"))
+    facts.append(f"lengths in {unit_name(motion.mechanism.unit) or 'the unit of the input'}")
     return f"Motion driven by {drives}", "  ·  ".join(facts)
 
 

@@ -16,12 +16,14 @@ from jaxkin.assembly.proposals import Proposal
 from jaxkin.cli.app import app
 from jaxkin.geometry.part import Part
 from jaxkin.io.study_drives import can_drive, small_drive
-from jaxkin.joints.evidence import Bond, Evidence, EvidenceKind
+from jaxkin.joints.evidence import Bond, Doubt, Evidence, EvidenceKind
+from jaxkin.joints.kinds import JointKind
 from tessellation import write_stl
 
 CHOICE = re.compile(r'^(\s*)# (?=instead = |off = |")')
 FASTENER = Evidence(EvidenceKind.FASTENER, (("radius", 2.0),), "held by 'ground' only")
 CLEARANCE = Evidence(EvidenceKind.CLEARANCE, (("clearance", 0.05),), "the pin has a clearance of 0.05")
+DOUBTFUL = replace(CLEARANCE, doubt=Doubt(JointKind.CYLINDRICAL, "no face that is drawn stops its slide"))
 LIFT_TABLE = Path(__file__).parents[1] / "assembly" / "data" / "lift_table.step.xz"
 
 
@@ -40,7 +42,7 @@ def bars():
     box = trimesh.creation.box((8.0, 6.0, 4.0)).triangles
     assembly = Assembly(tuple(Part(name, (), box + middle) for name, middle in middles.items()), "mm", "bars")
     joints = [jk.revolute(name, *joined[name], point=point, axis=(0, 0, 1)) for name, point in pins.items()]
-    joints[1:] = [replace(joint, evidence=CLEARANCE) for joint in joints[1:]]
+    joints[1:] = [replace(joint, evidence=DOUBTFUL if joint.name == "C" else CLEARANCE) for joint in joints[1:]]
     bolts = [["ground", "bolt <1>"], ["ground", "bolt <2>"]]
     mechanism = assembly.of_joints(fixed=["ground"], rigid=bolts, joints=joints)
     bonds = [Bond(bond.parts, FASTENER) if "lamp" not in bond.parts else bond for bond in mechanism.bonds]
@@ -69,6 +71,21 @@ def variants(path):
             text = [*lines[:number], CHOICE.sub(r"\1", line), *lines[number + 1 :]]
             other.write_text("\n".join(text), "utf-8")
             yield line, jk.load_study(other)
+
+
+def test_the_other_reading_of_a_doubtful_joint_is_beside_its_kind_with_what_it_gives(study):
+    text = study.read_text("utf-8")
+    (line,) = [line for line in text.splitlines() if "# or" in line]
+    assert line.startswith(
+        'kind = "revolute"  # or "cylindrical", since no face that is drawn stops its slide: it has '
+    )
+    other = study.with_name("other.toml")
+    other.write_text(text.replace(line, 'kind = "cylindrical"'), "utf-8")
+    mechanism = jk.load_study(other).mechanism
+    assert mechanism.joints["C"].coordinates == ("z", "phi")
+    assert (
+        mechanism.mobility().useful == 1 and "one freedom of use in 4 bodies then" in line
+    )  # the loop stops the slide
 
 
 @pytest.mark.long

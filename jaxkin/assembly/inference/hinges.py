@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -14,6 +13,7 @@ from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, between_bores, nearest, play
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.contacts.contact import Contact
@@ -38,23 +38,6 @@ class Hinge(NamedTuple):
     inference: Inference
     stop: Stop
     """What is in doubt: see `Stop`."""
-
-
-class Stop(IntEnum):
-    """What stops a slide along a common axis that exact contacts allow, the surest first."""
-
-    NONE = 0
-    """The joint is not one of exact contacts."""
-    FACES = 1
-    """Faces on both sides."""
-    ONE_FACE = 2
-    """A face on one side, and on the other one the thread or the retaining ring of a fastener."""
-    CENTRED = 3
-    """Nothing that is drawn; the pin and its holes have their middles in one place."""
-    SHORT = 4
-    """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
-    TIGHT = 5
-    """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
 
 
 class Line(NamedTuple):
@@ -216,7 +199,8 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         how = "clearance" if pair.clearance >= 0 else "interference"
         fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
-    evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}")
+    doubt = None if touching else slide_doubt(stop, room, hole.radius)
+    evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}", doubt)
     return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
 
 

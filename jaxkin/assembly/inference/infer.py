@@ -20,7 +20,7 @@ from jaxkin.assembly.inference.held import (
     rollers,
     with_hosts,
 )
-from jaxkin.assembly.inference.hinges import Stop, hinges
+from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, tied_to_nothing
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
@@ -30,6 +30,7 @@ from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers

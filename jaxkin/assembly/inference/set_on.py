@@ -8,10 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge, Line, Stop, lines
+from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge, Line, lines
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.pose import Vector

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from jaxkin.assembly.inference.hinges import Hinge, Stop
+from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
 from jaxkin.geometry.part import Part

@@ -159,3 +159,17 @@ def test_a_screw_in_the_slot_of_a_profile_holds_what_lies_on_it(seed, half, floo
     mechanism = anywhere(assembly(rail, plate, screw, lever), seed).mechanism(fixed=["rail"])
     assert owners(mechanism)["lever"] != owners(mechanism)["rail"]
     assert any("ends in a slot" in note for note in mechanism.notes) == held
+
+
+def test_plates_that_bolts_with_nuts_hold_are_a_structure():
+    """No bolt is let go so that it can turn alone in its holes."""
+    places = [(-20.0, 0.0), (20.0, 0.0)]
+    plates = [part(name, *(ring(5.0, 12.0, low, low + 8, at) for at in places)) for low, name in ((0, "a"), (8, "b"))]
+    bolts = [part(f"bolt{k}", pin(5.0, -6, 16, at), pin(8.0, 16, 22, at)) for k, at in enumerate(places)]
+    nuts = [part(f"nut{k}", ring(5.0, 9.0, -6, 0, at)) for k, at in enumerate(places)]
+    drawn = assembly(*plates, *bolts, *nuts)
+    assert len(drawn.contacts()) > 10
+    for fixed in ("a", "b"):
+        mechanism = drawn.mechanism(fixed=[fixed])
+        assert len(mechanism.bodies) == 1
+        assert "It cannot move: all its parts are one body." in str(mechanism)

@@ -24,6 +24,22 @@ def test_a_plate_that_is_shorter_than_its_hole_is_wide_turns_on_a_rod(seed, leng
     (joint,) = moving(mechanism)
     assert joint.kind == kind
     assert any("would jam" in note for note in mechanism.notes) == (kind == "revolute")
+    assert ("Doubtful: 1 of 1 joints" in str(mechanism)) == (kind == "revolute")
+
+
+@pytest.mark.parametrize(
+    ("play", "kind", "other"),
+    [(1.0, "revolute", None), (9.0, "revolute", "cylindrical"), (20.0, "cylindrical", "revolute")],
+)
+def test_a_play_near_the_limit_of_none_is_doubtful_and_both_readings_are_told(play, kind, other):
+    """A pin with clearance in a long hub between two lugs: up to 15.8 mm, three radii of its hole, count as none."""
+    base = part("base", BASE, ring(5.0, 12.0, -50, -40), ring(5.0, 12.0, 40, 55))
+    rod = part("rod", pin(5.0, -52, 55))
+    hub = part("hub", ring(5.25, 12.0, -40 + 0.3 * play, 40 - 0.7 * play), block((11, -3, -5), (40, 3, 5)))
+    (joint,) = moving(assembly(base, rod, hub).mechanism(fixed=["base"]))
+    doubt = joint.evidence.doubt
+    assert (joint.kind, doubt and doubt.kind) == (kind, other)
+    assert doubt is None or f"a play of {play:.2g}" in doubt.why
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -1,0 +1,51 @@
+"""What stops a slide along the common axis of two bodies, and what is in doubt about it."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from jaxkin.assembly.inference.trapped import MAX_PLAY
+from jaxkin.joints.evidence import Doubt
+from jaxkin.joints.kinds import JointKind
+
+NEAR_LIMIT = 2.0
+"""Factor between a play and the largest one that counts as none, within which either reading is about as likely."""
+
+
+class Stop(IntEnum):
+    """What stops a slide along a common axis that exact contacts allow, the surest first."""
+
+    NONE = 0
+    """The joint is not one of exact contacts."""
+    FACES = 1
+    """Faces on both sides."""
+    ONE_FACE = 2
+    """A face on one side, and on the other one the thread or the retaining ring of a fastener."""
+    CENTRED = 3
+    """Nothing that is drawn; the pin and its holes have their middles in one place."""
+    SHORT = 4
+    """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
+    TIGHT = 5
+    """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
+
+
+_WHY = {
+    Stop.ONE_FACE: "on one side a fastener alone would stop its slide",
+    Stop.CENTRED: "no face that is drawn stops its slide",
+    Stop.SHORT: "only that its hole is short tells that it does not slide",
+}
+"""Why a joint that is taken to turn only may slide, too."""
+
+
+def slide_doubt(stop: Stop, room: float | None, radius: float) -> Doubt | None:
+    """Tell the other reading of a joint about a common axis; None where faces say without doubt whether it slides.
+
+    `room` is the play that faces leave along the axis, None without faces on both sides; `radius` that of the hole.
+    """
+    if stop in _WHY:
+        return Doubt(JointKind.CYLINDRICAL, _WHY[stop])
+    limit = MAX_PLAY * radius
+    if room is None or not limit / NEAR_LIMIT < room < limit * NEAR_LIMIT:
+        return None
+    kind = JointKind.CYLINDRICAL if room <= limit else JointKind.REVOLUTE
+    return Doubt(kind, f"faces leave it a play of {room:.2g}, where up to {limit:.2g} counts as none")
