@@ -104,6 +104,7 @@ class CouplerCurve:
             if found:
                 at = np.array([each.point for each in found]) @ axes_of.T
                 axes.plot(*at.T, marker, color="black", fillstyle="none", label=name)
+        axes.set(xlabel="in the plane of the curve, unit of the mechanism")
         axes.set_aspect("equal")
         axes.grid(alpha=0.3)
         figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=3)

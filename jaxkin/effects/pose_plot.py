@@ -31,8 +31,14 @@ def draw_lines(
 
     figure = Figure(figsize=(7.5, 4.8), layout="constrained")
     axes = figure.add_subplot()
+    across = np.arange(rows.shape[1]) if at is None else at
     for name, row in zip(names, rows, strict=True):
-        axes.plot(np.arange(len(row)) if at is None else at, np.where(np.isfinite(row), row, np.nan), label=name)
+        known = np.pad(np.isfinite(row), 1)
+        alone = known[1:-1] & ~known[:-2] & ~known[2:]  # no line goes through these: they are dots
+        marker = {"marker": "o", "markersize": 4, "markevery": np.flatnonzero(alone).tolist()} if alone.any() else {}
+        axes.plot(across, np.where(known[1:-1], row, np.nan), label=name, **marker)
+    if len(across):  # all poses are seen, also those of which nothing is known
+        axes.update_datalim([(np.nanmin(across), 0.0), (np.nanmax(across), 0.0)])
     # zero is where parts touch and where forces change sign: it is always seen
     axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=1)
     for place, marker in marks:

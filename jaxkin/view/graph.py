@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -69,6 +69,19 @@ def places(diagram: Diagram, width: float) -> dict[str, np.ndarray]:
     return {part: width * place for part, place in layout(diagram.parts, diagram.ends).items()}
 
 
+def reach_of_names(diagram: Diagram) -> float:
+    """Find how far the name of a joint may reach sideways from its line, in inches; 0 where joints have no names."""
+    if len(diagram.parts) > SMALL or not diagram.joints:
+        return 0.0
+    loops = Counter(joint for loop in diagram.loops for joint, _ in loop.joints)
+    return 0.03 + LANE * max(loops.values(), default=0) / 2 + 2 * max(_half_width(name) for name in diagram.joints)
+
+
+def _half_width(name: str) -> float:
+    """Estimate half the width of the name of a joint as it is drawn, in inches."""
+    return 0.02 + 0.033 * min(len(name), MAX_LETTERS)
+
+
 def draw_graph(
     axes: Axes,
     diagram: Diagram,
@@ -115,7 +128,7 @@ def _names(
     taken = [parts]
     for joint, line in lines.items():
         name = diagram.joints[joint]
-        half = np.array([0.02 + 0.033 * min(len(name), MAX_LETTERS), 0.07])
+        half = np.array([_half_width(name), 0.07])
         aside = _aside(line)
         aside = aside * (0.03 + LANE * len(through[joint]) / 2 + np.abs(aside) @ half)[:, None]
         spots = np.concatenate([(line + side * aside)[len(line) * 3 // 10 : len(line) * 7 // 10] for side in (1, -1)])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from jaxkin._files import DPI
-from jaxkin.view.graph import Diagram, colors, draw_graph, lines_of, places
+from jaxkin.view.graph import Diagram, colors, draw_graph, lines_of, places, reach_of_names
 from jaxkin.view.illustration import INK
 from jaxkin.view.sheet import GREY, Place, clip
 from jaxkin.view.tree import LEVELS, WIDE, boxes, draw_tree
@@ -38,7 +38,8 @@ def plot_structure(diagram: Diagram) -> Figure:
     left, right = min(box.x - box.width / 2 for box in tree), max(box.x + box.width / 2 for box in tree)
     bottom = min(box.y - box.height for box in tree)
     drawn = right - left <= WIDE and len({box.y for box in tree}) <= LEVELS
-    across = [np.ptp(points[:, 0]) + 2 * AROUND, (right - left if drawn else 1.5) + 2 * AROUND]
+    beside = max(AROUND, reach_of_names(diagram))
+    across = [np.ptp(points[:, 0]) + 2 * beside, (right - left if drawn else 1.5) + 2 * AROUND]
     high = max(np.ptp(points[:, 1]), -bottom if drawn else 0.0, 1.0) + 2 * AROUND
     listed = min(len(diagram.loops), LEGEND) + (len(diagram.loops) > LEGEND)
     foot = 0.1 + LEGEND_LINE * listed

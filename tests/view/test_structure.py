@@ -58,6 +58,17 @@ def test_all_names_and_loops_are_drawn(mixed) -> None:
     assert len(heads(mixed)) == sum(len(loop.joints) for loop in MIXED.loops)
 
 
+def test_no_name_is_cut_off_at_the_edge() -> None:
+    joints = [("ground-crank", "ground", "crank"), ("crank-coupler", "crank", "coupler")]
+    joints += [("coupler-rocker", "coupler", "rocker"), ("ground-rocker", "ground", "rocker")]
+    figure = structure(["ground", "crank", "coupler", "rocker"], joints, ["ground"]).plot()
+    graph = figure.axes[0]
+    frame = graph.get_window_extent()
+    for text in graph.texts:
+        drawn = text.get_window_extent()
+        assert frame.x0 <= drawn.x0 and drawn.x1 <= frame.x1, text.get_text()
+
+
 def test_arrows_point_the_way_of_their_loops(mixed) -> None:
     """Of two that share a joint, both; the head lies farther along the joint than its foot."""
     at = {text.get_text(): np.array(text.get_position()) for text in mixed.axes[0].texts if text.get_text()}
