@@ -15,9 +15,16 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.branch_certificate import (
+    LEAST_DISCRIMINANT,
+    Rows,
+    certify_line,
+    is_steep,
+    surely_passes,
+    unwrapped,
+)
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.closed_form.solve_groups import Solved, assembled_roots, solve_once
-from jaxkin.solve.closed_form.way import LEAST_DISCRIMINANT, Rows, is_steep, surely_passes, unwrapped, way
 from jaxkin.solve.system.loop_system import LoopSystem
 
 NODES = 129
@@ -119,7 +126,7 @@ def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, s
     discriminants: Rows = solved.discriminants
     if xp is np:
         discriminants, nearby = np.stack(discriminants), np.array(nearby).reshape(-1, NODES)
-        passes = way(discriminants, steep, first, last).passes
+        passes = certify_line(discriminants, steep, first, last).passes
     else:
         passes = surely_passes(discriminants, steep)
     start = xp.stack([coordinate.at(first) for coordinate in solved.coordinates])

@@ -1,15 +1,15 @@
 """A range of a single input by formulas, with the proof that the motion leads from the assembled pose to its poses.
 
 The formulas give a pose for every input, on the branch of the assembled pose, but they do not know whether the input
-can be moved there. It can if all discriminants stay positive on the way (`way`), for which they are computed at nodes.
-Angles are unwrapped along the nodes, too.
+can be moved there. It can if all discriminants stay positive up to there (`branch_certificate.py`), for which they are
+computed at nodes. Angles are unwrapped along the nodes, too.
 
 | status | when |
 |---|---|
 | CLOSED | the loops close, and every interval from the assembled pose to the pose is passed |
 | UNREACHABLE | the loops do not close at this input |
 | JUMPED | the loops close; between the assembled pose and the pose they do not |
-| STALLED | the loops close; whether the way is passed is in doubt: a change point, or nearly a limit |
+| STALLED | the loops close; whether the motion passes to them is in doubt: a change point, or nearly a limit |
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
+from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
 from jaxkin.solve.closed_form.line import (
     NODES,
     Line,
@@ -38,7 +39,6 @@ from jaxkin.solve.closed_form.line import (
 )
 from jaxkin.solve.closed_form.planar_derivative import planar_slopes
 from jaxkin.solve.closed_form.solve_groups import Solved, residual_norm, solve_groups, solve_once
-from jaxkin.solve.closed_form.way import at_intervals, reach, way
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
@@ -199,10 +199,10 @@ def joint_displacements(
 def _reached(
     system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
 ) -> tuple[list[Float[Array, " poses"]], Bool[Array, " poses"], Bool[Array, " poses"]]:
-    """Judge the ways from the assembled pose, upwards and downwards.
+    """Judge the motion from the assembled pose to poses, upwards and downwards.
 
     Returns unknown angles nearby, with their full turns; to which poses the motion passes; and before which poses there
-    surely is a limit, whichever way they are approached.
+    surely is a limit, whichever side they are approached from.
     """
     turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
     position = (values - TURN * turns - line.begin) / line.spacing
@@ -216,8 +216,8 @@ def _reached(
         return every, jnp.ones(values.shape, bool), jnp.zeros(values.shape, bool)
 
     def parts_of_it():
-        rising, judged = values >= 0, way(line.discriminants, jnp.asarray(line.steep), *ends(system))
-        reached = reach(judged.table, interval, distance, discriminants)
+        rising, judged = values >= 0, certify_line(line.discriminants, jnp.asarray(line.steep), *ends(system))
+        reached = certify_poses(judged.table, interval, distance, discriminants)
         (from_below, from_above), (after_limit, before_limit) = reached.passed, reached.crossed
         if not system.periodic:
             passed, crossed = jnp.where(rising, from_below, from_above), jnp.where(rising, after_limit, before_limit)

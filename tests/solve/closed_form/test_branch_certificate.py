@@ -1,12 +1,12 @@
-"""The way to poses: angles are unwrapped without an arc tangent, and what is passed by a wide margin is passed."""
+"""Angles are unwrapped without an arc tangent, and lines that are passed by a wide margin are certified."""
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
+from jaxkin.solve.closed_form.branch_certificate import MAX_TURN, certify_line, is_steep, surely_passes, unwrapped
 from jaxkin.solve.closed_form.complex_numbers import Complex, rough_argument, turn_by
-from jaxkin.solve.closed_form.way import MAX_TURN, is_steep, surely_passes, unwrapped, way
 from jaxkin.solve.lockstep import computed_once, in_lockstep
 
 NODES = np.linspace(0.0, 2 * np.pi, 129)
@@ -50,7 +50,7 @@ def test_what_surely_passes_passes_and_stays_positive(seed):
     steep, dense = np.zeros(128, bool), np.min(wave(np.linspace(0.0, 2 * np.pi, 100_000)))
     for margin in (-1e-2, 1e-8, 1e-4, 1e-2, 0.3):
         f = [wave(NODES) - dense + margin]
-        passes = bool(way(f, steep, 0, 128).passes)
+        passes = bool(certify_line(f, steep, 0, 128).passes)
         assert passes or not surely_passes(f, steep)
         assert margin > 1e-6 or not passes
         if margin == 0.3:

@@ -1,9 +1,9 @@
-"""Prove that the input can be moved from the assembled pose to a pose: no discriminant vanishes on the way.
+"""Certify that a pose is on the branch of the assembled pose: no discriminant vanishes at any input between them.
 
 The discriminants f of all groups are known at equidistant nodes, h apart. Between two nodes they are bounded by
 differences of the nodes nearby: the second differences stand for h^2 times the second derivative, the third ones for
-h^3 times the third. The assembled pose is one of the nodes, from which the ways lead upwards and downwards; or it is
-the first node as well as the last, a full turn later, and both ways lead to every pose.
+h^3 times the third. The assembled pose is one of the nodes, from which the input rises or falls; or it is the first
+node as well as the last, a full turn later, and every pose is reached both by rising and by falling.
 """
 
 from __future__ import annotations
@@ -36,21 +36,21 @@ Rows = Sequence[Float[Numbers, " _"]] | Float[Numbers, "_ _"]
 """One row after another; of a known line one array, so that a program that is given the line has few arguments."""
 
 
-class Way(NamedTuple):
-    """What is known of the intervals between neighbouring nodes of a line."""
+class LineCertificate(NamedTuple):
+    """What the discriminants at the nodes of a line prove of the intervals between neighbouring nodes."""
 
     passes: Bool[Numbers, ""]
     """Whether the motion passes all intervals."""
     limited: Bool[Numbers, ""]
     """Whether there surely is a limit."""
     table: list[Float[Numbers, " intervals"]]
-    """What `reach` reads of the interval of a pose, in the order of its lines."""
+    """What `certify_poses` reads of the interval of a pose, in the order of its lines."""
 
 
 def surely_passes(discriminants: Rows, steep: Bool[Numbers, " intervals"]) -> Bool[Array, ""]:
     """Tell whether the motion passes a line by a wide margin, by the largest differences of the whole line.
 
-    It costs less than `way`, which may find that the motion passes where this does not.
+    It costs less than `certify_line`, which may find that the motion passes where this does not.
     """
     passes = ~jnp.any(steep)
     for f in discriminants:
@@ -62,7 +62,7 @@ def surely_passes(discriminants: Rows, steep: Bool[Numbers, " intervals"]) -> Bo
     return passes
 
 
-def way(discriminants: Rows, steep: Bool[Numbers, " intervals"], first: int, last: int) -> Way:
+def certify_line(discriminants: Rows, steep: Bool[Numbers, " intervals"], first: int, last: int) -> LineCertificate:
     """Judge a line of nodes, travelled upwards from the node `first` and downwards from the node `last`.
 
     `discriminants` are those of all groups at all nodes; `steep` are intervals in which a turn is too large to unwrap.
@@ -87,7 +87,7 @@ def way(discriminants: Rows, steep: Bool[Numbers, " intervals"], first: int, las
         number > limit_above,
         number < limit_below,
     ]
-    return Way(~xp.any(blocked), xp.any(beyond), [row.astype(float) for row in (*facts, *rows)])
+    return LineCertificate(~xp.any(blocked), xp.any(beyond), [row.astype(float) for row in (*facts, *rows)])
 
 
 def unwrapped(turns: Sequence[Complex]) -> list[Float[Numbers, " nodes"]]:
@@ -141,8 +141,8 @@ def _bounds(f: Float[Numbers, " nodes"]) -> _Bounds:
     return _Bounds(least - xp.where(monotone, 0.0, 2 * PARABOLA_ERROR * third), curvature, monotone)
 
 
-class Reach(NamedTuple):
-    """What a way says of poses, upwards and downwards."""
+class PoseCertificates(NamedTuple):
+    """What the certificate of a line proves of poses, upwards and downwards."""
 
     passed: tuple[Bool[Array, " poses"], Bool[Array, " poses"]]
     """To which poses the motion passes, upwards and downwards, if the loops close there."""
@@ -150,13 +150,13 @@ class Reach(NamedTuple):
     """Before which poses there surely is a limit, upwards and downwards."""
 
 
-def reach(
+def certify_poses(
     table: Rows,
     interval: Int[Array, " poses"],
     distance: Float[Array, " poses"],
     discriminants: Sequence[Array | np.ndarray],
-) -> Reach:
-    """Tell to which poses the motion passes, by the table of a way.
+) -> PoseCertificates:
+    """Tell to which poses the motion passes, by the table of a `LineCertificate`.
 
     A pose is in an `interval`, at a `distance` from its lower node, counted in nodes. Between a node and a pose in the
     next interval, f is not below the lesser of its values there by more than (distance^2 / 8) |f"|. Where it is
@@ -174,7 +174,7 @@ def reach(
 
         from_below &= bounded(below, distance)
         from_above &= bounded(above, 1 - distance)
-    return Reach((from_below, from_above), (after_limit, before_limit))
+    return PoseCertificates((from_below, from_above), (after_limit, before_limit))
 
 
 def at_intervals(row: Float[Numbers, " intervals"], interval: Int[Array, " poses"]) -> Float[Array, " poses"]:
