@@ -274,3 +274,27 @@ def test_without_a_unit_lengths_are_metres():
     forces = jk.drive_forces(mechanism.sweep({"A": TURN}), applied=jk.force("rocker", (100, 80, 0), (1, 0, 0)))
     small = jk.drive_forces(fourbar().sweep({"A": TURN}), applied=jk.force("rocker", (100, 80, 0), (1, 0, 0)))
     np.testing.assert_allclose(forces.forces["A.phi"], 1000 * small.forces["A.phi"], rtol=1e-12)
+
+
+@pytest.mark.long
+def test_forces_at_rest_are_those_of_each_pose_alone():
+    """Also of more poses than one group, with a load of its own for each and a pose that is no number among them."""
+    mechanism, poses = planar_fourbar(1.0), 1300
+    masses = jk.masses(
+        mechanism,
+        given={part: jk.Mass(1.0, centre=(10.0, 20.0, 0.0), inertia=1e-3) for part in ("crank", "coupler", "rocker")},
+    )
+    turn = np.linspace(0.0, 6.0, poses)
+    turn[700] = np.nan
+    loads = np.stack([np.linspace(1.0, 2.0, poses), np.ones(poses), np.zeros(poses)], axis=1)
+
+    def torque(chosen):
+        push = jk.force("coupler", (1.0, 2.0, 0.0), loads[chosen])
+        found = jk.drive_forces(mechanism.sweep({"A": turn[chosen]}), masses, gravity=(0.0, -9.81, 0.0), applied=push)
+        return np.asarray(found.forces["A.phi"])
+
+    found = torque(slice(None))
+    np.testing.assert_array_equal(np.flatnonzero(np.isnan(found)), [700])
+    # rounding of sums in another order, from 1e-16 to 1e-15 of the largest torque
+    alone = np.concatenate([torque(slice(first, first + 325)) for first in range(0, poses, 325)])
+    np.testing.assert_allclose(found, alone, rtol=0, atol=1e-12 * np.nanmax(np.abs(found)))
