@@ -9,6 +9,7 @@ import numpy as np
 from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import is_round_about
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -66,10 +67,16 @@ def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
     for pair in known.touching:
         for part in pair:
             neighbours.setdefault(part, set()).update(pair - {part})
-    result = []
+    body, result = known.body, []
     for rod in (name for name in known.names if name in fastening):
         if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(known.solids[rod].faces) != 3:
             continue  # it has faces beside those of a pin with two ends
+        if any(
+            body[hub] == body[rod] and is_round_about(known, hub, known.bores[rod][0])
+            for hub in known.names
+            if hub != rod
+        ):
+            continue  # it drives a round hub that does not turn on it, as the shaft of a motor does
         caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
         for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
