@@ -67,9 +67,20 @@ def verdict(wanted: TrueJoint, found: jk.Mechanism, idle: set[str], truly_idle: 
         return "right"
     if not between:
         return "missed"
-    joint, got = between[0], set(between[0].coordinates)
-    if len(between) > 1:
-        return f"other: {len(between)} joints"
+    told = [_of_one(wanted, joint, coordinates, idle, truly_idle, place) for joint in between]
+    return told[0] if len({*told}) == 1 else f"other: {len(between)} joints"
+
+
+def _of_one(
+    wanted: TrueJoint,
+    joint: jk.Joint,
+    coordinates: set[str] | None,
+    idle: set[str],
+    truly_idle: set[str],
+    place: Place,
+) -> str:
+    """Judge one joint of two bodies; those of a shaft in the bearings of two parts that are screwed together agree."""
+    got = set(joint.coordinates)
     offset = joint.frames_1[0][:3, 3] - place.point(wanted.point)
     if wanted.kind == "Spherical":
         same = joint.kind == "spherical" and np.linalg.norm(offset) < MAX_OFFSET * place.millimetre

@@ -3,10 +3,13 @@
 from drawings import devices as devices
 from drawings import driveline as driveline
 from drawings import drives as drives
+from drawings import everyday as everyday
 from drawings import fittings as fittings
+from drawings import fixtures as fixtures
 from drawings import folding as folding
 from drawings import guided as guided
 from drawings import linkages as linkages
 from drawings import machines as machines
+from drawings import powered as powered
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop

@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
-from jaxkin.assembly.inference.sleeves import is_round
+from jaxkin.assembly.inference.sleeves import is_hollow, is_round
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
 from jaxkin.contacts.contact import Contact
@@ -93,12 +93,17 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis) -> str | None:
     if _from_axis(hole, pair) > FITTED * pair.one.radius:
         return None
     for each in known.axes:
-        if each.other is hole and each.one.part not in pair.parts:
+        if each.other is hole and each.one.part not in pair.parts and not _is_bush(known, each.one):
             places = [float((each.one.point - pair.one.point) @ hole.axis) + side * each.one.half for side in (-1, 1)]
             nearest = 0.0 if places[0] * places[1] < 0 else min(map(abs, places))
             if nearest - pair.one.radius <= MAX_SHORTFALL * hole.radius:
                 return each.one.part
     return None
+
+
+def _is_bush(known: Known, pin: Bore) -> bool:
+    """Tell whether a pin is the outside of a bush, which presses on no shaft."""
+    return is_hollow(known, pin.part, [bore for bore in known.bores[pin.part] if bore.on_axis_of(pin)])
 
 
 def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:

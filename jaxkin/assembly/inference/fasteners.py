@@ -19,6 +19,9 @@ MAX_HEAD = 4.0
 """Farthest a fastener reaches from its axis, over its smallest radius: flanges and large washers are within."""
 MAX_NUT = 3.0
 """The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
+MIN_THREADED = 0.2
+"""Share of the length of a nut that its holes are deep, at least: stand-offs with a thread in both ends have a third, a
+post with a hole in its end less."""
 MIN_ROUND = 0.84
 """Roundness of a screw seen along its axis, at least: a hexagon has 0.866."""
 MIN_PIN = 0.4
@@ -55,9 +58,13 @@ def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
 
 def _slim(part: Part, own: Sequence[Bore]) -> bool:
     corners = part.outermost - own[0].point
-    away = np.linalg.norm(corners - np.outer(corners @ own[0].axis, own[0].axis), axis=1)
-    reach = MAX_NUT if all(bore.hole for bore in own) else MAX_HEAD
-    return bool(away.max() <= reach * min(bore.radius for bore in own))
+    along = corners @ own[0].axis
+    away = np.linalg.norm(corners - np.outer(along, own[0].axis), axis=1).max()
+    least = min(bore.radius for bore in own)
+    if not all(bore.hole for bore in own):
+        return bool(away <= MAX_HEAD * least)
+    deep = sum(high - low for low, high in merged(span for bore in own for span in bore.spans_along(own[0].axis)))
+    return bool(away <= MAX_NUT * least and deep >= MIN_THREADED * np.ptp(along))
 
 
 def _is_mostly_pin(part: Part, own: Sequence[Bore]) -> bool:

@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.heads import is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
 from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, WIDER, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -65,7 +65,7 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         slides = stack.guides and several and not is_headed(known, stack)
         holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
-        turning = all(part in fastening or _is_round_about(known, part, stack.axis) for part in hosts)
+        turning = all(part in fastening or is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
             holder, where = crank, "alone, as it turns in bushes of others"
         if (clamped := _clamped_on(known, stack, body)) is not None:
@@ -135,7 +135,7 @@ def _keepers(
     all others, nor those that are on it with sleeves only, if there are others."""
 
     def turns(parts: Sequence[str]) -> bool:
-        round_ones = all(_is_round_about(known, part, stack.axis) for part in parts)
+        round_ones = all(is_round_about(known, part, stack.axis) for part in parts)
         return round_ones or all(part in known.sleeves for part in parts)
 
     keeping = [owner for owner, some in reach.items() if not turns([part for *_, part in some])] or list(reach)
@@ -158,7 +158,7 @@ def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
     loosest = max((pair.clearance for owner in bushed for pair in others[owner]), default=-np.inf)
     rest = [pair for owner, pairs in others.items() if owner not in bushed for pair in pairs]
     rest = [pair.other.part for pair in rest if pair.clearance <= loosest + SAME_FIT * stack.axis.radius]
-    carried = [part for part in rest if not _is_round_about(known, part, stack.axis)] or rest
+    carried = [part for part in rest if not is_round_about(known, part, stack.axis)] or rest
     return carried[0] if len({body[part] for part in carried}) == 1 else None
 
 
@@ -187,11 +187,6 @@ def _goes_through(pin: Bore, hole: Bore) -> bool:
     """Tell whether a pin goes through a hole that may be wider and beside it, as that of an eccentric round the pin."""
     offset, tilt = apart(pin, hole)
     return tilt < ACROSS and offset + pin.radius < hole.radius and shared_length(pin, hole) > hole.half
-
-
-def _is_round_about(known: Known, part: str, axis: Bore) -> bool:
-    own = [bore for bore in known.bores[part] if bore.on_axis_of(axis)]
-    return any(not bore.hole for bore in own) and is_round(known, part, own)
 
 
 def _goes_on(known: Known, stack: Stack, low: float, high: float) -> bool:

@@ -109,7 +109,7 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
     faces = [contact.surfaces[0] for contact in line.touching if contact.contact_state.is_flat]
     planes = [face for face in faces if isinstance(face, Plane)]
     across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
-    if not all(across):
+    if not all(across) and (any(across) or any(pins) or not _opens(known, line)):
         return []  # faces along the axis keep it from turning: exact contacts say what is left
     pinned = [each.one for each in line.found if not each.virtual]
     if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
@@ -119,6 +119,25 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         if turns(one, other, pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
     return _hinge(known, line, any(across), pair.one.part in fastening, kept)
+
+
+def _opens(known: Known, line: Line) -> bool:
+    """Tell whether two bodies can turn one way about their axis without cutting into each other: all plane faces that
+    meet are on one side of it, as those of a lid that is drawn closed.
+
+    A face with outward normal n meets the other one at distances s from the axis a along a x n; turning by a small
+    angle d moves it by -s d along n.
+    """
+    axis, first, signs = line.first.one, min(line.owners), set[int]()
+    for contact in line.touching:
+        if not isinstance(contact.surfaces[0], Plane):
+            return False
+        normal = contact.surfaces[0].normal * (1 if known.body[contact.parts[0]] == first else -1)
+        along = np.cross(axis.axis, normal)
+        low, high = (float(end - axis.point @ along) for end in known.shared_span(contact, along))
+        slack = NEAR_LENGTH * axis.radius
+        signs.add(1 if low >= -slack else -1 if high <= slack else 0)
+    return len(signs) == 1 and 0 not in signs
 
 
 def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:

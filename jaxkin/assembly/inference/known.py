@@ -8,8 +8,9 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.sockets import sockets
-from jaxkin.contacts.contact import Contacts
+from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
+from jaxkin.geometry.pose import Vector
 from jaxkin.joints.joint import Joint
 from jaxkin.topology.bodies import bodies
 
@@ -61,6 +62,15 @@ class Known:
         if self.clearance is not None:
             return []
         return [pair for pair in self.measured.far_axes(None) if frozenset(pair.parts) not in self.ignored]
+
+    def shared_span(self, contact: Contact, direction: Vector) -> tuple[float, float]:
+        """Find where along a direction two faces in contact are both, from their extents."""
+        spans = []
+        for part, name in zip(contact.parts, contact.faces, strict=True):
+            face = next(face for face in self.solids[part].faces if face.name == name)
+            along = face.triangles.reshape(-1, 3) @ direction
+            spans.append((float(along.min()), float(along.max())))
+        return max(low for low, _ in spans), min(high for _, high in spans)
 
     def add(self, inferences: Sequence[Inference]) -> None:
         """Take inferences of parts that are not one body already, one after another.

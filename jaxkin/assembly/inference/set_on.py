@@ -14,8 +14,6 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected
@@ -69,19 +67,9 @@ def _jams(known: Known, line: Line) -> float | None:
     if any(not isinstance(face, Plane) or abs(float(face.normal @ axis)) > ACROSS for _, face in flat):
         return None  # a face across the axis stops the slide
     holes = [end for each in line.found for end in each.other.reach(axis)]
-    shared = [_shared(known, contact, axis) for contact, _ in flat]
+    shared = [known.shared_span(contact, axis) for contact, _ in flat]
     guided = max([max(holes) - min(holes), *(high - low for low, high in shared)])
     return guided if guided < MIN_GUIDED * pair.other.radius else None
-
-
-def _shared(known: Known, contact: Contact, axis: Vector) -> tuple[float, float]:
-    """Find where along an axis two faces in contact are both."""
-    spans = []
-    for part, name in zip(contact.parts, contact.faces, strict=True):
-        face = next(face for face in known.solids[part].faces if face.name == name)
-        along = face.triangles.reshape(-1, 3) @ axis
-        spans.append((float(along.min()), float(along.max())))
-    return max(low for low, _ in spans), min(high for _, high in spans)
 
 
 def _turning(known: Known, line: Line) -> str | None:

@@ -51,7 +51,7 @@ def sleeves(known: Known) -> list[Sleeve]:
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
         if not any(bore.hole for bore in own) or _carries(known, name, housing):
             continue
-        if is_round(known, name, own) and _is_hollow(known, name, own):
+        if is_round(known, name, own) and is_hollow(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
@@ -144,7 +144,13 @@ def is_round(known: Known, name: str, own: list[Bore]) -> bool:
     return bool(away.max() <= ROUND * widest.radius)
 
 
-def _is_hollow(known: Known, name: str, own: list[Bore]) -> bool:
+def is_round_about(known: Known, part: str, axis: Bore) -> bool:
+    """Tell whether a part is round about an axis, as a roller or a pulley is."""
+    own = [bore for bore in known.bores[part] if bore.on_axis_of(axis)]
+    return any(not bore.hole for bore in own) and is_round(known, part, own)
+
+
+def is_hollow(known: Known, name: str, own: list[Bore]) -> bool:
     """Tell whether holes go through a part along the axis that they have in common; a shaft with a hole for a screw in
     its end is no sleeve."""
     along = own[0].axis

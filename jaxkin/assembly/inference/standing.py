@@ -9,7 +9,7 @@ import numpy as np
 from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import is_round
+from jaxkin.assembly.inference.sleeves import is_round_about
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -59,8 +59,7 @@ def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Find plain rods that fit a hole exactly and stand on its floor: posts and dowels, which are set into it, and rods
     with caps that touch nothing else on both ends.
 
-    A rod with a hub screwed on it that is no collar, or that is coupled to what is beyond the end of the rod, is the
-    shaft of a motor.
+    A rod with a round hub that does not turn on it is the shaft of a motor.
     """
     on: dict[str, set[str]] = {}
     for contact in known.contacts:
@@ -71,34 +70,18 @@ def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
     for pair in known.touching:
         for part in pair:
             neighbours.setdefault(part, set()).update(pair - {part})
-    result = []
+    body, result = known.body, []
     for rod in (name for name in known.names if name in fastening):
         if len(known.bores[rod]) != 1 or known.bores[rod][0].hole or len(known.solids[rod].faces) != 3:
             continue  # it has faces beside those of a pin with two ends
-        if _drives(known, rod):
-            continue
+        if any(
+            body[hub] == body[rod] and is_round_about(known, hub, known.bores[rod][0])
+            for hub in known.names
+            if hub != rod
+        ):
+            continue  # it drives a round hub that does not turn on it, as the shaft of a motor does
         caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
         for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
             result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
     return result
-
-
-def _drives(known: Known, rod: str) -> bool:
-    """Tell whether a part that is fastened on a rod is more than a collar: not round about it, or in contact with
-    something beyond the end of the rod."""
-    body, axis = known.body, known.bores[rod][0]
-    on = [part for part in known.names if body[part] == body[rod] and part != rod]
-    low, high = axis.reach(axis.axis)
-    for hub in on:
-        own = [bore for bore in known.bores[hub] if bore.on_axis_of(axis)]
-        if not any(bore.hole for bore in own):
-            continue  # the screw of a hub
-        if all(bore.hole for bore in own) or not is_round(known, hub, own):
-            return True
-        for other in (part for pair in known.touching if hub in pair for part in pair - {hub}):
-            places = (known.solids[other].outermost - axis.point) @ axis.axis + float(axis.point @ axis.axis)
-            middle = float(places.min() + places.max()) / 2
-            if not low <= middle <= high:
-                return True
-    return False

@@ -150,3 +150,13 @@ def test_a_bolt_through_the_ball_of_a_rod_end_holds_it_to_the_lever(seed, bolted
     assert any("of the rod end 'base'" in note for note in mechanism.notes)
     assert (body["lever"] == body["ball"]) == bolted
     assert "spherical" in [joint.kind for joint in moving(mechanism)]
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_bush_beside_a_disc_is_no_set_screw(seed):
+    """A disc in a bore, and a bush in a hole across that bore that ends at the disc: it presses on nothing."""
+    base = part("base", BASE, ring(30.0, 40.0, -30, 30), across(ring(6.0, 9.0, 31, 50)))
+    disc = part("disc", pin(29.9, -10, 10))
+    bush = part("bush", across(ring(4.0, 6.0, 31, 50)))
+    _, mechanism = of(assembly(base, disc, bush, LEVER), seed)
+    assert not any("the screw 'bush'" in note for note in mechanism.notes)
