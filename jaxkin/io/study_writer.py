@@ -83,7 +83,8 @@ def write_study(
 def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assumptions: Sequence[str]) -> list[str]:
     moving = sum(joint.freedoms > 0 for joint in mechanism.all_joints)
     parts = f"{len(mechanism.parts)} parts, {len(mechanism.bodies)} bodies"
-    lines = [f"# {parts}, {moving} joints that move; angles in degrees"]
+    joints = "1 joint that moves" if moving == 1 else f"{moving} joints that move"
+    lines = [f"# {parts}, {joints}; angles in degrees"]
     of_faces = {f"{part.name}: {note}" for part in mechanism.solids for note in part.notes}
     notes = [note for note in mechanism.notes if note not in of_faces and not note.startswith(_BESIDE)]
     for note in grouped((kind_of(note.rpartition(": ")[2]), note) for note in (*assumptions, *notes)):
