@@ -156,11 +156,11 @@ def _unlocked(
 
 
 def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
-    """Tell whether all else is one body without an inference, but for the fasteners that it holds: those named after
-    their host."""
+    """Tell whether all else is one body of several parts without an inference, but for the fasteners that it holds:
+    those named after their host. A pin in a bush is all of what can move."""
     fasteners = {*dropped.parts[1:]}
     others = [parts for parts in mechanism.bodies.values() if not fasteners.issuperset(parts)]
-    return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) < 2
+    return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) == 1 < len(others[0])
 
 
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:

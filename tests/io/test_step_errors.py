@@ -74,7 +74,7 @@ def test_missing_files_and_folders(tmp_path):
 
 @pytest.mark.parametrize("name", ["part.iges", "part.STEPX", "part"])
 def test_other_formats_are_refused_by_what_can_be_read(tmp_path, name):
-    with pytest.raises(ValueError, match=r"STEP files \(\.step, \.stp\) and meshes \(\.stl"):
+    with pytest.raises(ValueError, match=r"STEP files \(\.step, \.stp\), meshes \(\.stl"):
         load(tmp_path / name)
 
 
