@@ -21,6 +21,8 @@ CANDIDATES = 6
 """Parts that a part may be nearest to, by their boxes: those that are measured."""
 MIN_SUNK = 0.05
 """Share of the corners of a part in the material of another one, at least: what only touches it has less."""
+SAMPLED = 64
+"""Corners of a part that are looked for in the material of others, at most: a coil spring has thousands."""
 NEAR = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
@@ -80,7 +82,7 @@ def sunk_in_siblings(known: Known) -> list[Inference]:
     result = []
     for part in (known.solids[name] for name in known.names if name not in tied):
         siblings = [each for each in known.measured.beside(part) if known.group[each.name] == known.group[part.name]]
-        corners = part.outermost
+        corners = part.outermost[:: -(-len(part.outermost) // SAMPLED)]
         shares = [(float(inside(corners, each.triangles).mean()), each.name) for each in siblings]
         share, host = max(shares, default=(0.0, ""))
         if share > MIN_SUNK and known.group[part.name] != ():
