@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.wheels import wheels_of
+from jaxkin.assembly.wheels import wheels_last, wheels_of
 from jaxkin.geometry.part import Part
 from jaxkin.mobility.open_loops import opening
 
@@ -159,7 +159,7 @@ def _tried(mechanism: Mechanism, choice: Sequence[str], drive: Sequence[str] | N
         structure = ": all parts are one body" if bodies == 1 < len(mechanism.parts) else ""
         return Proposal(fixed, (), 0, bodies, 0, f"nothing can move{structure}")
     turning = wheels_of(mechanism)
-    driven = tuple(drive if drive is not None else sorted(mobility.drivable, key=turning.__contains__))
+    driven = tuple(drive if drive is not None else wheels_last(mechanism))
     plan = mechanism.plan(driven)
     if drive is not None and plan.notes:
         return Proposal(fixed, (), mobility.useful, bodies, 0, "; ".join(plan.notes))

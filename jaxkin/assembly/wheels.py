@@ -17,6 +17,11 @@ ROUND = 0.95
 """Roundness of a wheel about its axis, at least: a hexagon has 0.87."""
 
 
+def wheels_last(mechanism: Mechanism) -> tuple[str, ...]:
+    """List coordinates that determine the motion together, as the mobility does, those of wheels last."""
+    return tuple(sorted(mechanism.mobility().drivable, key=wheels_of(mechanism).__contains__))
+
+
 def wheels_of(mechanism: Mechanism) -> dict[str, str]:
     """Find the turns of bodies that are round about their only hinge, as wheels and rollers are: a part of each body by
     the coordinate."""

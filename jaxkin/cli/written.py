@@ -38,10 +38,11 @@ def write_page(study: Study, tried: Sequence[Proposal], page: Path) -> None:
 
 def _drivable(study: Study) -> tuple[str, ...]:
     """Find coordinates that determine the motion together; none where nothing can move, or where loops are open."""
+    from jaxkin.assembly.wheels import wheels_last
     from jaxkin.mobility.open_loops import opening
 
     mechanism = study.mechanism
-    return () if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().drivable
+    return () if opening(mechanism.linkage, mechanism.unit) is not None else wheels_last(mechanism)
 
 
 def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: ValueError) -> None:

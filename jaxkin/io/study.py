@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from jaxkin._names import listed, nearest
+from jaxkin.assembly.wheels import wheels_last
 from jaxkin.contacts.contact import Contacts
 from jaxkin.io.load import load
 from jaxkin.io.named_effects import Result, Settings, compute
@@ -108,7 +109,7 @@ class Study:
         if not self.ranges:
             joints = self.mechanism.all_joints
             names = ", ".join(f"{joint.name}.{c}" for joint in joints for c in joint.coordinates)
-            drivable = self.mechanism.mobility().drivable
+            drivable = wheels_last(self.mechanism)
             enough = f"; {listed(drivable)} would be enough" if drivable else ""
             raise ValueError(
                 f"nothing is driven: give --drive JOINT=RANGE, once or more, or [drive] in a study{enough}; there are "

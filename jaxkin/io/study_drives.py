@@ -59,9 +59,9 @@ def small_drive(mechanism: Mechanism) -> dict[str, str]:
     if len(driven) == 1 and _shares(mechanism, driven)[0] < _POOR:
         others = [name for name in useful_coordinates(mechanism) if can_drive(mechanism, [name])]
         driven = (max(others, key=lambda name: _shares(mechanism, [name])[0], default=driven[0]),)
-    wheels = wheels_of(mechanism)
-    wheels = {name: f"0:0:{_COUNT}" for name in driven if name in wheels and len(wheels) < len(driven)}
-    return small_ranges(mechanism, [name for name in driven if name not in wheels]) | wheels
+    turning = wheels_of(mechanism)
+    still = {name: f"0:0:{_COUNT}" for name in driven if name in turning and len(turning) < len(driven)}
+    return small_ranges(mechanism, [name for name in driven if name not in still]) | still
 
 
 def small_ranges(mechanism: Mechanism, driven: Sequence[str]) -> dict[str, str]:

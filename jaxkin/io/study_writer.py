@@ -13,6 +13,7 @@ from jaxkin._files import whole
 from jaxkin._grouped import grouped, kind_of
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.assembly.inferred import TOLD
+from jaxkin.assembly.wheels import wheels_last
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.geometry.pose import Pose, frame
 from jaxkin.io.study_bodies import Bodies
@@ -198,9 +199,9 @@ def _drive(mechanism: Mechanism, drive: Mapping[str, str] | None) -> list[str]:
         return ["", "[drive]", *(f"{toml_key(name)} = {toml(values)}" for name, values in drive.items())]
     if (gap := opening(mechanism.linkage, mechanism.unit)) is not None:
         return ["", *comment(f"nothing can drive: not closed in this pose: {gap}")]
-    found = mechanism.mobility()
-    if not found.drivable:
-        return ["", *comment(f"nothing can drive: {found}")]
-    needed = "one range for each of these" if len(found.drivable) > 1 else "a range for this"
-    choices = [f'# {toml_key(each)} = "0:10:11"' for each in found.drivable]
+    drivable = wheels_last(mechanism)
+    if not drivable:
+        return ["", *comment(f"nothing can drive: {mechanism.mobility()}")]
+    needed = "one range for each of these" if len(drivable) > 1 else "a range for this"
+    choices = [f'# {toml_key(each)} = "0:10:11"' for each in drivable]
     return ["", f"# To drive it, give {needed}, START:STOP:COUNT:", "# [drive]", *choices]
