@@ -22,6 +22,8 @@ import jaxkin as jk
 
 jax.config.update("jax_enable_x64", True)
 POSES = 10_000
+GRAVITY = (0.0, -9.81, 0.0)
+"""In the plane of both, so that the forces are not zero."""
 RUNS = 7
 
 
@@ -33,7 +35,7 @@ def main(poses: int = POSES, *names: str) -> None:
         make, drive = CASES[name]
         mechanism, inputs = make(), drive(poses)
         moving = [part for part in mechanism.parts if part not in mechanism.fixed]
-        masses = jk.masses(mechanism, given={part: jk.Mass(1.0, centre=(0, 0, 0), inertia=1e-3) for part in moving})
+        masses = jk.masses(mechanism, given={part: jk.Mass(1.0, centre=(0.1, 0.2, 0), inertia=1e-3) for part in moving})
         motion = mechanism.sweep(inputs)
         speeds = dict.fromkeys(motion.inputs, 1.0)
         hinge = next(name for name, joint in mechanism.joints.items() if joint.kind in ("revolute", "cylindrical"))
@@ -42,11 +44,11 @@ def main(poses: int = POSES, *names: str) -> None:
             "rates": lambda m=motion, s=speeds: jk.velocities(m, s),
             "accelerations": lambda m=motion, s=speeds: jk.accelerations(m, s),
             "jerks": lambda m=motion, s=speeds: jk.jerks(m, s),
-            "static": lambda m=motion, w=masses: jk.drive_forces(m, w),
-            "inverse dynamics": lambda m=motion, w=masses, s=speeds: jk.drive_forces(m, w, rates=s),
-            "reactions": lambda m=motion, w=masses, s=speeds: jk.reactions(m, w, rates=s),
+            "static": lambda m=motion, w=masses: jk.drive_forces(m, w, gravity=GRAVITY),
+            "inverse dynamics": lambda m=motion, w=masses, s=speeds: jk.drive_forces(m, w, rates=s, gravity=GRAVITY),
+            "reactions": lambda m=motion, w=masses, s=speeds: jk.reactions(m, w, rates=s, gravity=GRAVITY),
             "friction in one joint": lambda m=motion, w=masses, s=speeds, f=rubs: jk.drive_forces(
-                m, w, rates=s, applied=f
+                m, w, rates=s, applied=f, gravity=GRAVITY
             ),
         }
         found, sweeps = [], []
