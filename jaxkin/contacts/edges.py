@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Float, Int
 
+from jaxkin._names import listed
 from jaxkin.contacts.boxes import Boxes, Pairs, boxes_of, crossing
 from jaxkin.contacts.overlap import Solid
 from jaxkin.geometry.part import Part
@@ -43,7 +44,7 @@ def edge_note(one: Part, two: Part, tolerance: float) -> str | None:
     if found is None:
         return None
     each = zip((one, two), sides, found, strict=True)
-    names = [f"{part.name} {part.faces[side.faces[triangle]].name}" for part, side, triangle in each]
+    names = [f"{part.name} {listed(part.faces[side.faces[k]].name.split(', '))}" for part, side, k in each]
     return f"{' and '.join(names)} meet at an edge or a corner only: none of the sixteen contact states, so no joint"
 
 

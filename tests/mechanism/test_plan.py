@@ -126,7 +126,6 @@ def test_what_rests_and_what_is_left_free_is_told():
     [
         ("A", r"got the text 'A'; write \['A'\]"),
         ([], "the drive is empty"),
-        (None, r"such as plan\(\['A'\]\), got None"),
         (["a"], "there is no joint 'a' to drive"),
     ],
 )
