@@ -135,7 +135,7 @@ def _unlocked(
 
     Inferences that hold parts which nothing else does are weaker than those of bolts and pins: these come first. Those
     without which a part would hang on nothing stay, and so do those without which screws and nuts alone would turn: a
-    structure of bolted plates is no mechanism.
+    structure of bolted plates is no mechanism. A pin in a bush, of which nothing else is inferred, is one.
     """
     movable = None
     droppable = [each for each in reversed(found) if each.evidence.kind not in _KEPT]
@@ -144,7 +144,7 @@ def _unlocked(
         if _loose(assembly, contacts, said, fewer):
             continue
         other = _counted(from_words(assembly, contacts, said, fewer), fewer)
-        if _frees_fasteners_only(other, dropping):
+        if fewer and _frees_fasteners_only(other, dropping):
             continue
         dropped = f"not inferred, since nothing could move with it: {dropping}"
         other = replace(other, history=(dropped, *other.history))
@@ -156,11 +156,11 @@ def _unlocked(
 
 
 def _frees_fasteners_only(mechanism: Mechanism, dropped: Inference) -> bool:
-    """Tell whether all else is one body of several parts without an inference, but for the fasteners that it holds:
-    those named after their host. A pin in a bush is all of what can move."""
+    """Tell whether all else is one body without an inference, but for the fasteners that it holds: those named after
+    their host."""
     fasteners = {*dropped.parts[1:]}
     others = [parts for parts in mechanism.bodies.values() if not fasteners.issuperset(parts)]
-    return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) == 1 < len(others[0])
+    return dropped.evidence.kind is EvidenceKind.FASTENER and len(others) < 2
 
 
 def _loose(assembly: Assembly, contacts: Sequence[Contact], said: Said, found: Sequence[Inference]) -> bool:
