@@ -15,10 +15,9 @@ from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import apply
 from jaxkin.io.mesh import MESHES
-from jaxkin.io.mesh_nodes import read_nodes
+from jaxkin.io.mesh_nodes import Node, read_several
 from jaxkin.io.names import cleaned, unique
 from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
-from jaxkin.io.time_limit import TimeLimit
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.on_frames import MOVEMENT_OF
 from jaxkin.topology.components import connected
@@ -48,7 +47,7 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
     link_names = _clean_names([link.name for link in model.links])
     joint_names = _clean_names([each.name for each in model.joints])
     model = _held(model, path.name)
-    meshes = _Meshes(path, seconds)
+    meshes = _Meshes(path, seconds, [shape for link in model.links for shape in link.shapes])
     mark = MARK * _extent(model)
     parts = tuple(_part(link, link_names[link.name], meshes.triangles, mark) for link in model.links)
     constraints = [_constraint(each, joint_names[each.name], link_names) for each in model.joints]
@@ -142,11 +141,16 @@ def _corners(shape: Shape) -> np.ndarray:
 class _Meshes:
     """The mesh files of a robot, each read once."""
 
-    def __init__(self, path: Path, seconds: float | None) -> None:
-        self.path, self.seconds = path, seconds
+    def __init__(self, path: Path, seconds: float | None, shapes: list[Shape]) -> None:
+        self.path = path
         self.folders = [path.resolve().parent, *path.resolve().parent.parents][: FOLDERS_UP + 1]
-        self.read: dict[str, np.ndarray | str] = {}
-        """Triangles in the unit of the file, or why there are none."""
+        names = {shape.file for shape in shapes if shape.kind == "mesh" and shape.corners is None}
+        files = {name: self._file(name) for name in sorted(names)}
+        read = read_several({file for file in files.values() if isinstance(file, Path)}, seconds)
+        self.read = {
+            name: _corners_of(name, read[file] if isinstance(file, Path) else file) for name, file in files.items()
+        }
+        """Triangles (n, 3, 3) in the unit of the file, or why there are none."""
         self.missing: dict[str, list[str]] = {}
         """Why there are none -> the links."""
 
@@ -154,9 +158,7 @@ class _Meshes:
         """Make the triangles (n, 3, 3) of a solid in the frame of its link, metres; None where there is no file."""
         if shape.kind != "mesh":
             return _corners(shape)
-        if shape.file not in self.read:
-            self.read[shape.file] = self._read(shape.file) if shape.corners is None else shape.corners
-        found = self.read[shape.file]
+        found = self.read[shape.file] if shape.corners is None else shape.corners
         if isinstance(found, str):
             links = self.missing.setdefault(found, [])
             links += [link] if link not in links else []
@@ -174,7 +176,8 @@ class _Meshes:
             for why, links in self.missing.items()
         ]
 
-    def _read(self, name: str) -> np.ndarray | str:
+    def _file(self, name: str) -> Path | str:
+        """Find the file of a mesh by the name that the robot file gives; or why there is none."""
         rest = name
         for prefix in PREFIXES:
             rest = rest.removeprefix(prefix)
@@ -185,10 +188,11 @@ class _Meshes:
         tries = [folder / part for folder in self.folders for part in (rest, shorter) if part]
         absolute = [Path(f"/{rest}")] if name.startswith(("/", "file:///")) else []
         file = next((each for each in (*absolute, *tries) if each.is_file()), None)
-        if file is None:
-            return f"mesh {name!r} is not there"
-        try:
-            nodes, _ = read_nodes(file, TimeLimit.start(file, self.seconds))
-        except ValueError as error:
-            return f"mesh {name!r} cannot be read: {error}"
-        return np.concatenate([node.corners for node in nodes])
+        return f"mesh {name!r} is not there" if file is None else file
+
+
+def _corners_of(name: str, found: list[Node] | ValueError | str) -> np.ndarray | str:
+    """Return the triangles of the mesh of that name, or why there are none."""
+    if isinstance(found, list):
+        return np.concatenate([node.corners for node in found])
+    return f"mesh {name!r} cannot be read: {found}" if isinstance(found, ValueError) else found
