@@ -16,6 +16,9 @@ SIX = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 """Names of the entries of an inertia matrix in URDF and SDF, in the order of `inertial`."""
 ROUNDED = 1e-6
 """Least eigenvalue of an inertia over its largest one, below zero, that still counts as rounding of the file."""
+SMALL = 1e-3
+"""Radius in metres: the inertia of a body is held against that of its mass at this radius, if that is larger. Exporters
+write 1e-20 in place of zero."""
 
 
 def inertial(
@@ -32,7 +35,7 @@ def inertial(
     xx, yy, zz, xy, xz, yz = map(float, six)
     matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     values, axes = np.linalg.eigh(matrix)
-    if values[0] < -ROUNDED * abs(values[-1]):
+    if values[0] < -ROUNDED * max(abs(values[-1]), mass * SMALL**2):
         notes.append(
             f"{where}: no body has the inertia {list(map(float, six))}, of which one eigenvalue is {values[0]:.3g}: "
             "the nearest without negative ones is taken; correct the file"
