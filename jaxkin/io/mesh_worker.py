@@ -74,8 +74,17 @@ def read(file, kind: str, most: int, parts: int) -> list[dict]:
                 raise Refused(f"its corners have {mesh.vertices.shape[1]} coordinates")
             if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices):
                 raise Refused("its triangles name corners that are not there")
-            nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": pose})
+            placed = metres(mesh) @ pose
+            nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": placed})
     return nodes
+
+
+def metres(mesh) -> np.ndarray:
+    """Make the (4, 4) scaling to metres of a mesh of COLLADA, the only format whose unit trimesh leaves in its corners,
+    as "meters" or "0.01 * meters"; the identity for others."""
+    said = mesh.metadata.get("units", "")
+    factor = float(said.split()[0]) if said.endswith("* meters") else 1.0
+    return np.diag([factor, factor, factor, 1.0])
 
 
 def instances(G, source, parts: int) -> list[list]:

@@ -13,6 +13,10 @@ from jaxkin.io.mesh import MESHES
 from jaxkin.io.mesh_nodes import Node, read_several
 from jaxkin.io.robot_model import RobotLink, Shape
 
+DRAWN = (*MESHES, ".dae")
+"""Suffixes of the meshes that links are drawn by. COLLADA is what most robots of ROS look like; the axis that a file of
+it calls up is not turned upright, as the viewers of ROS do not turn it."""
+
 FOLDERS_UP = 4
 """Folders above that of a robot file in which its meshes are looked for: packages of ROS keep urdf/ and meshes/ side by
 side, at most two or three levels below the folder that package:// stands for."""
@@ -79,8 +83,8 @@ class Drawn:
         for prefix in PREFIXES:
             rest = rest.removeprefix(prefix)
         rest = rest.replace("\\", "/").lstrip("/")
-        if Path(rest).suffix.lower() not in MESHES:
-            return f"mesh {name!r} is not read: its format is none of {', '.join(MESHES)}"
+        if Path(rest).suffix.lower() not in DRAWN:
+            return f"mesh {name!r} is not read: its format is none of {', '.join(DRAWN)}"
         shorter = rest.partition("/")[2]  # without the name of the package
         tries = [folder / part for folder in self._folders for part in (rest, shorter) if part]
         absolute = [Path(f"/{rest}")] if name.startswith(("/", "file:///")) else []

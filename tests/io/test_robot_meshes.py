@@ -19,6 +19,25 @@ def obj(path, size=1.0):
     return path
 
 
+def dae(path, metres, size=1.0):
+    """Write the tetrahedron in COLLADA, whose unit is so many metres, on a node moved by (0, 0, 3)."""
+    points, faces = size * CORNERS, np.array(FACES) - 1
+    path.write_text(f"""<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="u" meter="{metres}"/><up_axis>Y_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh>
+<source id="p"><float_array id="a" count="12">{" ".join(map(str, points.ravel()))}</float_array><technique_common>
+<accessor source="#a" count="4" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="4"><input semantic="VERTEX" source="#v" offset="0"/><p>{" ".join(map(str, faces.ravel()))}</p>
+</triangles></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><matrix>1 0 0 0 0 1 0 0 0 0 1 3 0 0 0 1</matrix>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>""")
+    return path
+
+
 def link(name, visual="", collision=""):
     tags = [
         f'<{tag}><geometry><mesh filename="{file}"/></geometry></{tag}>'
@@ -77,13 +96,36 @@ def test_what_one_file_does_to_the_program_hides_no_other(tmp_path, runs):
 
 def test_a_link_whose_look_cannot_be_read_is_drawn_as_what_it_collides_with(tmp_path):
     obj(tmp_path / "felt.obj", 2.0)
-    loaded = robot(tmp_path, link("a", "seen.dae", "felt.obj"), link("b", "seen.dae", "gone.obj"))
+    loaded = robot(tmp_path, link("a", "seen.wrl", "felt.obj"), link("b", "seen.wrl", "gone.obj"))
     a, b = (next(part for part in loaded.parts if part.name == name) for name in "ab")
     assert np.ptp(a.triangles.reshape(-1, 3), axis=0).max() == pytest.approx(2.0) and a.is_solid
     assert not b.is_solid
     notes = "\n".join(loaded.mechanism().notes)
-    assert "mesh 'seen.dae' is not read" in notes and "'a', 'b' are drawn without it" in notes
+    assert "mesh 'seen.wrl' is not read" in notes and "'a', 'b' are drawn without it" in notes
     assert "mesh 'gone.obj' is not there; 'b' is drawn without it" in notes
+
+
+def test_collada_is_read_in_metres_and_not_turned(tmp_path):
+    """The axis that it calls up is left as it is, as in the viewers of ROS; its unit counts."""
+    loaded = robot(
+        tmp_path, link("a", dae(tmp_path / "a.dae", 0.01, 50.0).name), link("b", dae(tmp_path / "b.dae", 1).name)
+    )
+    a, b = (next(part for part in loaded.parts if part.name == name).triangles.reshape(-1, 3) for name in "ab")
+    np.testing.assert_allclose([a.min(axis=0), a.max(axis=0)], [[0, 0, 0.03], [0.5, 0.5, 0.53]], atol=1e-7)  # float32
+    np.testing.assert_allclose([b.min(axis=0), b.max(axis=0)], [[0, 0, 3], [1, 1, 4]], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("solid", "no COLLADA file"),
+        ('<!DOCTYPE x [<!ENTITY a "aa">]><COLLADA/>', "no DOCTYPE"),
+        ("<COLLADA>", "cannot be read as DAE"),
+    ],
+)
+def test_what_is_no_collada_is_named(tmp_path, text, why):
+    (tmp_path / "a.dae").write_text(text)
+    assert why in "\n".join(robot(tmp_path, link("a", "a.dae")).mechanism().notes)
 
 
 def test_a_blank_line_before_the_declaration_is_read(tmp_path):

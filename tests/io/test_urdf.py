@@ -153,10 +153,10 @@ def test_a_mimic_of_nothing_and_one_of_a_weld_are_named_and_left_out(tmp_path):
 
 
 def test_a_missing_mesh_and_unknown_elements_are_named(tmp_path):
-    mesh = '<link name="x"><visual><geometry><mesh filename="package://arm/x.dae"/></geometry></visual></link>'
+    mesh = '<link name="x"><visual><geometry><mesh filename="package://arm/x.wrl"/></geometry></visual></link>'
     more = f'{mesh}<joint name="j" type="fixed"><parent link="hand"/><child link="x"/></joint><wheel name="w"/>'
     notes = "\n".join(write(tmp_path, more).mechanism().notes)
-    assert "mesh 'package://arm/x.dae' is not read" in notes and "'x' is drawn without it" in notes
+    assert "mesh 'package://arm/x.wrl' is not read" in notes and "'x' is drawn without it" in notes
     assert "<wheel name='w'> is not understood" in notes
 
 
