@@ -15,14 +15,14 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.forces.balance import carried
-from jaxkin.effects.forces.changes import Changes, Rows, changes
+from jaxkin.effects.forces.changes import Changes, Columns, Rows, changes
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.pose_groups import by_groups
 from jaxkin.effects.forces.potential import potential
-from jaxkin.effects.forces.screws import Scale, relative_twist
+from jaxkin.effects.forces.screws import Scale, driven_by
 from jaxkin.effects.forces.wrenches import (
     STANDARD_GRAVITY,
     Acting,
@@ -185,10 +185,12 @@ def _at_rest(
             forces, _ = _forces(drive, unit, linkage, status, moving, sums, {}, found.along, None)
         if acting.masses is not None:
             energy = partial(potential, linkage, Scale.of(linkage), acting.masses, acting.gravity)
-            _, change = jax.linearize(energy, found.displacements)
+            # backwards once, for any number of drives: forwards, each of them would be as long a program
+            slopes = jax.grad(lambda rows: jnp.sum(energy(rows)))(found.displacements)
             for name, joint, index in drive.driven:
                 metre = METRES[unit] / metres_of(linkage.joints[joint].coordinates[index], unit)
-                forces[name] = forces[name] + metre * change(found.along[name])
+                for (number, k), change in found.along[name].items():
+                    forces[name] = forces[name] + metre * slopes[number][:, k] * change
         return {name: jnp.where(closed, force, jnp.nan) for name, force in forces.items()}, powers
 
     return by_groups(of_group, (known.displacements, known.status, inputs), acting)
@@ -224,15 +226,15 @@ def _forces(
     moving: Moving,
     acts: Loads,
     rubs: dict[int, Wrench],
-    along: dict[str, Rows],
+    along: dict[str, Columns],
     rates: Inputs | None,
 ) -> tuple[Inputs, Inputs]:
     """Compute force and power of each driven coordinate."""
-    sent = carried(linkage, acts.parts, len(status))
     closed = is_closed_on_branch(status)
+    work = _by_coordinate(linkage, unit, acts, rubs, moving, carried(linkage, acts.parts, len(status)))
     forces, powers = {}, {}
     for name, joint, index in drive.driven:
-        force = _held_along(linkage, unit, acts, rubs, moving, sent, along[name])
+        force = sum((change * work[at] for at, change in along[name].items() if at in work), jnp.zeros(len(status)))
         power = force * rates[name] if rates is not None else jnp.zeros_like(force)
         metre = metres_of(linkage.joints[joint].coordinates[index], unit)
         forces[name] = jnp.where(closed, force / metre, jnp.nan)
@@ -240,26 +242,28 @@ def _forces(
     return forces, powers
 
 
-def _held_along(
+def _by_coordinate(
     linkage: Linkage,
     unit: str,
     acts: Loads,
     rubs: dict[int, Wrench],
     moving: Moving,
     sent: dict[int, Wrench],
-    along: Rows,
-) -> Float[Array, " poses"]:
-    """What holds all loads along a driven coordinate: joules per radian, or per unit of the mechanism.
+) -> dict[tuple[int, int], Float[Array, " poses"]]:
+    """Find what holds all loads along each coordinate (joint, coordinate): joules per radian, or per unit of the
+    mechanism.
 
     What acts on the parts is carried by the joints of the tree, each of which gives way along its coordinates.
     """
-    lever = moving.at.scale.size * METRES[unit]
-    work = jnp.zeros(len(along[0]))
+    scale, found = moving.at.scale, {}
     for sign, wrenches in ((1, sent), (-1, rubs)):
         for number, wrench in wrenches.items():
-            twist = relative_twist(linkage.joints[number], moving.at.joints[number], along[number], moving.at.scale)
-            work = work + sign * lever * jnp.sum(wrench * twist, axis=0)
-    for (joint, index), load in acts.joints.items():
-        metre = metres_of(linkage.joints[joint].coordinates[index], unit)
-        work = work - metre * load * along[joint][:, index]
-    return work
+            joint = linkage.joints[number]
+            units = scale.of_coordinates(joint)
+            for k, twist in zip(driven_by(joint), moving.at.joints[number].twists, strict=True):
+                term = sign * scale.size * METRES[unit] / units[k] * jnp.sum(wrench * twist, axis=0)
+                found[number, k] = found.get((number, k), 0.0) + term
+    for (number, k), load in acts.joints.items():
+        metre = metres_of(linkage.joints[number].coordinates[k], unit)
+        found[number, k] = found.get((number, k), 0.0) - metre * load
+    return found
