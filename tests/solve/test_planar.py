@@ -13,6 +13,7 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.planes import plane_columns
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.closure.closure import closure, loop_geometry
+from jaxkin.solve.closure.planar import MIN_UNROLLED_SUM_POSES
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.from_linkage import group_joints, group_system
 from jaxkin.solve.system.state import State
@@ -62,6 +63,19 @@ def test_the_jacobian_is_the_derivative_of_the_residual_where_the_loops_close(ma
         )
         expected = np.einsum("ecp,cp->ep", closure(system, geometry, rest).jacobian, direction)
         np.testing.assert_allclose(found, expected, atol=1e-13)
+
+
+@pytest.mark.parametrize("make", [planar_fourbar, slider_crank, oldham], ids=lambda make: make.__name__)
+def test_many_poses_have_the_jacobian_of_few(make):
+    """Written out link by link for many poses at once, as a product of matrices for few."""
+    (system, geometry), _ = both(make())
+    x = jnp.asarray(np.random.default_rng(3).uniform(-2, 2, (system.columns, MIN_UNROLLED_SUM_POSES)))
+
+    def jacobian(x):
+        return closure(system, geometry, State(x, jnp.zeros((0, 4, x.shape[1])))).jacobian
+
+    # sums of some ten products of numbers of order one
+    np.testing.assert_allclose(jacobian(x)[..., :5], jacobian(x[:, :5]), atol=1e-14)
 
 
 def test_which_structures_are_planar():

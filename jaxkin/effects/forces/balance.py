@@ -27,6 +27,7 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin.effects.forces.balance_equations import blocks, equations, of_chords, second_derivative, stacked, tree_of
 from jaxkin.effects.forces.changes import Rows
 from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
 from jaxkin.effects.forces.screws import Places, Scale, Twist, cross
@@ -45,15 +46,6 @@ STEPS = 3
 penalty, which is 1e-4 or less away from singular poses."""
 GROUP = 512
 """Poses that are solved at once: the matrices of so many stay in the cache."""
-
-
-class Tree(NamedTuple):
-    """How wrenches go through the joints (static): see `tree_of`."""
-
-    chords: tuple[int, ...]
-    """The joints that are not in the tree."""
-    shares: tuple[tuple[int, ...], ...]
-    """For each joint and chord by which sign the wrench of the chord goes through the joint: -1, 0 or 1."""
 
 
 class Balance(NamedTuple):
@@ -110,29 +102,6 @@ def coupling_gradients(linkage: Linkage, displacements: Sequence[Array], size: A
     return found
 
 
-def tree_of(linkage: Linkage) -> Tree:
-    """Find the chords of the tree that places the parts, and through which joints their wrenches go."""
-    inside = {joint: (part, sign) for part, _, joint, sign in linkage.structure.tree}
-    parent = {part: before for part, before, _, _ in linkage.structure.tree}
-    chords = tuple(number for number in range(len(linkage.joints)) if number not in inside)
-
-    def ancestry(part: str) -> set[str]:
-        return {part, *(ancestry(parent[part]) if part in parent else ())}
-
-    shares = []
-    for number in range(len(linkage.joints)):
-        if number not in inside:
-            shares.append(tuple(int(number == chord) for chord in chords))
-            continue
-        child, sign = inside[number]
-        own = []
-        for chord in chords:
-            one, other = (child in ancestry(part) for part in linkage.joints[chord].parts)
-            own.append(-sign * (int(other) - int(one)))
-        shares.append(tuple(own))
-    return Tree(chords, tuple(shares))
-
-
 class Transmitted(NamedTuple):
     """What joints and couplings transmit."""
 
@@ -184,61 +153,46 @@ def _solve(
     kappa = PENALTY / float(jnp.finfo(found.arms[0].dtype).eps) ** 0.5
 
     def wrenches(z: Float[Array, "n poses"]) -> list[Wrenches]:
-        of_chords = z[:count].reshape(chords, 6, poses)
+        unknown = z[:count].reshape(chords, 6, poses)
         return [
             carried_by.get(number, 0.0)
-            + sum((share * of_chords[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
+            + sum((share * unknown[c] for c, share in enumerate(shares) if share), jnp.zeros((6, poses)))
             for number, shares in enumerate(tree.shares)
         ]
 
-    def missing(z: Float[Array, "n poses"], every: Sequence[Wrenches]) -> list[Float[Array, "_ poses"]]:
-        """S^T w - t - g f of each joint."""
-        forced = [
-            [sum((tie[number][k] * f for tie, f in zip(ties, z[count:], strict=True)), none) for k in range(len(own))]
-            for number, own in enumerate(free)
-        ]
-        return [
-            jnp.stack([a - b - c for a, b, c in zip(joint.along(w), load, force, strict=True)])
-            if load
-            else jnp.zeros((0, poses))
-            for joint, w, load, force in zip(joints, every, loads, forced, strict=True)
-        ]
-
-    def step(_: Any, given: Any) -> Any:
-        z, every, left, multipliers = given
-        pulls = [mu + kappa * joint.metric(r) for joint, mu, r in zip(joints, multipliers, left, strict=True)]
-        slopes = [joint.slope(w, pull) for joint, w, pull in zip(joints, every, pulls, strict=True)]
-        rows = [
-            sum((shares[c] * slope for shares, slope in zip(tree.shares, slopes, strict=True) if shares[c]), none)
-            for c in range(chords)
-        ]
-        for tie, f in zip(ties, z[count:], strict=True):
-            work = (g * p for own, pull in zip(tie, pulls, strict=True) for g, p in zip(own, pull, strict=True))
-            rows.append((f - sum(work, none))[None])
-        z = z - factored(jnp.concatenate(rows))
-        every = wrenches(z)
-        left = missing(z, every)
-        return (
-            z,
-            every,
-            left,
-            [mu + kappa * joint.metric(r) for joint, mu, r in zip(joints, multipliers, left, strict=True)],
-        )
-
-    z = jnp.zeros((count + len(ties), poses))
-    every = wrenches(z)
-    left = missing(z, every)
+    begun = wrenches(jnp.zeros((count, poses)))
+    along = stacked([joint.along(w) for joint, w in zip(joints, begun, strict=True)], poses)
+    load, z = stacked(loads, poses), jnp.zeros((count + len(ties), poses))
+    left = along - load
     if len(z):
-        factored = factor_positive_definite(_matrix(tree, joints, ties, kappa, poses))
+        conditions = equations(tree, joints, ties, poses)
+        factored = factor_positive_definite(second_derivative(tree, joints, conditions, kappa, poses))
+        norm = blocks(tree, [joint.norm() for joint in joints], poses)
+        slope = of_chords(tree, [joint.normed(w) for joint, w in zip(joints, begun, strict=True)], poses)
+
+        def step(_: Any, given: Any) -> Any:
+            z, left, multipliers = given
+            x, f = z[:count], z[count:]
+            pull = multipliers + kappa * left
+            # what is transmitted along the freedoms, which the norm leaves out
+            inside = left + load + jnp.sum(conditions.ties * f, axis=1)
+            of_x = slope + jnp.sum(norm * x, axis=1) + jnp.sum(conditions.weighted * (pull - inside)[:, None], axis=0)
+            of_f = f - jnp.sum(conditions.weighted_ties * pull[:, None], axis=0)
+            z = z - factored(jnp.concatenate([of_x, of_f]))
+            left = along - load + jnp.sum(conditions.along * z[:count], axis=1)
+            left = left - jnp.sum(conditions.ties * z[count:], axis=1)
+            return z, left, multipliers + kappa * left
+
         # a compiled loop, before which all else is computed once: XLA would compute it anew in every step
-        begun = z, every, left, [jnp.zeros((len(own), poses)) for own in free]
-        z, every, left, _ = lax.fori_loop(0, STEPS, step, begun)
-    held = []
-    for own, forces, joint in zip(free, left, linkage.joints, strict=True):
+        z, left, _ = lax.fori_loop(0, STEPS, step, (z, left, jnp.zeros_like(left)))
+    every = wrenches(z)
+    held, first = [], 0
+    for own, joint in zip(free, linkage.joints, strict=True):
         rows = [none] * joint.freedoms
         for k, column in enumerate(own):
-            rows[column] = forces[k]
-        held.append(jnp.stack(rows) if rows else jnp.zeros((0, poses)))
+            rows[column] = left[first + k]
+        first += len(own)
+        held.append(stacked(rows, poses))
     return Transmitted(tuple(every), tuple(held), tuple(z[count:]))
 
 
@@ -252,49 +206,3 @@ def carried(linkage: Linkage, acting: dict[str, Any], poses: int) -> dict[int, W
         if before in behind:
             behind[before] = behind[before] + behind[part]
     return found
-
-
-def _matrix(
-    tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Sequence[Array]]], kappa: float, poses: int
-) -> Float[Array, "n n poses"]:
-    """The second derivative by all unknowns: wrenches of the chords, then forces of the couplings."""
-    stiff = [joint.stiffness(kappa) if any(own) else None for joint, own in zip(joints, tree.shares, strict=True)]
-    chords, none = len(tree.chords), jnp.zeros((6, 6, poses))
-    blocks: list[list[Any]] = []
-    for one in range(chords):
-        row = []
-        for other in range(chords):
-            parts = [
-                own[one] * own[other] * each
-                for own, each in zip(tree.shares, stiff, strict=True)
-                if each is not None and own[one] * own[other]
-            ]
-            row.append(sum(parts, none))
-        blocks.append(row)
-    found = jnp.concatenate([jnp.concatenate(row, axis=1) for row in blocks]) if blocks else jnp.zeros((0, 0, poses))
-    if not ties:
-        return found
-    # a coupling enters the equations of its coordinates by -g f
-    sides, own = [], []
-    for tie in ties:
-        weighted = [joint.metric(jnp.stack(g)) if g else None for joint, g in zip(joints, tie, strict=True)]
-        side = [jnp.zeros((6, poses))] * chords
-        for joint, weights, shares in zip(joints, weighted, tree.shares, strict=True):
-            if weights is not None:
-                along = sum(w * s for w, s in zip(weights, joint.screws, strict=True))
-                side = [x - kappa * share * along if share else x for x, share in zip(side, shares, strict=True)]
-        sides.append(jnp.concatenate(side) if side else jnp.zeros((0, poses)))
-        row = []
-        for number, other in enumerate(ties):
-            work = (
-                w * g
-                for each, gs in zip(weighted, other, strict=True)
-                if each is not None
-                for w, g in zip(each, gs, strict=True)
-            )
-            row.append(sum(work, jnp.zeros(poses)) * kappa + (1.0 if number == len(own) else 0.0))
-        own.append(jnp.stack(row))
-    across = jnp.stack(sides, axis=1)
-    return jnp.concatenate(
-        [jnp.concatenate([found, across], axis=1), jnp.concatenate([across.swapaxes(0, 1), jnp.stack(own)], axis=1)]
-    )

@@ -56,27 +56,26 @@ class JointBalance(NamedTuple):
         """The wrench about the point of the joint."""
         return jnp.concatenate([wrench[:3] - cross(self.arm, wrench[3:]), wrench[3:]])
 
-    def slope(self, wrench: Wrenches, pull: Float[Array, "_ poses"]) -> Wrenches:
-        """Derivative of |P w|^2 / 2 by the wrench, and of the multipliers of S^T w."""
+    def normed(self, wrench: Wrenches) -> Wrenches:
+        """Derivative of |w|^2 / 2 by the wrench, the norm taken at the point of the joint."""
         own = self.at_point(wrench)
-        found = jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
-        if not self.screws:
-            return found
-        weights = pull - self.metric(jnp.stack(self.along(wrench)))
-        return found + sum((weight * s for weight, s in zip(weights, self.screws, strict=True)), jnp.zeros_like(found))
+        return jnp.concatenate([own[:3], own[3:] + cross(self.arm, own[:3])])
 
-    def stiffness(self, kappa: float) -> Float[Array, "6 6 poses"]:
-        """Second derivative of |P w|^2 / 2, and of the penalty of S^T w."""
+    def norm(self) -> Float[Array, "6 6 poses"]:
+        """Second derivative of |w|^2 / 2, the norm taken at the point of the joint."""
         x, y, z = self.arm
         none = jnp.zeros_like(x)
         lever = jnp.stack([none, -z, y, z, none, -x, -y, x, none]).reshape(3, 3, -1)
         eye = jnp.broadcast_to(jnp.eye(3)[..., None], lever.shape)
         outer = (1 + jnp.sum(self.arm**2, axis=0)) * eye - self.arm[:, None] * self.arm[None]
-        norm = jnp.concatenate(
+        return jnp.concatenate(
             [jnp.concatenate([eye, -lever], axis=1), jnp.concatenate([lever, outer], axis=1)], axis=0
         )
+
+    def stiffness(self, kappa: float) -> Float[Array, "6 6 poses"]:
+        """Second derivative of |P w|^2 / 2, and of the penalty of S^T w."""
         if not self.screws:
-            return norm
+            return self.norm()
         rows = jnp.stack(self.screws)
         weighted = (kappa - 1) * self.metric(rows)
-        return norm + sum(s[:, None] * w[None] for s, w in zip(rows, weighted, strict=True))
+        return self.norm() + sum(s[:, None] * w[None] for s, w in zip(rows, weighted, strict=True))

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import jax
 import jax.numpy as jnp
 
 from jaxkin.effects.forces.given import rows_per_pose
@@ -26,14 +25,9 @@ def by_groups(function: Callable[[Any, Weights], Any], given: Any, acting: Weigh
     """
     loads = [{name: jnp.asarray(getattr(each, name)) for name in rows_per_pose(each)} for each in acting.applied]
 
-    def of_group(poses_last: Any) -> Any:
-        given, own = _swapped(poses_last)
+    def of_group(poses: Any) -> Any:
+        given, own = poses
         applied = tuple(replace(each, **rows) for each, rows in zip(acting.applied, own, strict=True))
-        return _swapped(function(given, acting._replace(applied=applied)))
+        return function(given, acting._replace(applied=applied))
 
-    return _swapped(in_groups(of_group, _swapped((given, loads)), GROUP))
-
-
-def _swapped(tree: Any) -> Any:
-    """Take the poses from the first axis to the last, or back, of arrays of one or two axes."""
-    return jax.tree.map(lambda array: array.T, tree)
+    return in_groups(of_group, (given, loads), GROUP, axis=0)

@@ -24,9 +24,10 @@ from jaxkin.solve.closure.spatial import Spatial
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 
-MIN_UNROLLED_SUM_POSES = 512
+MIN_UNROLLED_SUM_POSES = 257
 """Number of poses from which on the sum over the terms is written out as straight-line code over the poses, which is
-then faster than a product of matrices. For fewer poses the gain is less than the time to compile the code."""
+then faster than a product of matrices. For fewer poses, such as are corrected together, the gain is less than the time
+to compile the code."""
 MAX_UNROLLED_SUM_TERMS = 32
 """Largest number of terms of a sum that is written out: compile time grows with the number."""
 
@@ -71,7 +72,10 @@ def planar_closure(
     rest_sin = sin * begun_cos + cos * begun_sin
     # a rotation in the plane changes four of the nine entries; 2 - 2 cos would lose digits by cancellation
     rotated = 2 * reduce(add, (rest_cos - 1) ** 2 + rest_sin**2)
-    jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
+    if _unrolled(terms):
+        jacobian = _along_links(system, geometry, terms)
+    else:
+        jacobian = jnp.einsum("lrt,ltp->lrp", geometry.jacobian, jnp.concatenate(terms, axis=1))
     return (
         jnp.concatenate([rest_sin[:, None], moved], axis=1).reshape(system.loop_equations, poses),
         jacobian.reshape(system.loop_equations, system.columns, poses),
@@ -82,13 +86,46 @@ def planar_closure(
 
 def _moved(geometry: Planar, terms: list[Float[Array, "loops _ poses"]]) -> Float[Array, "loops 2 poses"]:
     """Compute the end points of the loops in the plane, `Planar.moved` times the terms: the translations of Eq. 10."""
-    if (
-        terms[0].shape[-1] < MIN_UNROLLED_SUM_POSES
-        or sum(some.shape[0] * some.shape[1] for some in terms) > MAX_UNROLLED_SUM_TERMS
-    ):
+    if not _unrolled(terms):
         return jnp.einsum("ldt,ltp->ldp", geometry.moved, jnp.concatenate(terms, axis=1))
     single = (some[:, None, k] for some in terms for k in range(some.shape[1]))
     return reduce(add, (geometry.moved[..., t, None] * term for t, term in enumerate(single)))
+
+
+def _unrolled(terms: list[Float[Array, "loops _ poses"]]) -> bool:
+    """Tell whether sums over the terms are written out as straight-line code over the poses."""
+    count = sum(some.shape[0] * some.shape[1] for some in terms)
+    return terms[0].shape[-1] >= MIN_UNROLLED_SUM_POSES and count <= MAX_UNROLLED_SUM_TERMS
+
+
+def _along_links(
+    system: LoopSystem, geometry: Planar, terms: list[Float[Array, "loops links poses"]]
+) -> Float[Array, "loops rows poses"]:
+    """Compute the Jacobian, `Planar.jacobian` times the terms, link by link: most of its coefficients are zero.
+
+    A coordinate by which a link turns moves the vector from the link to the end of the loop at right angles to it; one
+    by which a link slides moves the end along the direction of the link.
+    """
+    kept, (cos, sin) = _kept(system), terms[:2]
+    links, none = cos.shape[1], jnp.zeros_like(cos[0, 0])
+    found = []
+    for loop in range(len(cos)):
+        every: list[list[Array]] = [[none, none, none] for _ in range(system.columns)]
+        x, y = none, none
+        for k in reversed(range(links)):
+            for number, some in enumerate(terms[:-1]):
+                x = x + geometry.moved[loop, 0, number * links + k] * some[loop, k]
+                y = y + geometry.moved[loop, 1, number * links + k] * some[loop, k]
+            sense, (turner, slider) = geometry.sense[loop, k], (kept.turner[k, loop], kept.slider[k, loop])
+            moved = [(turner, [sense, -sense * y, sense * x])]
+            if _slides(system):
+                along, across = geometry.moved[loop, :, 2 * links + k], geometry.moved[loop, :, 3 * links + k]
+                moved.append((slider, [none, *(along[:, None] * cos[loop, k] + across[:, None] * sin[loop, k])]))
+            for column, by in moved:
+                if column < system.columns:
+                    every[column] = [a + b for a, b in zip(every[column], by, strict=True)]
+        found.append(jnp.stack([each[row] for row in range(3) for each in every]))
+    return jnp.stack(found)
 
 
 def planar_geometry(system: LoopSystem, space: Spatial) -> Planar:

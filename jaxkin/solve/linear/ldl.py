@@ -29,20 +29,23 @@ def factor_ldl(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
 def factor_entries(entry: Callable[[int, int], Array], n: int) -> Callable[[Array], Array]:
     """Factorise a positive definite matrix by its entries (i, j), i >= j, of `n` rows; returns as `factor_ldl`."""
     lower: dict[tuple[int, int], Array] = {}
+    upper: dict[tuple[int, int], Array] = {}
     pivots: list[Array] = []
     for j in range(n):
-        column = [entry(i, j) - sum(lower[i, k] * lower[j, k] * pivots[k] for k in range(j)) for i in range(j, n)]
+        column = [entry(i, j) - sum(lower[i, k] * upper[j, k] for k in range(j)) for i in range(j, n)]
         pivots.append(column[0])
         for i in range(j + 1, n):
+            upper[i, j] = column[i - j]
             lower[i, j] = column[i - j] / pivots[j]
 
     def solve(right: Array) -> Array:
         y = list(right)
         for i in range(n):
             y[i] = y[i] - sum(lower[i, k] * y[k] for k in range(i))
-        x = [entry / pivot for entry, pivot in zip(y, pivots, strict=True)]
+        x = y
+        # divide last: XLA takes a quotient for costly, and does not compute it again wherever it is used
         for i in reversed(range(n)):
-            x[i] = x[i] - sum(lower[k, i] * x[k] for k in range(i + 1, n))
+            x[i] = (x[i] - sum(upper[k, i] * x[k] for k in range(i + 1, n))) / pivots[i]
         return jnp.stack(x)
 
     return solve

@@ -39,22 +39,28 @@ def group_size(system: LoopSystem) -> int:
     return max(SMALLEST_GROUP, min(LARGEST_GROUP, GROUP_ENTRIES // system.equations**2))
 
 
-def in_groups(function: Callable, poses, size: int):
+def in_groups(function: Callable, poses, size: int, axis: int = -1):
     """Apply a function of poses to all `poses`, in groups of equal length of at most `size` poses.
 
-    `poses` is a pytree of arrays whose last axis is the poses; the function takes and returns such pytrees.
+    `poses` is a pytree of arrays whose axis `axis`, the last or the first (0), is the poses; the function takes and
+    returns such pytrees. With the poses first, groups are cut and joined without a copy of the arrays.
     """
-    count = jax.tree.leaves(poses)[0].shape[-1]
+    count = jax.tree.leaves(poses)[0].shape[axis]
     groups = -(-count // size)
     if groups <= 1:
         return function(poses)
     length = -(-count // groups)
 
     def cut(array: Array) -> Array:
-        padded = jnp.pad(array, [(0, 0)] * (array.ndim - 1) + [(0, groups * length - count)], mode="edge")
-        return jnp.moveaxis(padded.reshape(*array.shape[:-1], groups, length), -2, 0)
+        at = axis % array.ndim
+        missing = [(0, groups * length - count if own == at else 0) for own in range(array.ndim)]
+        padded = jnp.pad(array, missing, mode="edge")
+        return jnp.moveaxis(padded.reshape(*array.shape[:at], groups, length, *array.shape[at + 1 :]), at, 0)
 
     def join(array: Array) -> Array:
-        return jnp.moveaxis(array, 0, -2).reshape(*array.shape[1:-1], groups * length)[..., :count]
+        at = axis % (array.ndim - 1)
+        each = jnp.moveaxis(array, 0, at)
+        joined = each.reshape(*each.shape[:at], groups * length, *each.shape[at + 2 :])
+        return lax.slice_in_dim(joined, 0, count, axis=at)
 
     return jax.tree.map(join, lax.map(function, jax.tree.map(cut, poses)))

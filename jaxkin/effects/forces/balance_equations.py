@@ -1,0 +1,140 @@
+"""The equations of the balance of all parts, by its unknowns: wrenches of the chords, and forces of the couplings.
+
+See `jaxkin.effects.forces.balance`. The wrenches of the joints are sums of those of the chords with signs, so that
+derivatives by the former are added up to derivatives by the latter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import jax.numpy as jnp
+from jaxtyping import Array, Float
+
+from jaxkin.effects.forces.joint_balance import JointBalance, Wrenches
+from jaxkin.effects.forces.screws import Twist
+from jaxkin.linkage.linkage import Linkage
+
+
+class Tree(NamedTuple):
+    """How wrenches go through the joints (static): see `tree_of`."""
+
+    chords: tuple[int, ...]
+    """The joints that are not in the tree."""
+    shares: tuple[tuple[int, ...], ...]
+    """For each joint and chord by which sign the wrench of the chord goes through the joint: -1, 0 or 1."""
+
+
+def tree_of(linkage: Linkage) -> Tree:
+    """Find the chords of the tree that places the parts, and through which joints their wrenches go."""
+    inside = {joint: (part, sign) for part, _, joint, sign in linkage.structure.tree}
+    parent = {part: before for part, before, _, _ in linkage.structure.tree}
+    chords = tuple(number for number in range(len(linkage.joints)) if number not in inside)
+
+    def ancestry(part: str) -> set[str]:
+        return {part, *(ancestry(parent[part]) if part in parent else ())}
+
+    shares = []
+    for number in range(len(linkage.joints)):
+        if number not in inside:
+            shares.append(tuple(int(number == chord) for chord in chords))
+            continue
+        child, sign = inside[number]
+        own = []
+        for chord in chords:
+            one, other = (child in ancestry(part) for part in linkage.joints[chord].parts)
+            own.append(-sign * (int(other) - int(one)))
+        shares.append(tuple(own))
+    return Tree(chords, tuple(shares))
+
+
+class Equations(NamedTuple):
+    """The equations S^T w = t + g f of all freedoms that have no drive, by the unknowns."""
+
+    along: Float[Array, "equations wrenches poses"]
+    """S^T: by the wrenches of the chords."""
+    weighted: Float[Array, "equations wrenches poses"]
+    """(S^T S)^-1 S^T, joint by joint."""
+    ties: Float[Array, "equations couplings poses"]
+    """g: by the forces of the couplings."""
+    weighted_ties: Float[Array, "equations couplings poses"]
+    """(S^T S)^-1 g."""
+
+
+def equations(
+    tree: Tree, joints: Sequence[JointBalance], ties: Sequence[Sequence[Sequence[Array]]], poses: int
+) -> Equations:
+    """Collect the equations of all joints."""
+    none = jnp.zeros((6, poses))
+
+    def by_chords(screws: Sequence[Twist], shares: Sequence[int]) -> list[Array]:
+        rows = [[share * screw if share else none for share in shares] for screw in screws]
+        return [jnp.concatenate(row) if row else jnp.zeros((0, poses)) for row in rows]
+
+    along, weighted, own, weighted_own = [], [], [], []
+    for number, (joint, shares) in enumerate(zip(joints, tree.shares, strict=True)):
+        if not joint.screws:
+            continue
+        screws = jnp.stack(joint.screws)
+        gradients = jnp.stack([stacked(tie[number], poses) for tie in ties], axis=1) if ties else screws[:, :0]
+        along += by_chords(joint.screws, shares)
+        weighted += by_chords(list(joint.metric(screws)), shares)
+        own.append(gradients)
+        weighted_own.append(joint.metric(gradients))
+    wrenches, couplings = (0, 6 * len(tree.chords), poses), jnp.zeros((0, len(ties), poses))
+    return Equations(
+        jnp.stack(along) if along else jnp.zeros(wrenches),
+        jnp.stack(weighted) if weighted else jnp.zeros(wrenches),
+        jnp.concatenate([*own, couplings]),
+        jnp.concatenate([*weighted_own, couplings]),
+    )
+
+
+def blocks(tree: Tree, each: Sequence[Array], poses: int) -> Float[Array, "wrenches wrenches poses"]:
+    """Add up what second derivatives by the wrenches of the joints are by those of the chords."""
+    chords, none = len(tree.chords), jnp.zeros((6, 6, poses))
+    rows = [
+        [
+            sum((own[a] * own[b] * x for own, x in zip(tree.shares, each, strict=True) if own[a] * own[b]), none)
+            for b in range(chords)
+        ]
+        for a in range(chords)
+    ]
+    return jnp.concatenate([jnp.concatenate(row, axis=1) for row in rows]) if rows else jnp.zeros((0, 0, poses))
+
+
+def of_chords(tree: Tree, each: Sequence[Wrenches], poses: int) -> Float[Array, "wrenches poses"]:
+    """Add up what derivatives by the wrenches of the joints are by those of the chords."""
+    rows = [
+        sum((own[c] * x for own, x in zip(tree.shares, each, strict=True) if own[c]), jnp.zeros((6, poses)))
+        for c in range(len(tree.chords))
+    ]
+    return jnp.concatenate(rows) if rows else jnp.zeros((0, poses))
+
+
+def stacked(rows: Any, poses: int) -> Float[Array, "_ poses"]:
+    """Stack rows, or rows of rows; none at all give no row."""
+    each = [row for own in rows for row in (own if isinstance(own, list) else [own])]
+    return jnp.stack(each) if each else jnp.zeros((0, poses))
+
+
+def second_derivative(
+    tree: Tree, joints: Sequence[JointBalance], found: Equations, kappa: float, poses: int
+) -> Float[Array, "n n poses"]:
+    """The second derivative by all unknowns: wrenches of the chords, then forces of the couplings."""
+    by_chords = blocks(tree, [joint.stiffness(kappa) for joint in joints], poses)
+    count = found.ties.shape[1]
+    if not count:
+        return by_chords
+    # a coupling enters the equations of its coordinates by -g f
+    across = -kappa * _products(found.weighted, found.ties)
+    own = kappa * _products(found.weighted_ties, found.ties) + jnp.eye(count)[..., None]
+    return jnp.concatenate(
+        [jnp.concatenate([by_chords, across], axis=1), jnp.concatenate([across.swapaxes(0, 1), own], axis=1)]
+    )
+
+
+def _products(one: Float[Array, "rows a poses"], other: Float[Array, "rows b poses"]) -> Float[Array, "a b poses"]:
+    """one^T other, pose by pose."""
+    return jnp.sum(one[:, :, None] * other[:, None], axis=0)
