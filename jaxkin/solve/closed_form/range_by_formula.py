@@ -31,6 +31,8 @@ from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_li
 from jaxkin.solve.closed_form.line import (
     NODES,
     Line,
+    PassedLine,
+    Windings,
     ends,
     line_and_poses,
     nodes_to_either_side,
@@ -89,11 +91,16 @@ def find_poses_and_line(
 
 
 def find_poses_by_formula(
-    system: LoopSystem, axes: Axes, line: Line, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem,
+    axes: Axes,
+    line: Line | PassedLine,
+    inputs: Float[Array, "1 poses"],
+    tolerance: ClosureTolerance,
 ) -> FormulaPoses:
     """Find the poses for finite inputs in radians or lengths of the mechanism, of a system that is all formulas.
 
-    Nothing that is found has a derivative; `displacements_by_formula` has.
+    On a `PassedLine` no pose needs a certificate. Nothing that is found has a derivative; `displacements_by_formula`
+    has.
     """
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = _scaled(system, axes, inputs)[0]
@@ -104,24 +111,28 @@ def find_poses_by_formula(
 def _judged(
     system: LoopSystem,
     axes: Axes,
-    line: Line,
+    line: Line | PassedLine,
     values: Float[Array, " poses"],
     solved: Solved,
     tolerance: ClosureTolerance,
 ) -> FormulaPoses:
     """Judge solved poses by the line: their statuses, and angles with their full turns."""
-    expected, passed, crossed = _reached(system, line, values, solved.discriminants)
+    if isinstance(line, PassedLine):
+        expected = _at_nodes(system, line.windings, values).expected(line.windings)
+        passed = known = jnp.ones(values.shape, bool)
+    else:
+        expected, passed, crossed = _reached(system, line, values, solved.discriminants)
+        passed, known = passed & line.begins, line.begins & (passed | crossed)
     rows = [jnp.asarray(coordinate.value) for coordinate in solved.coordinates]
     for column, angle in zip(unknown_angles(system), expected, strict=True):
         rows[column] = rows[column] + TURN * jnp.round((angle - rows[column]) / TURN)
 
     residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
     closes = residual <= tolerance.max_residual
-    status = classify(residual, ~closes, passed & line.begins, tolerance.max_residual)
-    in_doubt = closes & ~(line.begins & (passed | crossed))
-    status = jnp.where(in_doubt, Status.STALLED.value, status)
+    status = classify(residual, ~closes, passed, tolerance.max_residual)
+    status = jnp.where(closes & ~known, Status.STALLED.value, status)
     sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    proven = jnp.all((status == Status.CLOSED.value) & (residual <= sharp))
+    proven = jnp.all(passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
     return FormulaPoses(tuple(rows), status, residual, jnp.asarray(line.signs), proven)
 
 
@@ -196,6 +207,34 @@ def joint_displacements(
     return unwrap_ball_angles(system, found)
 
 
+class _AtNodes(NamedTuple):
+    """Where inputs are among the nodes of a line, and the unknown angles there."""
+
+    turns: Float[Array, " poses"]
+    """Full turns of the input, down to the line."""
+    interval: Int[Array, " poses"]
+    """The interval between two nodes."""
+    distance: Float[Array, " poses"]
+    """From its lower node, counted in nodes."""
+    nearby: list[Float[Array, " poses"]]
+    """The unknown angles at the lower node, unwrapped along the line."""
+
+    def expected(self, windings: Windings) -> list[Float[Array, " poses"]]:
+        """Unwrap the nearby angles along the motion from the assembled pose, which passes the line."""
+        return [
+            near - start + (end - start) * self.turns
+            for near, start, end in zip(self.nearby, list(windings.begun), list(windings.ended), strict=True)
+        ]
+
+
+def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " poses"]) -> _AtNodes:
+    turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
+    position = (values - TURN * turns - windings.begin) / windings.spacing
+    interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
+    distance, interval = position - interval, interval.astype(jnp.int32)
+    return _AtNodes(turns, interval, distance, [at_intervals(row, interval) for row in windings.angles])
+
+
 def _reached(
     system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
 ) -> tuple[list[Float[Array, " poses"]], Bool[Array, " poses"], Bool[Array, " poses"]]:
@@ -204,13 +243,10 @@ def _reached(
     Returns unknown angles nearby, with their full turns; to which poses the motion passes; and before which poses there
     surely is a limit, whichever side they are approached from.
     """
-    turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
-    position = (values - TURN * turns - line.begin) / line.spacing
-    interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
-    distance, interval = position - interval, interval.astype(jnp.int32)
-    nearby = [at_intervals(row, interval) for row in line.angles]
-    begun, ended = list(line.begun), list(line.ended)
-    every = [near - start + (end - start) * turns for near, start, end in zip(nearby, begun, ended, strict=True)]
+    at_nodes = _at_nodes(system, line.windings, values)
+    turns, interval, distance, nearby = at_nodes
+    begun, ended = list(line.windings.begun), list(line.windings.ended)
+    every = at_nodes.expected(line.windings)
 
     def whole_line():
         return every, jnp.ones(values.shape, bool), jnp.zeros(values.shape, bool)
