@@ -28,6 +28,8 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
+from jaxkin.solve.closed_form.complex_numbers import Complex, argument
+from jaxkin.solve.closed_form.coordinate import REST
 from jaxkin.solve.closed_form.line import (
     NODES,
     Line,
@@ -123,9 +125,16 @@ def _judged(
     else:
         expected, passed, crossed = _reached(system, line, values, solved.discriminants)
         passed, known = passed & line.begins, line.begins & (passed | crossed)
-    rows = [jnp.asarray(coordinate.value) for coordinate in solved.coordinates]
-    for column, angle in zip(unknown_angles(system), expected, strict=True):
-        rows[column] = rows[column] + TURN * jnp.round((angle - rows[column]) / TURN)
+    angles = unknown_angles(system)
+    rows = [REST.value if k in angles else each.value for k, each in enumerate(solved.coordinates)]
+    if angles:
+        # all angles in one array: so they are a few operations of the program, not a few each
+        turns = [jax.tree.map(jnp.asarray, solved.coordinates[column].turn) for column in angles]
+        principal = argument(Complex(*(jnp.stack(parts) for parts in zip(*turns, strict=True))))
+        found = principal + TURN * jnp.round((jnp.stack(expected) - principal) / TURN)
+        for column, row in zip(angles, found, strict=True):
+            rows[column] = row
+    rows = [jnp.asarray(row) for row in rows]
 
     residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
     closes = residual <= tolerance.max_residual
