@@ -131,7 +131,7 @@ def _judged(
         # all angles in one array: so they are a few operations of the program, not a few each
         turns = [jax.tree.map(jnp.asarray, solved.coordinates[column].turn) for column in angles]
         principal = argument(Complex(*(jnp.stack(parts) for parts in zip(*turns, strict=True))))
-        found = principal + TURN * jnp.round((jnp.stack(expected) - principal) / TURN)
+        found = principal + TURN * jnp.round((expected - principal) / TURN)
         for column, row in zip(angles, found, strict=True):
             rows[column] = row
     rows = [jnp.asarray(row) for row in rows]
@@ -225,15 +225,13 @@ class _AtNodes(NamedTuple):
     """The interval between two nodes."""
     distance: Float[Array, " poses"]
     """From its lower node, counted in nodes."""
-    nearby: list[Float[Array, " poses"]]
+    nearby: Float[Array, "angles poses"]
     """The unknown angles at the lower node, unwrapped along the line."""
 
-    def expected(self, windings: Windings) -> list[Float[Array, " poses"]]:
+    def expected(self, windings: Windings) -> Float[Array, "angles poses"]:
         """Unwrap the nearby angles along the motion from the assembled pose, which passes the line."""
-        return [
-            near - start + (end - start) * self.turns
-            for near, start, end in zip(self.nearby, list(windings.begun), list(windings.ended), strict=True)
-        ]
+        start, end = jnp.asarray(windings.begun)[:, None], jnp.asarray(windings.ended)[:, None]
+        return self.nearby - start + (end - start) * self.turns
 
 
 def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " poses"]) -> _AtNodes:
@@ -241,12 +239,16 @@ def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " pos
     position = (values - TURN * turns - windings.begin) / windings.spacing
     interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
     distance, interval = position - interval, interval.astype(jnp.int32)
-    return _AtNodes(turns, interval, distance, [at_intervals(row, interval) for row in windings.angles])
+    # of a known line all angles are looked up at once; of traced ones, which stem from long formulas, each by itself
+    if isinstance(windings.angles, list):
+        nearby = [at_intervals(row, interval) for row in windings.angles]
+        return _AtNodes(turns, interval, distance, jnp.stack(nearby) if nearby else jnp.zeros((0, *values.shape)))
+    return _AtNodes(turns, interval, distance, jnp.asarray(windings.angles).at[:, interval].get(mode="clip"))
 
 
 def _reached(
     system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
-) -> tuple[list[Float[Array, " poses"]], Bool[Array, " poses"], Bool[Array, " poses"]]:
+) -> tuple[Float[Array, "angles poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
     """Judge the motion from the assembled pose to poses, upwards and downwards.
 
     Returns unknown angles nearby, with their full turns; to which poses the motion passes; and before which poses there
@@ -254,7 +256,7 @@ def _reached(
     """
     at_nodes = _at_nodes(system, line.windings, values)
     turns, interval, distance, nearby = at_nodes
-    begun, ended = list(line.windings.begun), list(line.windings.ended)
+    begun, ended = (jnp.asarray(each)[:, None] for each in (line.windings.begun, line.windings.ended))
     every = at_nodes.expected(line.windings)
 
     def whole_line():
@@ -275,10 +277,7 @@ def _reached(
         around = limited & (from_below | from_above)
         by_rising = jnp.where(direct, rising, from_below)
         passed = direct | around | judged.passes
-        expected = [
-            jnp.where(judged.passes, each, near - jnp.where(by_rising, start, end))
-            for each, near, start, end in zip(every, nearby, begun, ended, strict=True)
-        ]
+        expected = jnp.where(judged.passes, every, nearby - jnp.where(by_rising, begun, ended))
         return expected, passed, after_limit & before_limit
 
     # most designs pass the whole line, and whole groups of them do
