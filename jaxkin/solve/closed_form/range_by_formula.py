@@ -178,10 +178,9 @@ def _with_derivative(
 @_with_derivative.defjvp
 def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     axes, values, found = primals
-    closed = is_closed(found.status)
+    # loops of a pose in doubt close as well, and a search for a design is to get on from there
+    closed = is_closed(found.status) | (found.status == Status.STALLED.value)
     if system.planar:
-        # loops of a pose in doubt close as well, and a search for a design is to get on from there
-        closed = closed | (found.status == Status.STALLED.value)
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)
         d_axes, d_values, _ = tangents
