@@ -1,7 +1,7 @@
 """The sweep of a drive whose loop groups all have formulas: one program from the inputs to all displacements.
 
 The program is compiled for a single pose and for `CHUNK` of them, and serves ranges of any length: short ones are
-padded, long ones cut into chunks, and the results are cut to length and joined on the host.
+padded, long ones cut into chunks. What it finds is joined, cut to length and dealt out to the joints afterwards.
 """
 
 from __future__ import annotations
@@ -18,13 +18,16 @@ from jaxtyping import Array, Bool, Float
 
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import Given
-from jaxkin.mechanism.collect import Collected, DisplacementSources, collect
+from jaxkin.mechanism.collect import Collected, DisplacementSources
 from jaxkin.solve.closed_form.assembled_axes import Axes
-from jaxkin.solve.closed_form.line import Line
-from jaxkin.solve.closed_form.range_by_formula import find_poses_by_formula, joint_displacements, line_of
+from jaxkin.solve.closed_form.line import Line, PassedLine, passed_range
+from jaxkin.solve.closed_form.range_by_formula import (
+    find_poses_by_formula,
+    joint_displacements,
+    line_of,
+)
 from jaxkin.solve.execution.compiler import count_trace, jit_options
-from jaxkin.solve.execution.known_numbers import Outcome
-from jaxkin.solve.status import ClosureTolerance
+from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import turning
@@ -32,8 +35,8 @@ from jaxkin.solve.system.state import turning
 CHUNK = 384
 """Poses of one call of the program, enough for one a degree. A call costs as much as some 200 poses of a four-bar."""
 OFTEN = 3
-"""Calls with the same number of poses from which on a program of its own joins and cuts their results. To copy them on
-the host takes 0.1 ms longer, to compile that program some 40."""
+"""Calls with the same number of poses from which on a program of its own deals out what is found. To do that on the
+host takes 0.1 ms longer, to compile that program some 40."""
 
 
 class ElementNumbers(NamedTuple):
@@ -42,6 +45,37 @@ class ElementNumbers(NamedTuple):
     axes: Axes
     joints: Joints | None
     """Only where balls need them."""
+
+
+class _KnownLine(NamedTuple):
+    """A line of known numbers, and the range of inputs in which every pose that closes is on the branch."""
+
+    line: Line
+    passed: PassedLine
+    """What is asked of the line within that range."""
+    lowest: float
+    """Radians or characteristic lengths."""
+    highest: float
+
+    def on_device(self) -> _KnownLine:
+        """Copy to the device what programs are given."""
+        return self._replace(line=jax.device_put(self.line), passed=jax.device_put(self.passed))
+
+    def of(self, values: np.ndarray) -> Line | PassedLine:
+        """Choose what the program is given for inputs in radians or characteristic lengths."""
+        endless = self.lowest == -np.inf
+        return self.passed if endless or (self.lowest <= values.min() and values.max() <= self.highest) else self.line
+
+
+class _Found(NamedTuple):
+    """What the program finds for the poses of a chunk."""
+
+    displaced: list[Float[Array, "columns chunk"]]
+    """Displacements of the columns of each loop group, radians and lengths of the mechanism."""
+    residual: Float[Array, " chunk"]
+    """Closure residual over all loop groups."""
+    proven: Bool[Array, ""]
+    """Whether all poses are closed without doubt; where they are not, what is found is of no use."""
 
 
 class FormulaSweep:
@@ -61,15 +95,11 @@ class FormulaSweep:
         needed = [given if system.balls else None for system, given in zip(systems, joints, strict=True)]
         self.numbers = jax.device_put([ElementNumbers(*both) for both in zip(axes, needed, strict=True)])
         self.may_close = all(turn is None or bool(turn.begins) for turn in turns)
-        self.turns = jax.device_put(turns)
+        self.turns = [
+            turn and _known_line(system, turn).on_device() for system, turn in zip(systems, turns, strict=True)
+        ]
         self.tolerances: dict[int, tuple[ClosureTolerance, ClosureTolerance]] = {}
-        self.program = _program(layout, systems, inputs)
-        self.balls = tuple(
-            columns[column]
-            for system, columns in zip(systems, layout.columns, strict=True)
-            for column in np.flatnonzero(turning(system))
-        )
-        """(joint, coordinate) of the angles of balls, which are unwrapped from pose to pose."""
+        self.program, self.single = _program(systems, inputs), _single(layout, systems, inputs)
 
     def solve(
         self, values: tuple[Given, ...], finite: Bool[np.ndarray, " poses"] | None, tolerance: ClosureTolerance
@@ -80,80 +110,131 @@ class FormulaSweep:
         """
         if not self.may_close:
             return None
-        lines = [line or self._line(number, values) for number, line in enumerate(self.turns)]
+        rows = np.stack(values)
+        lines = [self._line(number, rows[which]) for number, which in enumerate(self.inputs)]
         if id(tolerance) not in self.tolerances:
             self.tolerances[id(tolerance)] = tolerance, jax.device_put(tolerance)
         _, on_device = self.tolerances[id(tolerance)]
-        poses = len(values[0])
-        length = 1 if poses == 1 else CHUNK
-        chunks, proven = [], []
-        for begin in range(0, poses, length):
-            rows = _padded(values, begin, length)
-            mask = None if finite is None else _padded([finite], begin, length)[0]
-            found, sure = self.program(self.numbers, lines, rows, mask, on_device)
-            chunks.append(found)
-            proven.append(sure)
+        poses = rows.shape[1]
+        if poses == 1:
+            dealt, *proven = self.single(self.numbers, lines, rows, finite, on_device)
+        else:
+            begins = range(0, poses, CHUNK)
+            chunks = [self.program(self.numbers, lines, _chunk(rows, begin), on_device) for begin in begins]
+            proven = [chunk.proven for chunk in chunks]
+            # before it is known whether all are closed: the processor is at it while Python waits for that
+            dealt = None if traced(proven) else self._dealt(chunks, rows, finite)
         # inside a function that is being traced, what a program returns is traced, though it is given numbers
-        if traced(proven) or not all(proven):
-            return None
-        return self._joined(chunks, poses)
+        return None if traced(proven) or not all(map(np.asarray, proven)) else dealt
 
-    def _line(self, number: int, values: tuple[Given, ...]) -> Line:
-        """Compute the line of an input that is a displacement."""
-        return line_of(self.systems[number], self.axes[number], np.asarray(values[self.inputs[number]])[None])
+    def _line(self, number: int, values: np.ndarray) -> Line | PassedLine:
+        """Choose the line of the input of a loop group: the one that is kept, or that of a displacement."""
+        if (turn := self.turns[number]) is not None:
+            return turn.of(values)
+        system, axes = self.systems[number], self.axes[number]
+        return _known_line(system, line_of(system, axes, values[None])).of(values / axes.length)
 
-    def _joined(self, chunks: list[Collected], poses: int) -> Collected:
-        """Join the chunks, and cut the last one to length."""
-        if len(chunks) == 1 and len(chunks[0].status) == poses:
-            return chunks[0]
-        balls = self.balls if len(chunks) > 1 else ()
-        _asked[id(self.program), poses] += 1
-        if _asked[id(self.program), poses] < OFTEN:
-            return jax.tree.map(jnp.asarray, _join(jax.tree.map(np.asarray, chunks), poses, balls, np))
-        return _join_program(chunks, poses, balls)
+    def _dealt(self, chunks: list[_Found], rows: np.ndarray, finite: np.ndarray | None) -> Collected:
+        """Deal out what was found to the joints: by a program, or on the host where so many poses are rare."""
+        several = self.systems if len(chunks) > 1 else None
+        found = [(chunk.displaced, chunk.residual) for chunk in chunks]
+        _asked[id(self.program), rows.shape[1]] += 1
+        if _asked[id(self.program), rows.shape[1]] < OFTEN:
+            dealt = _deal_out(self.layout, several, jax.tree.map(np.asarray, found), rows, finite, np)
+            return jax.tree.map(jnp.asarray, dealt)
+        return _deal_out_program(self.layout, several, found, rows, finite)
 
 
-def _padded(rows: Sequence[Any], begin: int, length: int) -> np.ndarray:
-    """Stack so many entries of some rows from `begin` on, the last one repeated."""
-    stop = min(begin + length, len(rows[0]))
-    padded = np.empty((len(rows), length), rows[0].dtype)
-    for whole, row in zip(padded, rows, strict=True):
-        whole[: stop - begin], whole[stop - begin :] = row[begin:stop], row[stop - 1]
+def _known_line(system: LoopSystem, line: Line) -> _KnownLine:
+    return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
+
+
+def _chunk(rows: np.ndarray, begin: int) -> np.ndarray:
+    """Cut `CHUNK` poses out of the inputs from `begin` on, the last pose repeated."""
+    chunk = rows[:, begin : begin + CHUNK]
+    padded = np.empty((len(rows), CHUNK), rows.dtype)
+    padded[:, : chunk.shape[1]], padded[:, chunk.shape[1] :] = chunk, chunk[:, -1:]
     return padded
 
 
-@cache
-def _program(layout: DisplacementSources, systems: tuple[LoopSystem, ...], inputs: tuple[int, ...]):
-    """Make the program: poses, and whether all are closed without doubt."""
+def _find(
+    systems: tuple[LoopSystem, ...],
+    which: tuple[int, ...],
+    numbers: Sequence[ElementNumbers],
+    lines: Sequence[Line | PassedLine],
+    rows: Float[Array, "driven poses"],
+    tolerance: ClosureTolerance,
+) -> _Found:
+    """Find the poses of all loop groups."""
+    count_trace()
+    displaced, square, proven = [], jnp.zeros(()), jnp.ones((), bool)
+    for system, own, line, row in zip(systems, numbers, lines, which, strict=True):
+        found = find_poses_by_formula(system, own.axes, line, rows[row][None], tolerance)
+        displaced.append(joint_displacements(system, own.joints, own.axes, found.rows))
+        square = square + found.residual_norm**2
+        proven &= found.proven
+    return _Found(displaced, jnp.sqrt(square), proven)
 
-    @partial(jax.jit, **jit_options())
-    def program(numbers, lines, values: Float[Array, "driven chunk"], finite, tolerance: ClosureTolerance):
-        count_trace()
-        solutions, proven = [], jnp.ones((), bool)
-        for system, own, line, which in zip(systems, numbers, lines, inputs, strict=True):
-            found = find_poses_by_formula(system, own.axes, line, values[which][None], tolerance)
-            displaced = joint_displacements(system, own.joints, own.axes, found.rows)
-            solutions.append((displaced, Outcome(found.status, found.residual_norm)))
-            proven &= found.proven
-        return collect(layout, tuple(values), finite, solutions), proven
 
-    return program
+def _deal_out(
+    layout: DisplacementSources,
+    systems: tuple[LoopSystem, ...] | None,
+    found: list[tuple[list[Array], Array]],
+    rows: Float[Array | np.ndarray, "driven poses"],
+    finite: Bool[Array | np.ndarray, " poses"] | None,
+    xp: Any = jnp,
+) -> Collected:
+    """Join what was found for chunks of poses, cut it to length, and deal it out to the joints; all poses are closed.
+
+    Where `systems` are given, angles of their balls are unwrapped from chunk to chunk. Poses that are not `finite`
+    become NaN. `xp` is jax.numpy or numpy.
+    """
+    poses = rows.shape[1]
+
+    def whole(*pieces):
+        return xp.concatenate(pieces, axis=-1)[..., :poses]
+
+    displaced, residual = jax.tree.map(whole, *found)
+    nothing = xp.zeros((poses,), rows.dtype)
+    place: dict[tuple[int, int], Any] = {}
+    for number, (columns, own) in enumerate(zip(layout.columns, displaced, strict=True)):
+        place |= dict(zip(columns, own, strict=True))
+        for column in np.flatnonzero(turning(systems[number])) if systems else ():
+            place[columns[column]] = xp.unwrap(own[column])
+    place |= dict(zip(layout.driven, rows, strict=True))  # inputs as they were given
+
+    def finished(row, otherwise: float = np.nan):
+        return row if finite is None else xp.where(finite if row.ndim == 1 else finite[:, None], row, otherwise)
+
+    moved = {
+        joint: finished(xp.stack([place.get((joint, k), nothing) for k in range(layout.freedoms[joint])], axis=1))
+        for joint in sorted({joint for joint, _ in place})
+    }
+    resting = {
+        freedoms: finished(xp.zeros((poses, freedoms), rows.dtype))
+        for freedoms in sorted({f for joint, f in enumerate(layout.freedoms) if joint not in moved})
+    }
+    status = finished(xp.full(poses, Status.CLOSED.value, np.int32), Status.NONFINITE.value)
+    return Collected(tuple(rows), moved, resting, status, finished(residual))
 
 
 _asked: Counter[tuple[int, int]] = Counter()
 """How often the results of a program (by its identity: they live as long as the process) had a number of poses."""
+_deal_out_program = jax.jit(_deal_out, static_argnums=(0, 1))
 
 
-def _join(chunks: list[Collected], poses: int, balls: Sequence[tuple[int, int]], xp: Any = jnp) -> Collected:
-    """Join chunks by `xp`, jax.numpy or numpy, and cut them to length; angles of balls are unwrapped across them."""
-    joined = jax.tree.map(lambda one, *more: (xp.concatenate([one, *more]) if more else one)[:poses], *chunks)
-    moved = dict(joined.moved)
-    for joint in {joint for joint, _ in balls}:
-        columns = [
-            xp.unwrap(row) if (joint, coordinate) in balls else row for coordinate, row in enumerate(moved[joint].T)
-        ]
-        moved[joint] = xp.stack(columns, axis=1)
-    return joined._replace(moved=moved)
+@cache
+def _program(systems: tuple[LoopSystem, ...], which: tuple[int, ...]):
+    """Make the program of a chunk of poses, for inputs of which each loop group has one."""
+    return jax.jit(partial(_find, systems, which), **jit_options())
 
 
-_join_program = jax.jit(_join, static_argnums=(1, 2))
+@cache
+def _single(layout: DisplacementSources, systems: tuple[LoopSystem, ...], which: tuple[int, ...]):
+    """Make the program of a single pose, which also deals it out to the joints."""
+
+    def single(numbers, lines, rows, finite, tolerance: ClosureTolerance) -> tuple[Collected, Array]:
+        found = _find(systems, which, numbers, lines, rows, tolerance)
+        return _deal_out(layout, None, [(found.displaced, found.residual)], rows, finite), found.proven
+
+    return jax.jit(single, **jit_options())

@@ -7,7 +7,6 @@ that are done unchanged.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from contextvars import ContextVar
 from typing import Any, TypeVar
@@ -62,10 +61,10 @@ def computed_once(function: Callable[..., Result], *args: Any) -> Result:
     """Call a function of arrays, so that what it returns is computed once, and kept.
 
     XLA copies a chain of cheap operations into every operation that uses its result, and formulas are such chains. It
-    does not look into the branches of a condition that it cannot decide: here whether each array has a finite number.
-    Where one has none, what is returned is NaN, zero or False. Nothing may be differentiated.
+    does not look into the branches of a condition that it cannot decide: here whether the smallest array has a finite
+    number. Where it has none, what is returned is NaN, zero or False. Nothing may be differentiated.
     """
-    finite = [jnp.any(jnp.isfinite(leaf)) for leaf in jax.tree.leaves(args)]
+    smallest = min(jax.tree.leaves(args), key=jnp.size)
     shapes = jax.eval_shape(function, *args)
 
     def nothing(*_: Any) -> Result:
@@ -74,4 +73,4 @@ def computed_once(function: Callable[..., Result], *args: Any) -> Result:
             shapes,
         )
 
-    return lax.cond(any_in_lockstep(functools.reduce(jnp.logical_and, finite)), function, nothing, *args)
+    return lax.cond(any_in_lockstep(jnp.isfinite(smallest)), function, nothing, *args)

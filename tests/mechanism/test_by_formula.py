@@ -233,3 +233,30 @@ def test_a_slide_that_drives(general):
     assert not general and np.all(motion.closed)
     back = mechanism.sweep({"A": motion.coordinates["A"][:, 0]})
     np.testing.assert_allclose(back.coordinates["S"], motion.coordinates["S"], atol=1e-9)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("make", "key", "factor"),
+    [
+        (rssr_linkage, ("rod", "B", "C"), 1.2),
+        (spherical_linkage, ("coupler", "B", "C", "angle"), 1.7),
+    ],
+)
+def test_a_design_in_doubt_has_derivatives_in_space(make, key, factor):
+    """The loops do not close at the input from which displacements count, but do elsewhere: a search is to get on from
+    there. Slopes of lengths and of the input are those of differences."""
+    mechanism = make()
+    before = float(mechanism.lengths[key])
+
+    def swept(change):
+        motion = mechanism.with_lengths({key: before * (factor + change)}).sweep({"A": 2.0 + change + jnp.arange(2)})
+        return motion.coordinates["D"][:, 0], motion.status
+
+    both = jax.jit(lambda change: jax.jvp(swept, (change,), (jnp.ones(()),)))
+    (_, status), (slopes, _) = both(0.0)
+    np.testing.assert_array_equal(status, Status.STALLED)
+    (one, _), (other, _) = (both(step)[0] for step in (-1e-5, 1e-5))
+    # central differences: the third derivative times 1e-10, and rounding over the step
+    np.testing.assert_allclose(slopes, (other - one) / 2e-5, rtol=1e-6)
+    assert np.all(np.abs(np.asarray(slopes)) > 1e-3)

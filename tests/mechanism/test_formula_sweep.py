@@ -5,14 +5,15 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from jaxkin.mechanism import formula_sweep
 from jaxkin.mechanism.drive_plan import plan_drive
-from jaxkin.solve.closed_form.line import full_turn
+from jaxkin.solve.closed_form.line import NODES, full_turn, passed_range
 from jaxkin.solve.closed_form.solve_groups import residual_norm, solve_groups
 from jaxkin.solve.execution.compiler import compilations
 from jaxkin.solve.execution.design_batches import DESIGN_GROUP
 from jaxkin.solve.status import Status
-from reference import catalogue
+from reference import catalogue, planar
 from reference.mechanisms import planar_fourbar, rssr_linkage, slider_crank, spherical_linkage
 
 TURN = 2 * np.pi
@@ -38,6 +39,27 @@ def test_two_programs_serve_any_number_of_poses():
     assert compilations() - before <= 2
     for found, expected in zip(alone.displacements, whole.displacements, strict=True):
         np.testing.assert_allclose(found, expected[-1:], atol=1e-13)  # another program: some roundings of two turns
+
+
+@pytest.mark.long
+def test_where_the_motion_passes_without_doubt_no_pose_needs_a_certificate():
+    """The rocker swings between the poses in which crank and coupler are in line; poses from there to there but for
+    the last nodes are those of the general solver, on either side of the assembled pose."""
+    mechanism = planar_fourbar()
+    (element,) = plan_drive(mechanism.linkage, ("D",)).loop_groups
+    lowest, highest = passed_range(element.system, element.line)
+    in_line = np.array([120.0 - 40.0, 120.0 + 40.0])
+    ends = np.pi - np.arccos((100.0**2 + 80.0**2 - in_line**2) / (2 * 100.0 * 80.0))  # of the rocker, from x
+    at = planar.fourbar(np.array([1.0])).rocker_pin[0] - [100.0, 0.0]
+    least, most = sorted(ends - np.arctan2(at[1], at[0]))
+    node = TURN / (NODES - 1)
+    assert least < lowest < least + 2 * node and most - 2 * node < highest < most
+    inputs = np.linspace(lowest, highest, 50)
+    motion = mechanism.sweep({"D": inputs})
+    expected = mechanism.sweep({"D": inputs}, options=jk.SolverOptions(formulas=False))
+    assert np.all(motion.closed) and np.all(expected.closed)
+    for found, wanted in zip(motion.displacements, expected.displacements, strict=True):
+        np.testing.assert_allclose(found, wanted, atol=1e-12)  # some thousand roundings of radians
 
 
 @pytest.mark.long
@@ -97,7 +119,7 @@ def test_numpy_and_jax_compute_the_same_poses_and_the_same_line(make, drive):
         assert isinstance(expected, np.ndarray)
         np.testing.assert_allclose(found, expected, atol=1e-13)  # some hundred roundings: angles of up to pi
     by_jax = jax.jit(lambda axes: full_turn(system, axes))(jax.tree.map(jnp.asarray, axes))
-    for found, expected in zip(by_jax, line, strict=True):
+    for found, expected in zip((*by_jax[:-1], *by_jax.windings), (*line[:-1], *line.windings), strict=True):
         np.testing.assert_allclose(np.asarray(found, float), np.asarray(expected, float), atol=1e-13)
 
 

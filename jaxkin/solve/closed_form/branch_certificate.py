@@ -43,6 +43,9 @@ class LineCertificate(NamedTuple):
     """Whether the motion passes all intervals."""
     limited: Bool[Numbers, ""]
     """Whether there surely is a limit."""
+    blocked: tuple[Int[Numbers, ""], Int[Numbers, ""]]
+    """The first intervals downwards and upwards that the motion may not pass as a whole; -1 and their number if it
+    does."""
     table: list[Float[Numbers, " intervals"]]
     """What `certify_poses` reads of the interval of a pose, in the order of its lines."""
 
@@ -87,7 +90,8 @@ def certify_line(discriminants: Rows, steep: Bool[Numbers, " intervals"], first:
         number > limit_above,
         number < limit_below,
     ]
-    return LineCertificate(~xp.any(blocked), xp.any(beyond), [row.astype(float) for row in (*facts, *rows)])
+    table = [row.astype(float) for row in (*facts, *rows)]
+    return LineCertificate(~xp.any(blocked), xp.any(beyond), (block_below, block_above), table)
 
 
 def unwrapped(turns: Sequence[Complex]) -> list[Float[Numbers, " nodes"]]:

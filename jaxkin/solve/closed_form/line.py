@@ -39,15 +39,26 @@ dimensions leave open there: nearer to zero, its sign does not tell which branch
 Numbers = Array | np.ndarray
 
 
-class Line(NamedTuple):
-    """The nodes, equally spaced, and what they say."""
+class Windings(NamedTuple):
+    """How often the unknown angles go round along the nodes, which are equally spaced."""
 
-    signs: Float[Numbers, "groups 1"]
-    """The sign of the branch of every group."""
     begin: Float[Numbers, ""]
     """Input of the first node."""
     spacing: Float[Numbers, ""]
     """From node to node."""
+    angles: Rows
+    """Unknown angles at all nodes, radians, right to 0.08, unwrapped along the line."""
+    begun: Float[Numbers, " angles"]
+    """Full turns of the unknown angles on the line at the assembled pose, radians."""
+    ended: Float[Numbers, " angles"]
+    """The same at the assembled pose a full turn of the input later."""
+
+
+class Line(NamedTuple):
+    """The nodes, and what they say."""
+
+    signs: Float[Numbers, "groups 1"]
+    """The sign of the branch of every group."""
     begins: Bool[Numbers, ""]
     """Whether the assembled pose is without doubt on a branch that can be followed."""
     passes: Bool[Numbers, ""]
@@ -56,12 +67,30 @@ class Line(NamedTuple):
     """Of every group at every node."""
     steep: Bool[Numbers, " intervals"]
     """Intervals in which an angle turns too far to be unwrapped."""
-    angles: Rows
-    """Unknown angles at all nodes, radians, right to 0.08, unwrapped along the line."""
-    begun: Float[Numbers, " angles"]
-    """Full turns of the unknown angles on the line at the assembled pose, radians."""
-    ended: Float[Numbers, " angles"]
-    """The same at the assembled pose a full turn of the input later."""
+    windings: Windings
+
+
+class PassedLine(NamedTuple):
+    """What of a line is asked for by inputs up to which the motion passes it without doubt: see `passed_range`."""
+
+    signs: Float[Numbers, "groups 1"]
+    """The sign of the branch of every group."""
+    windings: Windings
+
+
+def passed_range(system: LoopSystem, line: Line) -> tuple[float, float]:
+    """Find the lowest and the highest input up to which the motion passes a line of known numbers without doubt.
+
+    Radians or characteristic lengths; infinite where it passes the whole line, and (0, 0) where it does not begin.
+    """
+    if not line.begins:
+        return 0.0, 0.0
+    if line.passes:
+        return -np.inf, np.inf
+    below, above = certify_line(line.discriminants, np.asarray(line.steep), *ends(system)).blocked
+    begin, spacing = line.windings.begin, line.windings.spacing
+    lowest = begin + spacing * (below + 1) - (TURN if system.periodic else 0.0)
+    return float(lowest), float(begin + spacing * above)
 
 
 def full_turn(system: LoopSystem, axes: Axes) -> Line:
@@ -139,5 +168,5 @@ def _line(system: LoopSystem, nodes: Float[Numbers, " nodes"], roots: Numbers, s
     begun, ended = (
         TURN * xp.round((xp.array([row[node] for row in nearby], float) - assembled) / TURN) for node in (first, last)
     )
-    spacing = nodes[1] - nodes[0]
-    return Line(signs, nodes[0], spacing, begins, passes, discriminants, steep, nearby, begun, ended)
+    windings = Windings(nodes[0], nodes[1] - nodes[0], nearby, begun, ended)
+    return Line(signs, begins, passes, discriminants, steep, windings)

@@ -28,9 +28,13 @@ from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closed_form.arithmetic import namespace
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.branch_certificate import at_intervals, certify_line, certify_poses
+from jaxkin.solve.closed_form.complex_numbers import Complex, argument
+from jaxkin.solve.closed_form.coordinate import REST
 from jaxkin.solve.closed_form.line import (
     NODES,
     Line,
+    PassedLine,
+    Windings,
     ends,
     line_and_poses,
     nodes_to_either_side,
@@ -89,11 +93,16 @@ def find_poses_and_line(
 
 
 def find_poses_by_formula(
-    system: LoopSystem, axes: Axes, line: Line, inputs: Float[Array, "1 poses"], tolerance: ClosureTolerance
+    system: LoopSystem,
+    axes: Axes,
+    line: Line | PassedLine,
+    inputs: Float[Array, "1 poses"],
+    tolerance: ClosureTolerance,
 ) -> FormulaPoses:
     """Find the poses for finite inputs in radians or lengths of the mechanism, of a system that is all formulas.
 
-    Nothing that is found has a derivative; `displacements_by_formula` has.
+    On a `PassedLine` no pose needs a certificate. Nothing that is found has a derivative; `displacements_by_formula`
+    has.
     """
     axes, line, inputs = lax.stop_gradient((axes, line, inputs))
     values = _scaled(system, axes, inputs)[0]
@@ -104,24 +113,35 @@ def find_poses_by_formula(
 def _judged(
     system: LoopSystem,
     axes: Axes,
-    line: Line,
+    line: Line | PassedLine,
     values: Float[Array, " poses"],
     solved: Solved,
     tolerance: ClosureTolerance,
 ) -> FormulaPoses:
     """Judge solved poses by the line: their statuses, and angles with their full turns."""
-    expected, passed, crossed = _reached(system, line, values, solved.discriminants)
-    rows = [jnp.asarray(coordinate.value) for coordinate in solved.coordinates]
-    for column, angle in zip(unknown_angles(system), expected, strict=True):
-        rows[column] = rows[column] + TURN * jnp.round((angle - rows[column]) / TURN)
+    if isinstance(line, PassedLine):
+        expected = _at_nodes(system, line.windings, values).expected(line.windings)
+        passed = known = jnp.ones(values.shape, bool)
+    else:
+        expected, passed, crossed = _reached(system, line, values, solved.discriminants)
+        passed, known = passed & line.begins, line.begins & (passed | crossed)
+    angles = unknown_angles(system)
+    rows = [REST.value if k in angles else each.value for k, each in enumerate(solved.coordinates)]
+    if angles:
+        # all angles in one array: so they are a few operations of the program, not a few each
+        turns = [jax.tree.map(jnp.asarray, solved.coordinates[column].turn) for column in angles]
+        principal = argument(Complex(*(jnp.stack(parts) for parts in zip(*turns, strict=True))))
+        found = principal + TURN * jnp.round((expected - principal) / TURN)
+        for column, row in zip(angles, found, strict=True):
+            rows[column] = row
+    rows = [jnp.asarray(row) for row in rows]
 
     residual = jnp.asarray(residual_norm(system, axes, solved.coordinates))
     closes = residual <= tolerance.max_residual
-    status = classify(residual, ~closes, passed & line.begins, tolerance.max_residual)
-    in_doubt = closes & ~(line.begins & (passed | crossed))
-    status = jnp.where(in_doubt, Status.STALLED.value, status)
+    status = classify(residual, ~closes, passed, tolerance.max_residual)
+    status = jnp.where(closes & ~known, Status.STALLED.value, status)
     sharp = jnp.maximum(rounding_residual(residual.dtype, CLOSED_ROUNDINGS), tolerance.target_residual)
-    proven = jnp.all((status == Status.CLOSED.value) & (residual <= sharp))
+    proven = jnp.all(passed & (residual <= jnp.minimum(tolerance.max_residual, sharp)))
     return FormulaPoses(tuple(rows), status, residual, jnp.asarray(line.signs), proven)
 
 
@@ -158,10 +178,9 @@ def _with_derivative(
 @_with_derivative.defjvp
 def _derivative_of_formulas(system: LoopSystem, primals, tangents):
     axes, values, found = primals
-    closed = is_closed(found.status)
+    # loops of a pose in doubt close as well, and a search for a design is to get on from there
+    closed = is_closed(found.status) | (found.status == Status.STALLED.value)
     if system.planar:
-        # loops of a pose in doubt close as well, and a search for a design is to get on from there
-        closed = closed | (found.status == Status.STALLED.value)
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)
         d_axes, d_values, _ = tangents
@@ -196,21 +215,48 @@ def joint_displacements(
     return unwrap_ball_angles(system, found)
 
 
+class _AtNodes(NamedTuple):
+    """Where inputs are among the nodes of a line, and the unknown angles there."""
+
+    turns: Float[Array, " poses"]
+    """Full turns of the input, down to the line."""
+    interval: Int[Array, " poses"]
+    """The interval between two nodes."""
+    distance: Float[Array, " poses"]
+    """From its lower node, counted in nodes."""
+    nearby: Float[Array, "angles poses"]
+    """The unknown angles at the lower node, unwrapped along the line."""
+
+    def expected(self, windings: Windings) -> Float[Array, "angles poses"]:
+        """Unwrap the nearby angles along the motion from the assembled pose, which passes the line."""
+        start, end = jnp.asarray(windings.begun)[:, None], jnp.asarray(windings.ended)[:, None]
+        return self.nearby - start + (end - start) * self.turns
+
+
+def _at_nodes(system: LoopSystem, windings: Windings, values: Float[Array, " poses"]) -> _AtNodes:
+    turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
+    position = (values - TURN * turns - windings.begin) / windings.spacing
+    interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
+    distance, interval = position - interval, interval.astype(jnp.int32)
+    # of a known line all angles are looked up at once; of traced ones, which stem from long formulas, each by itself
+    if isinstance(windings.angles, list):
+        nearby = [at_intervals(row, interval) for row in windings.angles]
+        return _AtNodes(turns, interval, distance, jnp.stack(nearby) if nearby else jnp.zeros((0, *values.shape)))
+    return _AtNodes(turns, interval, distance, jnp.asarray(windings.angles).at[:, interval].get(mode="clip"))
+
+
 def _reached(
     system: LoopSystem, line: Line, values: Float[Array, " poses"], discriminants: Sequence[Array | np.ndarray]
-) -> tuple[list[Float[Array, " poses"]], Bool[Array, " poses"], Bool[Array, " poses"]]:
+) -> tuple[Float[Array, "angles poses"], Bool[Array, " poses"], Bool[Array, " poses"]]:
     """Judge the motion from the assembled pose to poses, upwards and downwards.
 
     Returns unknown angles nearby, with their full turns; to which poses the motion passes; and before which poses there
     surely is a limit, whichever side they are approached from.
     """
-    turns = jnp.floor(values / TURN) if system.periodic else jnp.zeros_like(values)
-    position = (values - TURN * turns - line.begin) / line.spacing
-    interval = jnp.clip(jnp.floor(position), 0, NODES - 2)
-    distance, interval = position - interval, interval.astype(jnp.int32)
-    nearby = [at_intervals(row, interval) for row in line.angles]
-    begun, ended = list(line.begun), list(line.ended)
-    every = [near - start + (end - start) * turns for near, start, end in zip(nearby, begun, ended, strict=True)]
+    at_nodes = _at_nodes(system, line.windings, values)
+    turns, interval, distance, nearby = at_nodes
+    begun, ended = (jnp.asarray(each)[:, None] for each in (line.windings.begun, line.windings.ended))
+    every = at_nodes.expected(line.windings)
 
     def whole_line():
         return every, jnp.ones(values.shape, bool), jnp.zeros(values.shape, bool)
@@ -230,10 +276,7 @@ def _reached(
         around = limited & (from_below | from_above)
         by_rising = jnp.where(direct, rising, from_below)
         passed = direct | around | judged.passes
-        expected = [
-            jnp.where(judged.passes, each, near - jnp.where(by_rising, start, end))
-            for each, near, start, end in zip(every, nearby, begun, ended, strict=True)
-        ]
+        expected = jnp.where(judged.passes, every, nearby - jnp.where(by_rising, begun, ended))
         return expected, passed, after_limit & before_limit
 
     # most designs pass the whole line, and whole groups of them do
