@@ -43,18 +43,18 @@ def door_closer(random):
     drawing.add("piston", piston)
     drawing.add("piston spring", tube(at(232, -31, 0), X, 9, 11, 34))
     shaft = union(
-        cyl(axle - 24 * Z, Z, 7, 50), cyl(axle - 6 * Z, Z, 5.8, 12), box(axle + at(-4, -4, 26), axle + at(4, 4, 36))
+        cyl(axle - 24 * Z, Z, 7, 50), cyl(axle - 6 * Z, Z, 5.8, 12), box(axle + at(-4, -4, 26), axle + at(4, 4, 31.5))
     )
-    drawing.add("shaft", cut(shaft, cyl(axle + 36 * Z, -Z, 2, 16)))
+    drawing.add("shaft", cut(shaft, cyl(axle + 36 * Z, -Z, 2, 18)))
     for name, z in (("lower bush", -22), ("upper bush", 12)):
         drawing.add(name, tube(axle + z * Z, Z, 7 + play, 11, 10))
     drawing.add("cap", tube(axle + 22 * Z, Z, 7.5, 14, 2))
     reach = random.uniform(150, 170)
     elbow = at(*meet(shoe[:2], 180, axle[:2], reach), 0)
-    arm = cut(bar(axle, elbow, 11, 28, 34), box(axle + at(-4, -4, 20), axle + at(4, 4, 40)), bore(elbow, Z, 4))
+    arm = cut(bar(axle, elbow, 11, 26, 32), box(axle + at(-4, -4, 20), axle + at(4, 4, 40)), bore(elbow, Z, 4))
     drawing.add("arm", arm)
-    drawing.add("arm screw", screw(axle + 36 * Z, -Z, 2, 15))
-    drawing.add("arm washer", tube(axle + 34 * Z, Z, 4, 8, 2).cut(box(axle + at(-4, -4, 30), axle + at(4, 4, 36))))
+    drawing.add("arm screw", screw(axle + 34 * Z, -Z, 2, 15))
+    drawing.add("arm washer", tube(axle + 32 * Z, Z, 2.2, 8, 2))
     flat = at(*(shoe[:2] - elbow[:2]), 0)
     flat /= np.linalg.norm(flat)
     here, there = elbow + 44 * Z, at(*shoe[:2], 44)
@@ -66,9 +66,9 @@ def door_closer(random):
     drawing.add("fore arm", fore)
     drawing.add(
         "elbow bolt",
-        union(cyl(elbow + 28 * Z, Z, 4, 22.2), cyl(elbow + 23 * Z, Z, 7, 5), cyl(elbow + 50.2 * Z, Z, 6, 3)),
+        union(cyl(elbow + 26 * Z, Z, 4, 24.2), cyl(elbow + 21 * Z, Z, 7, 5), cyl(elbow + 50.2 * Z, Z, 6, 3)),
     )
-    drawing.add("elbow washer", tube(elbow + 34 * Z, Z, 4, 8, 4))
+    drawing.add("elbow washer", tube(elbow + 32 * Z, Z, 4, 8, 6))
     rod = union(cyl(here + 40 * flat, flat, 4, 134), cyl(there - 6 * Z, Z, 9, 12))
     drawing.add("fore rod", cut(rod, bore(there, Z, 4 + play)))
     drawing.add("fore nut", hexagon(here + 88 * flat, flat, 6.5, 5, 4))

@@ -9,7 +9,9 @@ from drawings.folding import both_sides, circlip
 from drawings.guided import ball_bearing, hollow
 from drawings.powered import grooved
 from drawings.shapes import (
-    X, Y, Z,
+    X,
+    Y,
+    Z,
     at,
     bar,
     bore,
@@ -121,7 +123,7 @@ def wiper_linkage(random):
         "motor",
         cut(
             union(cyl(hub + 24 * Z, Z, 35, 25), cyl(hub + at(0, 0, 46), -Y, 20, 90)),
-            bore(hub, Z, 6),
+            cyl(hub, Z, 6, 46),
             *(cyl(p + 24 * Z, Z, 3, 12) for p in feet),
         ),
     )
@@ -214,21 +216,28 @@ def hand_brake(random):
         drawing.add(
             f"{name} sheet",
             cut(
-                sheet, bore(pivot, Z, 5 + play), bore(pawl, Z, 3), bore(clevis, Z, 4 + play), bore((80, 26, 0), Z, 2.5)
+                sheet,
+                bore(pivot, Z, 5 + play),
+                bore(pawl, Z, 3),
+                bore(clevis, Z, 4 + play),
+                bore((80, 26, 0), Z, 2.5),
+                bore((73, 14.5, 0), Z, 2),
             ),
         )
         drawing.add(f"{name} washer", tube(side * 2 * Z, side * Z, 5, 9, 1))
     drawing.add("pivot", rivet(pivot - 5.5 * Z, Z, 5, 11))
     drawing.add("pawl rivet", rivet(pawl - 5.5 * Z, Z, 3, 11))
+    drawing.add("grip rivet", rivet(at(73, 14.5, -5.5), Z, 2, 11))
     drawing.add("spacer rivet", union(rivet((80, 26, -5.5), Z, 2.5, 11), cyl((80, 26, -3), Z, 5, 6)))
     way = at(np.cos(0.2), np.sin(0.2), 0)
     root = at(95, 24, 0)
-    grip = cut(cyl(root, way, 13, 130), cyl(root + 2 * way, way, 11, 140), bore(root, way, 4 + play))
+    grip = cut(cyl(root, way, 13, 130), cyl(root + 30 * way, way, 11, 140), bore(root, way, 4 + play))
     cheeks = cut(
         box((70, 10, -3), (100, 34, 3)),
         cyl((80, 26, -9), Z, 5, 18),
         bore(root, way, 5),
-        cyl(root + 2 * way, way, 11, 140),
+        cyl(root + 30 * way, way, 11, 140),
+        bore((73, 14.5, 0), Z, 2),
     )
     drawing.add("grip", union(grip, cheeks))
     tail = pawl + at(9, 2, 0)
