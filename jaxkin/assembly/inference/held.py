@@ -115,7 +115,7 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         turns = turns or _goes_on(known, stack, low, high)
         loose = fits[widest] > SAME_FIT * stack.axis.radius
         slides = loose and stack.guides and _sticks_out(known, stack, low, high)
-        slides = slides or _is_plunger(known, stack, MAX_LIFT if loose else STICKS_OUT)
+        slides = slides or _is_plunger(known, stack, loose)
         return (None, "") if turns or slides else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
@@ -219,9 +219,10 @@ def _sticks_out(known: Known, stack: Stack, low: float, high: float) -> bool:
     return bool(ends) and min(low - min(ends), max(ends) - high) > STICKS_OUT * stack.axis.radius
 
 
-def _is_plunger(known: Known, stack: Stack, least: float) -> bool:
-    """Tell whether pins are in the midst of their holes, with room on both sides, `least` over the radius: a piston, or
-    the rod of a button. A screw ends with its hole on one side, or its head lies on a face."""
+def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
+    """Tell whether pins are in the midst of their holes, with room on both sides: a piston, or the rod of a button. A
+    screw ends with its hole on one side, or its head lies on a face. One that is not `loose` is deep inside of its hole
+    on both sides: a pressed pin comes out."""
     pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and pair.other.part in stack.held]
     flat = (each.parts for each in known.contacts if each.contact_state.is_flat)
     if any({*parts} & {*stack.fasteners} and {*parts} & {*stack.held} for parts in flat):
@@ -230,8 +231,9 @@ def _is_plunger(known: Known, stack: Stack, least: float) -> bool:
         (low, high), (first, last) = (bore.reach(pair.one.axis) for bore in (pair.one, pair.other))
         own, other = (known.measured.stops(known.solids[part], pair.other) for part in pair.parts)
         near = nearest(own, other, pair.other.radius)
-        room = min(abs(low - first), abs(high - last), np.inf if near is None else near)
-        if room <= least * pair.other.radius:
+        inside = np.array([low - first, last - high])
+        room = min(*(np.abs(inside) if loose else inside), np.inf if near is None else near)
+        if room <= (MAX_LIFT if loose else STICKS_OUT) * pair.other.radius:
             return False
     return bool(pairs)
 

@@ -107,10 +107,9 @@ def caps(known: Known) -> list[Inference]:
         floors = [_on_floor(known, pair, contact) for contact in known.contacts if {*contact.parts} == {pin, cap}]
         flat = [each for each in floors if each is not None]
         if flat and all(flat):
-            evidence = Evidence(
-                EvidenceKind.ENCLOSED, (), f"{cap!r} is a cap on the end of {pin!r}, and nothing else holds it"
-            )
-            result.append(Inference(tuple(sorted((pin, cap), key=known.order.__getitem__)), evidence))
+            text = f"{cap!r} is a cap on the end of {pin!r}, and nothing else holds it"
+            parts = tuple(sorted((pin, cap), key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
     return result
 
 
@@ -120,8 +119,8 @@ def _on_floor(known: Known, pair: CommonAxis, contact: Contact) -> bool | None:
     plane = contact.surfaces[0]
     if not contact.contact_state.is_flat or not isinstance(plane, Plane):
         return None
-    name = contact.faces[contact.parts.index(pair.other.part)]
-    face = next(face for face in known.solids[pair.other.part].faces if face.name == name)
-    corners = face.triangles.reshape(-1, 3) - pair.other.point
-    away = np.linalg.norm(np.cross(corners, pair.other.axis), axis=1).max()
-    return bool(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS and away <= WIDER * pair.other.radius)
+    name = contact.faces[contact.parts.index(pair.one.part)]
+    face = next(face for face in known.solids[pair.one.part].faces if face.name == name)
+    corners = face.triangles.reshape(-1, 3) - pair.one.point
+    away = np.linalg.norm(np.cross(corners, pair.one.axis), axis=1).max()
+    return bool(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS and away <= WIDER * pair.one.radius)
