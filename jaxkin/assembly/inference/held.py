@@ -221,8 +221,8 @@ def _sticks_out(known: Known, stack: Stack, low: float, high: float) -> bool:
 
 def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
     """Tell whether pins are in the midst of their holes, with room on both sides: a piston, or the rod of a button. A
-    screw ends with its hole on one side, or its head lies on a face. One that is not `loose` is deep inside of its hole
-    on both sides: a pressed pin comes out."""
+    screw ends with its hole on one side, or its head lies on a face; a pin that comes out on both sides is held there.
+    One that is not `loose` is deep inside of its hole on both sides."""
     pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and pair.other.part in stack.held]
     flat = (each.parts for each in known.contacts if each.contact_state.is_flat)
     if any({*parts} & {*stack.fasteners} and {*parts} & {*stack.held} for parts in flat):
@@ -233,7 +233,7 @@ def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
         near = nearest(own, other, pair.other.radius)
         inside = np.array([low - first, last - high])
         room = min(*(np.abs(inside) if loose else inside), np.inf if near is None else near)
-        if room <= (MAX_LIFT if loose else STICKS_OUT) * pair.other.radius:
+        if inside.max() < 0 or room <= (MAX_LIFT if loose else STICKS_OUT) * pair.other.radius:
             return False
     return bool(pairs)
 
