@@ -1,11 +1,12 @@
-"""What drives and steers wheels: a cardan shaft, a steering knuckle."""
+"""What drives and steers: a cardan shaft, a steering knuckle, a belt tensioner."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from drawings.drawing import Drawing, kind
-from drawings.shapes import X, Y, Z, at, bar, bore, box, cut, cyl, hexagon, laid, screw, sphere, tube, union
+from drawings.guided import ball_bearing
+from drawings.shapes import X, Y, Z, at, bar, bore, box, cut, cyl, hexagon, laid, screw, sphere, torus, tube, union
 
 
 def yoke(middle, axis, way, arm: float, seat: float):
@@ -153,4 +154,43 @@ def steering_knuckle(random):
     drawing.joint("Weld", "bearing unit", "knuckle")
     drawing.joint("Revolute", "hub", "knuckle", (0, 0, 10), Y)
     drawing.joint("Weld", "wheel", "hub")
+    return drawing
+
+
+@kind
+def belt_tensioner(random):
+    """A base on two screws, an arm on a bush round its stud, a spring about the hub, a pulley on a ball bearing."""
+    drawing, play = Drawing(["block"]), random.choice([0.05, 0.1])
+    hub, wheel = at(0, 0, 0), at(random.uniform(60, 75), 10, 0)
+    ears = [at(-30, 38, 0), at(-30, -38, 0)]
+    pocket = [bore(p, Z, 4, 15) for p in ears]
+    drawing.add("block", cut(box((-80, -80, -30), (40, 80, 0)), *pocket, cyl((-20, 0, -8), Z, 3, 9)))
+    base = union(
+        cyl(hub, Z, 28, 8),
+        *(bar((0, 0), p, 10, 0, 8) for p in ears),
+        cyl(hub + 8 * Z, Z, 10, 39.8),
+        cyl((-20, 0, -8), Z, 3, 8),
+    )
+    cup = tube(hub + 8 * Z, Z, 25, 28, 14)
+    drawing.add("base", cut(union(base, cup), *(bore(p, Z, 4.25) for p in ears), cyl(hub + 20 * Z, Z, 4, 40)))
+    for number, p in enumerate(ears):
+        drawing.add(f"base screw {number}", screw(p + 8 * Z, -Z, 4, 20))
+    drawing.add("bush", union(tube(hub + 22.2 * Z, Z, 10 + play, 12, 25.6), tube(hub + 22.2 * Z, Z, 10 + play, 15, 2)))
+    arm = union(cyl(hub + 24.2 * Z, Z, 22, 23), bar(hub, wheel, 14, 34, 46), cyl(wheel + 26 * Z, Z, 12, 20))
+    drawing.add("arm", cut(arm, bore(hub, Z, 12), cyl(wheel, Z, 5, 46)))
+    drawing.add("friction washer", tube(hub + 47.8 * Z, Z, 4.1, 18, 1.5))
+    drawing.add("centre screw", screw(hub + 49.3 * Z, -Z, 4, 24))
+    rings = [torus(hub + z * Z, Z, 19, 1.5) for z in (10.5, 13.6, 16.7, 19.8)]
+    drawing.add("spring", union(*rings, *(box((18, -1, z), (20, 1, z + 3)) for z in (10.5, 13.6, 16.7))))
+    ball_bearing(drawing, "roller bearing", wheel + 10 * Z, Z, 6, 16, 14)
+    drawing.add("spacer", tube(wheel + 24 * Z, Z, 5, 8, 2))
+    drawing.add("inner sleeve", tube(wheel + 10 * Z, Z, 5, 6, 14))
+    drawing.add("pulley", union(tube(wheel + 10 * Z, Z, 16, 18, 14), tube(wheel + 5 * Z, Z, 18, 34, 24)))
+    drawing.add("dust cap", union(tube(wheel + 8.6 * Z, Z, 5, 15, 1.4)))
+    drawing.add("pulley screw", screw(wheel + 8.6 * Z, Z, 5, 34))
+    drawing.joint("Weld", "base", "block")
+    drawing.joint("Revolute", "arm", "base", hub, Z)
+    drawing.joint("Weld", "roller bearing inner ring", "arm")
+    drawing.joint("Weld", "pulley", "roller bearing outer ring")
+    drawing.joint("Revolute", "pulley", "arm", wheel, Z)
     return drawing

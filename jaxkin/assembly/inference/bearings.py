@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import Bore
@@ -45,6 +47,10 @@ class _Ring(NamedTuple):
     """The narrowest one."""
     outside: Bore
     """The widest one."""
+    coaxial: tuple[Bore, ...]
+    """All its bores and pins about its axis."""
+    plain: bool
+    """Whether it has no holes beside its axis, as rings have that are screwed on."""
 
 
 def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list[Bearing]:
@@ -54,20 +60,29 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
     """
     rings = [ring for part in parts if (ring := _ring(part, bores[part.name])) is not None]
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
-    flush = [pair for pair in nested if _flush(*pair)]
-    nested = [pair for pair in nested if not _hides_a_bearing(*pair, flush)]
+    coaxial = {ring.part.name for ring in rings}
+    inside = [[part for part in parts if part not in (a.part, b.part) and _between(part, a, b)] for a, b in nested]
+    rolling = [sum(_pieces(part) for part in some if part.name not in coaxial) for some in inside]
+    some = [each for each in zip(nested, inside, rolling, strict=True) if each[2] >= ROLLING or _flush(*each[0])]
+    sure = [pair for pair, *_ in some]
+    some = [each for each in some if not _hides_a_bearing(*each[0], sure)]
     found: list[Bearing] = []
     taken: set[str] = set()
-    coaxial = {ring.part.name for ring in rings}
-    for outer, inner in sorted(nested, key=lambda pair: pair[0].hole.radius - pair[1].outside.radius, reverse=True):
-        names = {outer.part.name, inner.part.name}
-        between = [part for part in parts if part.name not in names | taken and _between(part, outer, inner)]
-        rolling = sum(part.name not in coaxial for part in between)
-        if not names & taken and (rolling >= ROLLING or _flush(outer, inner)):
-            taken |= names | {part.name for part in between}
-            members = tuple(part.name for part in between)
-            found.append(Bearing(outer.part.name, inner.part.name, members, inner.outside, rolling))
+    for (outer, inner), between, count in sorted(some, key=lambda each: _room(*each[0]), reverse=True):
+        members = tuple(part.name for part in between if part.name not in taken)
+        if not {outer.part.name, inner.part.name} & taken:
+            taken |= {outer.part.name, inner.part.name, *members}
+            found.append(Bearing(outer.part.name, inner.part.name, members, inner.outside, count))
     return found
+
+
+def _pieces(part: Part) -> int:
+    """Count the solids that a part is drawn of: the balls of a bearing may be one part."""
+    corners, index = np.unique(part.triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    first, second, third = index.reshape(-1, 3).T
+    ends = np.concatenate([first, second]), np.concatenate([second, third])
+    graph = coo_array((np.ones(len(ends[0])), ends), shape=(len(corners), len(corners)))
+    return int(connected_components(graph, directed=False, return_labels=False))
 
 
 def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[CommonAxis]:
@@ -87,11 +102,16 @@ def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[Com
 
 def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
     holes, outsides = [bore for bore in own if bore.hole], [bore for bore in own if not bore.hole]
-    if not holes or not outsides or not all(bore.on_axis_of(own[0]) for bore in own[1:]):
+    if not holes or not outsides:
         return None
-    hole, outside = min(holes, key=lambda bore: bore.radius), max(outsides, key=lambda bore: bore.radius)
+    outside = max(outsides, key=lambda bore: bore.radius)
+    hole = min((bore for bore in holes if bore.on_axis_of(outside)), key=lambda bore: bore.radius, default=None)
+    about = tuple(bore for bore in own if bore.on_axis_of(outside))
+    beside = [bore for bore in own if bore not in about]
+    if hole is None or not all(bore.hole for bore in beside):
+        return None
     away, _ = _section(part, outside)
-    return _Ring(part, hole, outside) if away.max() <= ROUND * outside.radius else None
+    return _Ring(part, hole, outside, about, not beside) if away.max() <= ROUND * outside.radius else None
 
 
 def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
@@ -110,13 +130,17 @@ def _inside(outer: _Ring, inner: _Ring) -> bool:
     return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2
 
 
-def _hides_a_bearing(outer: _Ring, inner: _Ring, flush: Sequence[tuple[_Ring, _Ring]]) -> bool:
-    """Tell whether a ring between two others makes a bearing with one of them and is seated on the other one, as in the
-    hub of a roller that is as wide as its bearing."""
+def _room(outer: _Ring, inner: _Ring) -> float:
+    return outer.hole.radius - inner.outside.radius
+
+
+def _hides_a_bearing(outer: _Ring, inner: _Ring, sure: Sequence[tuple[_Ring, _Ring]]) -> bool:
+    """Tell whether a bearing is seated in the one of two rings or on the other: a roller on its bearing, with the
+    spacer beside that, is none."""
     return any(
-        (within is inner and _is_seated(around.outside, outer.hole))
-        or (around is outer and _is_seated(inner.outside, within.hole))
-        for around, within in flush
+        (around is not outer and any(_is_seated(around.outside, bore) for bore in outer.coaxial if bore.hole))
+        or (within is not inner and any(_is_seated(bore, within.hole) for bore in inner.coaxial if not bore.hole))
+        for around, within in sure
     )
 
 
@@ -131,6 +155,8 @@ def _ends(ring: _Ring, axis: Bore) -> tuple[float, float]:
 
 
 def _flush(outer: _Ring, inner: _Ring) -> bool:
+    if not (outer.plain and inner.plain):
+        return False
     ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
     return bool(np.abs(ends[0] - ends[1]).max() <= FLUSH * np.ptp(ends, axis=1).max())
 

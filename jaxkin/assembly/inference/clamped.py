@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
-from jaxkin.assembly.inference.sleeves import is_hollow, is_round
+from jaxkin.assembly.inference.sleeves import is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
 from jaxkin.contacts.contact import Contact
@@ -34,10 +34,10 @@ FILLED = 0.5
 it, too."""
 
 
-def clamped_hubs(known: Known) -> list[Inference]:
+def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Join hubs with the shafts that screws across them hold: set screws and pins that are drawn, and those of slits,
     in any hub; those of round hubs also where only their holes are drawn, radial ones and those of clamps beside the
-    shaft.
+    shaft. A pin of a slit that is in a lever, too, is that of a quick release, which clamps nothing for good.
 
     Only with shafts that are round: where shaft and motor are one solid, it is the hub that turns on it.
     """
@@ -45,6 +45,10 @@ def clamped_hubs(known: Known) -> list[Inference]:
     near = DRAWN_TOGETHER
     pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= near * pair.other.radius]
     housed = {pair.one.part for pair in known.axes if not pair.virtual}
+    inside: dict[int, set[str]] = {}
+    for pair in (*known.axes, *known.tapped):
+        if not pair.virtual:
+            inside.setdefault(id(pair.other), set()).add(pair.one.part)
     for pair in pins:
         shaft, hub = pair.parts
         own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
@@ -53,11 +57,13 @@ def clamped_hubs(known: Known) -> list[Inference]:
             continue
         screws = [screw for bore in across if (screw := _screw(known, bore, pair)) is not None]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
-        slit = any(_is_slit(bore, pair) for bore in across)
+        slits = [bore for bore in across if _is_slit(bore, pair)]
+        slit = any(not _is_released(known, inside.get(id(bore), ()), {*pair.parts, *fastening}) for bore in slits)
         fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
         filled = shared_length(pair.one, pair.other) >= FILLED * 2 * pair.other.half
-        if slit or (fitted and (screws or (alone and filled))):
+        empty = any(id(bore) not in inside for bore in across)
+        if slit or (fitted and (screws or (alone and filled and empty))):
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
             what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
@@ -86,6 +92,17 @@ def _is_slit(hole: Bore, pair: CommonAxis) -> bool:
     radius, apart = pair.one.radius, _from_axis(hole, pair)
     gaps = [low - high for (_, high), (low, _) in pairwise(hole.spans)]
     return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
+
+
+def _is_released(known: Known, pins: Collection[str], others: Collection[str]) -> bool:
+    """Tell whether a pin goes through a lever, too, which is none of the other parts."""
+    return any(
+        pair.one.part in pins
+        and pair.other.part not in others
+        and not is_round_about(known, pair.other.part, pair.other)
+        for pair in known.axes
+        if not pair.virtual
+    )
 
 
 def _screw(known: Known, hole: Bore, pair: CommonAxis) -> str | None:

@@ -42,12 +42,23 @@ def fasteners(parts: Sequence[Part], bores: Sequence[Bore], every: Mapping[str, 
     by_part: dict[str, list[Bore]] = {}
     for bore in bores:
         by_part.setdefault(bore.part, []).append(bore)
+    by_part = {name: _without_cotters(own) for name, own in by_part.items()}
     solids = {part.name: part for part in parts}
     return {
         name
         for name, own in by_part.items()
         if _on_one_axis(own, every[name]) and _slim(solids[name], own) and _is_mostly_pin(solids[name], own)
     }
+
+
+def _without_cotters(own: Sequence[Bore]) -> list[Bore]:
+    """Leave out the small holes across a pin."""
+    pins = [bore for bore in own if not bore.hole]
+    if not pins:
+        return [*own]
+    first = max(pins, key=lambda bore: bore.half)
+    least = MAX_CROSS * min(bore.radius for bore in pins)
+    return [bore for bore in own if not bore.hole or bore.radius > least or bore.on_axis_of(first)]
 
 
 def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
@@ -107,7 +118,9 @@ def stacks(
     """Find the stacks of an assembly; `touching` are the pairs of parts with contacts."""
     import networkx as nx
 
+    across = [pair for pair in found if _is_cotter(pair, found, fastening)]
     found = [pair for pair in found if not pair.virtual or {*pair.parts} <= {*fastening}]
+    found = [pair for pair in found if pair not in across]
     graph = nx.Graph(pair.parts for pair in found if {*pair.parts} <= {*fastening})
     graph.add_nodes_from(part for pair in found for part in pair.parts if part in fastening)
     result = []
@@ -125,7 +138,18 @@ def stacks(
         names = tuple(sorted(members, key=order.__getitem__))
         through = tuple(sorted(held - {*fastening}, key=order.__getitem__))
         result.append(Stack(names, through, bore, length - inside > MAX_EXPOSED * inside))
+    alone = {pair.one.part: pair for pair in across if not any(pair.one.part in each.fasteners for each in result)}
+    result += [Stack((name,), (pair.other.part,), pair.one, guides=False) for name, pair in alone.items()]
     return sorted(result, key=lambda stack: order[stack.fasteners[0]])
+
+
+def _is_cotter(pair: CommonAxis, found: Sequence[CommonAxis], fastening: Collection[str]) -> bool:
+    """Tell whether a fastener is in a hole across another one, which is the pin in some hole itself."""
+    return (
+        not pair.virtual
+        and {*pair.parts} <= {*fastening}
+        and any(each.one.part == pair.other.part and not parallel(each.one, pair.other) for each in found)
+    )
 
 
 def patterns(

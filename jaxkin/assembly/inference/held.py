@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.heads import is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, WIDER, play
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, WIDER, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -113,17 +113,20 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         # as a shaft in bushes, also where its collars touch what these are in
         turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
         turns = turns or _goes_on(known, stack, low, high)
-        slides = stack.guides and fits[widest] > SAME_FIT * stack.axis.radius and _sticks_out(known, stack, low, high)
+        loose = fits[widest] > SAME_FIT * stack.axis.radius
+        slides = loose and stack.guides and _sticks_out(known, stack, low, high)
+        slides = slides or _is_plunger(known, stack, loose)
         return (None, "") if turns or slides else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
     if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
         return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
-    looser = [fit for owner, fit in fits.items() if owner != tightest]
+    same = SAME_FIT * stack.axis.radius
+    looser = [fit for fit in fits.values() if fit > fits[tightest] + same]  # two cranks fit their shaft alike
     if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
-    if looser and min(looser) - fits[tightest] > SAME_FIT * stack.axis.radius:
+    if looser:
         return ends[tightest][2], "more tightly than by others"
     return None, ""
 
@@ -214,6 +217,25 @@ def _sticks_out(known: Known, stack: Stack, low: float, high: float) -> bool:
     pins = [pair.one for pair in known.axes if pair.one.part in stack.fasteners and not pair.virtual]
     ends = [end for pin in pins for end in pin.reach(stack.axis.axis)]
     return bool(ends) and min(low - min(ends), max(ends) - high) > STICKS_OUT * stack.axis.radius
+
+
+def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
+    """Tell whether pins are in the midst of their holes, with room on both sides: a piston, or the rod of a button. A
+    screw ends with its hole on one side, or its head lies on a face; a pin that comes out on both sides is held there.
+    One that is not `loose` is deep inside of its hole on both sides."""
+    pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and pair.other.part in stack.held]
+    flat = (each.parts for each in known.contacts if each.contact_state.is_flat)
+    if any({*parts} & {*stack.fasteners} and {*parts} & {*stack.held} for parts in flat):
+        return False
+    for pair in pairs:
+        (low, high), (first, last) = (bore.reach(pair.one.axis) for bore in (pair.one, pair.other))
+        own, other = (known.measured.stops(known.solids[part], pair.other) for part in pair.parts)
+        near = nearest(own, other, pair.other.radius)
+        inside = np.array([low - first, last - high])
+        room = min(*(np.abs(inside) if loose else inside), np.inf if near is None else near)
+        if inside.max() < 0 or room <= (MAX_LIFT if loose else STICKS_OUT) * pair.other.radius:
+            return False
+    return bool(pairs)
 
 
 def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:

@@ -29,12 +29,13 @@ from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
+from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
-from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
+from jaxkin.assembly.inference.standing import butting_pins, caps, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -60,6 +61,7 @@ def infer(
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
+    known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
     known.add(bearing_bodies(known, rolling))
     known.add(clamped_on_rings(known, rolling))
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
@@ -69,12 +71,13 @@ def infer(
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
     known.add(seated_sleeves(known, set_in))
-    known.add(clamped_hubs(known))
-    known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
+    known.add(clamped_hubs(known, fastening))
+    known.sleeves = {each.part for each in set_in} - {*fixed}
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
     fastening -= rollers(known, fastening)
+    known.add(pressed_on_shoulders(known, fastening))
     known.add(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]
@@ -85,6 +88,7 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
+    known.add(caps(known))
     known.add(pressed_rings(known))
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 
+import numpy as np
+
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import NEAR_LENGTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.sockets import sockets
@@ -43,11 +46,13 @@ class Known:
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         self.sleeves: set[str] = set()
+        self.rings: set[Pair] = set()
+        """The outer and the inner ring of each bearing, which are never one body."""
         self.bores, found = measured.bores, measured.axes(clearance)
         self.ignored, self.clearance = ignored, clearance
         found = [pair for pair in found if frozenset(pair.parts) not in ignored]
         self.sockets = [each for each in sockets(self.parts, clearance) if frozenset(each.parts) not in ignored]
-        self.axes = [pair for pair in found if not pair.tapped]
+        self.axes = [pair for pair in found if not pair.tapped and not self._is_neck(pair)]
         self.tapped = [pair for pair in found if pair.tapped]
 
     @property
@@ -75,16 +80,24 @@ class Known:
     def add(self, inferences: Sequence[Inference]) -> None:
         """Take inferences of parts that are not one body already, one after another.
 
-        Parts that joints by hand or inferred joints join are left apart.
+        Parts that joints by hand or inferred joints join are left apart, and so are the rings of a bearing.
         """
         body = self.body
-        jointed = [*self.by_hand, *(frozenset(each.parts) for each in self.found if each.joint)]
+        jointed = [*self.by_hand, *self.rings, *(frozenset(each.parts) for each in self.found if each.joint)]
         for each in inferences:
             owners = {body[part] for part in each.parts}
             if len(owners) > 1 and not any({body[part] for part in pair} <= owners for pair in jointed):
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
                 body = {part: first if owner in owners else owner for part, owner in body.items()}
+
+    def _is_neck(self, pair: CommonAxis) -> bool:
+        """Tell whether a pin in a hole is the neck of a ball in the opening of its socket: the ball guides it."""
+        for each in self.sockets:
+            apart = np.linalg.norm(np.cross(each.ball.centre - pair.one.point, pair.one.axis))
+            if {*pair.parts} == {*each.parts} and apart <= pair.offset + NEAR_LENGTH * pair.other.radius:
+                return True
+        return False
 
 
 def _subassemblies(parts: Sequence[Part]) -> dict[str, tuple[str, ...]]:

@@ -1,0 +1,62 @@
+"""What a nut presses against a shoulder of a shaft goes with the shaft: cranks, pulleys, inner rings."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.trapped import ACROSS, WIDER
+from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Join shafts with their nuts and with what is between a nut and a shoulder of the shaft.
+
+    The shoulder is the end of a thicker length, with which the shaft is in another part: it turns there. That of a
+    bolt, its head, is in none.
+    """
+    result = []
+    for pair in known.axes:
+        thread, nut = pair.one, pair.other.part
+        if pair.virtual or nut not in fastening or not all(bore.hole for bore in known.bores[nut]):
+            continue
+        shaft = thread.part
+        on = {each.other.part for each in known.axes if each.one is thread and not each.virtual}
+        between, shouldered = _pressed(known, nut, shaft, on, thread)
+        if not shouldered or not between - {nut}:
+            continue
+        thicker = [bore for bore in known.bores[shaft] if _is_thicker(bore, thread)]
+        seats = {
+            each.other.part for each in known.axes if not each.virtual and any(each.one is bore for bore in thicker)
+        }
+        if seats - between - {shaft}:
+            pressed = sorted(between - {nut}, key=known.order.__getitem__)
+            text = f"{nut!r} presses {', '.join(map(repr, pressed))} against a shoulder of {shaft!r}"
+            parts = tuple(sorted({shaft, *between}, key=known.order.__getitem__))
+            result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", thread.radius),), text)))
+    return result
+
+
+def _pressed(known: Known, nut: str, shaft: str, on: Collection[str], axis: Bore) -> tuple[set[str], bool]:
+    """Find the parts on a thread that lie flat on each other from a nut on, and whether one lies on the shaft."""
+    found, shouldered = [nut], False
+    for part in found:  # grows while it is read
+        for contact in known.contacts:
+            plane = contact.surfaces[0]
+            if part not in contact.parts or not contact.contact_state.is_flat or not isinstance(plane, Plane):
+                continue
+            if np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS:
+                (other,) = {*contact.parts} - {part}
+                shouldered |= other == shaft
+                found += [other] if other in on and other not in found else []
+    return {*found}, shouldered
+
+
+def _is_thicker(bore: Bore, thread: Bore) -> bool:
+    """Tell whether a pin of the same part is thicker than its thread, on the same axis."""
+    return not bore.hole and bore.radius > WIDER * thread.radius and bore.on_axis_of(thread)
