@@ -11,6 +11,7 @@ from pathlib import Path
 
 import linkages
 import machines
+import shafts
 import stages
 from kit import write_all
 
@@ -21,6 +22,10 @@ MECHANISMS = (
     machines.quick_return,
     machines.gripper,
     machines.castor,
+    shafts.compressor,
+    shafts.cardan,
+    linkages.table_leg,
+    stages.v_slot_gantry,
 )
 
 if __name__ == "__main__":

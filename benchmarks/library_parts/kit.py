@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from bd_warehouse.fastener import HexHeadScrew, HexNut, Nut, PlainWasher, Screw
+from bd_warehouse.fastener import HexHeadScrew, HexNut, PlainWasher
 from build123d import Circle, Compound, Cylinder, Plane, Pos, SlotCenterToCenter, export_step, extrude
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -35,7 +35,7 @@ class Drawing:
 
     def add(self, name: str, solid: Solid, at: Vec = (0, 0, 0), along: Vec = Z, x: Vec | None = None) -> None:
         """Place a solid that was drawn at the origin along z: its origin comes to `at`, its z axis to `along`."""
-        placed = Plane(origin=tuple(at), x_dir=x and tuple(x), z_dir=tuple(along)).location * solid
+        placed = Plane(origin=tuple(at), x_dir=None if x is None else tuple(x), z_dir=tuple(along)).location * solid
         placed.label = name
         self.solids.append(placed)
 
@@ -51,19 +51,30 @@ class Drawing:
         for other in others:
             self.label("Weld", host, other)
 
-    def bolt(self, name: str, size: str, at: Vec, along: Vec, grip: float, *, screw: type[Screw] = HexHeadScrew,
-             nut: type[Nut] = HexNut, washers: bool = True) -> None:  # fmt: skip
-        """Add a screw with its nut, and a washer under each: `at` is where the grip ends below the head, which points
-        along an axis; `grip` is the length between the washers, in millimetres."""
-        unit = np.array(along, float)
-        washer = PlainWasher(size.split("-")[0], "iso7089")
-        thickness = washer.bounding_box().size.Z * washers
-        sizes = {"M4": 4.0, "M5": 5.0, "M6": 6.0, "M8": 8.0, "M10": 10.0}
-        length = 5 * np.ceil((grip + 2 * thickness + 1.3 * sizes[size.split("-")[0]]) / 5)
-        if washers:
-            self.add(f"{name} washer", washer, at, along)
-            self.add(f"{name} nut washer", PlainWasher(size.split("-")[0], "iso7089"), at - grip * unit, -unit)
-        self.add(f"{name} screw", screw(size, length=float(length)), at + thickness * unit, along)
+    def bolt(
+        self,
+        name: str,
+        size: str,
+        at: Vec,
+        along: Vec,
+        grip: float,
+        *,
+        screw: Callable[..., Solid] = HexHeadScrew,
+        nut: Callable[..., Solid] = HexNut,
+        length: float | None = None,
+    ) -> None:
+        """Add a screw with its nut, and a washer under each, in millimetres.
+
+        The head points along an axis. `at` is where the upper washer stands, and `grip` the length between the
+        washers; the screw reaches through its nut if no `length` is given.
+        """
+        unit, diameter = np.array(along, float), float(size[1:].split("-")[0])
+        washer, under = (PlainWasher(f"M{diameter:g}", "iso7089") for _ in range(2))
+        thickness = washer.bounding_box().size.Z
+        through = 5 * float(np.ceil((grip + 2 * thickness + 1.3 * diameter) / 5))
+        self.add(f"{name} washer", washer, at, along)
+        self.add(f"{name} nut washer", under, at - grip * unit, -unit)
+        self.add(f"{name} screw", screw(size, length=length or through), at + thickness * unit, along)
         self.add(f"{name} nut", nut(size), at - (grip + thickness) * unit, -unit)
 
     def write(self, folder: Path) -> None:
@@ -96,7 +107,7 @@ def bar(length: float, width: float, thickness: float, *holes: tuple[float, floa
 
 def ring(outer: float, inner: float, length: float) -> Solid:
     """Draw a sleeve along z from the origin, by its radii."""
-    return extrude(Circle(outer) - Circle(inner), amount=length)
+    return holed(rod(outer, length), [(0, 0, inner)], length)
 
 
 def rod(radius: float, length: float) -> Solid:

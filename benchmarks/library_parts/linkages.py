@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
-from bd_warehouse.fastener import HexHeadScrew, HexNut, HexNutWithFlange, PlainWasher, ShoulderScrew
-from build123d import Box, Cylinder, Pos, Rot
-from kit import Drawing, Solid, Y, Z, bar, holed, meet, rod, towards
+from bd_warehouse.fastener import (
+    CounterSunkScrew,
+    DomedCapNut,
+    HexHeadScrew,
+    HexNut,
+    HexNutWithFlange,
+    PlainWasher,
+    ShoulderScrew,
+)
+from build123d import Align, Box, Cone, Cylinder, Pos, Rot
+from kit import DOWN, Drawing, Solid, Y, Z, bar, holed, meet, rod, towards
 
 
 def shoulder_fourbar() -> Drawing:
@@ -20,16 +28,16 @@ def shoulder_fourbar() -> Drawing:
         base = base + Pos(x, y, -6) * Cylinder(12, 12)
     base = holed(base, [(*crank, 3), (*ground, 3)], 24, -24)
     d.add("base", holed(base, [(x, y, 3.3) for x in (-25, 145) for y in (-30, 30)], 12, -24))
-    d.add("crank", bar(a, 20, 8, (0, 4.05), (a, 3)), (*crank, 1.6), Z, (*p, 0))
-    d.add("coupler", bar(b, 20, 8, (0, 4.05), (b, 4.2)), (*p, 11.2), Z, towards((*p, 0), (*q, 0))[1])
-    d.add("rocker", bar(c, 20, 8, (0, 4.05), (c, 4.2)), (*ground, 1.6), Z, towards((*ground, 0), (*q, 0))[1])
-    for name, (x, y), z in (("crank pivot", crank, 0.0), ("rocker pivot", ground, 0.0), ("crank pin", p, 9.6)):
+    d.add("crank", bar(a, 20, 8, (0, 4.05), (a, 3)), (*crank, 1.8), Z, (*p, 0))
+    d.add("coupler", bar(b, 20, 8, (0, 4.05), (b, 4.2)), (*p, 11.6), Z, towards((*p, 0), (*q, 0))[1])
+    d.add("rocker", bar(c, 20, 8, (0, 4.05), (c, 4.2)), (*ground, 1.8), Z, towards((*ground, 0), (*q, 0))[1])
+    for name, (x, y), z in (("crank pivot", crank, 0.0), ("rocker pivot", ground, 0.0), ("crank pin", p, 9.8)):
         d.add(name, ShoulderScrew("M6-1", length=12), (x, y, z + 12))
         d.add(f"{name} lower washer", PlainWasher("M8", "iso7089"), (x, y, z))
-        d.add(f"{name} upper washer", PlainWasher("M8", "iso7089"), (x, y, z + 9.6))
-    d.add("crank pin lock nut", HexNut("M6-1", fastener_type="iso4035"), (*p, 1.6), (0, 0, -1))
-    d.add("coupler washer", PlainWasher("M8", "iso7089"), (*q, 9.6))
-    d.bolt("coupler pivot", "M8-1.25", (*q, 19.2), Z, 17.6)
+        d.add(f"{name} upper washer", PlainWasher("M8", "iso7089"), (x, y, z + 9.8))
+    d.add("crank pin lock nut", HexNut("M6-1", fastener_type="iso4035"), (*p, 1.8), (0, 0, -1))
+    d.add("coupler washer", PlainWasher("M8", "iso7089"), (*q, 9.8))
+    d.bolt("coupler pivot", "M8-1.25", (*q, 19.6), Z, 17.8)
     d.label("Revolute", "base", "crank", (*crank, 0))
     d.label("Revolute", "crank", "coupler", (*p, 0))
     d.label("Revolute", "coupler", "rocker", (*q, 0))
@@ -70,7 +78,7 @@ def toggle_clamp() -> Drawing:
     d.add("spindle", HexHeadScrew("M6-1", length=50, fastener_type="iso4017"), (100, -8, 0), (0, -1, 0))
     for name, y, along in (("upper", 28.0, Y), ("lower", 12.0, (0, -1, 0))):
         d.add(f"{name} spindle washer", PlainWasher("M6", "iso7093"), (100, y, 0), along)
-        d.add(f"{name} spindle nut", HexNutWithFlange("M6-1"), (100, y + 1.6 * along[1], 0), along)
+        d.add(f"{name} spindle nut", HexNutWithFlange("M6-1"), (100, y + 1.8 * along[1], 0), along)
     d.weld("arm front", "spindle")
     d.label("Revolute", "base", "handle front", (*o, 0))
     d.label("Revolute", "base", "arm front", (*s, 0))
@@ -82,3 +90,44 @@ def toggle_clamp() -> Drawing:
 def _turned(solid: Solid, start: tuple[float, float], end: tuple[float, float]) -> Solid:
     """Turn a solid about z from the x axis to a direction."""
     return Rot(0, 0, float(np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0])))) * solid
+
+
+def table_leg() -> Drawing:
+    """Draw a folding table leg: a tube in a channel, kept open by a brace of two flat bars that folds at an elbow."""
+    d = Drawing("table_leg", ["panel"], 1)
+    knee, foot = (0.0, -120.0), (140.0, -20.0)  # where the brace is held: on the leg and on the panel, in x and z
+    elbow = meet(knee, foot, 90.0, 85.0)
+    d.add("panel", Pos(60, 0, 9) * Box(300, 160, 18))
+    channel = Pos(0, 0, -20) * (Box(40, 32, 40) - Pos(0, 0, -1.5) * Box(40, 26, 37))
+    channel -= Pos(0, 0, -22) * Cylinder(4.1, 40, rotation=(90, 0, 0))
+    bracket = Pos(0, 1.5, -17.5) * Box(24, 3, 35) + Pos(0, 18, -1.5) * Box(24, 30, 3)
+    bracket -= Pos(0, 0, foot[1]) * Cylinder(3.3, 10, rotation=(90, 0, 0))
+    sink = Pos(0, 0, -3) * Cone(5.0, 2.75, 2.9, align=(Align.CENTER, Align.CENTER, Align.MIN))
+    holders = {
+        "channel": (channel, 0.0, 0.0, [(-14, 0), (14, 0)]),
+        "bracket": (bracket, foot[0], 23.9, [(0, 14), (0, 26)]),
+    }
+    for name, (holder, x, y, screws) in holders.items():
+        for k, (i, j) in enumerate(screws):
+            holder = holed(holder, [(i, j, 2.75)], 3, -3) - Pos(i, j, 0) * sink
+            d.add(f"{name} screw {k + 1}", CounterSunkScrew("M5-0.8", length=16), (x + i, y + j, -3), DOWN)
+        d.add(name, holder, (x, y, 0))
+        d.weld("panel", name)
+    leg = Pos(0, 0, -135) * (Box(25, 25, 250) - Box(21, 21, 250))
+    for z, radius in ((-22, 4.1), (knee[1], 3.3)):
+        leg -= Pos(0, 0, z) * Cylinder(radius, 40, rotation=(90, 0, 0))
+    d.add("leg", leg)
+    d.bolt("leg pivot", "M8-1.25", (0, 16, -22), Y, 32, nut=DomedCapNut, length=45)
+    bars = {"lower brace": (knee, elbow, 17.3), "upper brace": (elbow, foot, 22.1)}
+    for name, (start, end, y) in bars.items():
+        length, out = towards((start[0], 0, start[1]), (end[0], 0, end[1]))
+        d.add(name, bar(length, 20, 3, (0, 3.3), (length, 3.3)), (start[0], y, start[1]), (0, -1, 0), out)
+    pivots = {"knee": (knee, 12.5, 17.3, 29.8), "elbow": (elbow, 17.3, 22.1, 7.8), "foot": (foot, 22.1, 26.9, 7.8)}
+    for name, ((x, z), gap, top, grip) in pivots.items():
+        d.add(f"{name} spacing washer", PlainWasher("M6", "iso7089"), (x, gap, z), Y)
+        d.bolt(name, "M6-1", (x, top, z), Y, grip)
+    d.label("Revolute", "panel", "leg", (0, 0, -22), Y)
+    d.label("Revolute", "leg", "lower brace", (knee[0], 0, knee[1]), Y)
+    d.label("Revolute", "lower brace", "upper brace", (elbow[0], 0, elbow[1]), Y)
+    d.label("Revolute", "panel", "upper brace", (foot[0], 0, foot[1]), Y)
+    return d

@@ -36,28 +36,29 @@ def quick_return() -> Drawing:
     base = holed(base, [(0, 0, 3)], 39.5, -30)
     base = holed(base, [(*crank, 11)] + [(*each, 2.1) for each in screws], 30, -30)
     base = holed(holed(base, [(*crank, 13)], 8, -8), [(*crank, 13)], 8, -30)
+    base -= Pos(*crank, -1) * (Cylinder(34, 2) - Cylinder(16, 2))  # the crank pin's thread passes here
     d.add("base", base)
     for name, z in (("upper bearing", -8), ("lower bearing", -30)):
         d.add(name, SingleRowDeepGrooveBallBearing("M10-26-8"), (*crank, z))
     circlip = ExternalSnapRing("10")
     disc = Pos(0, 0, -34) * rod(5, 36) + rod(7, 2) + Pos(0, 0, 2) * rod(40, 8)
     disc -= Pos(0, 0, -31.05) * RetainingRingGroove(circlip)
-    d.add("crank", holed(disc, [(pin[0] - crank[0], pin[1] - crank[1], 2.5)], 8, 2), (*crank, 0))
+    d.add("crank", holed(disc, [(pin[0] - crank[0], pin[1] - crank[1], 3)], 8, 2), (*crank, 0))
     d.add("crank circlip", circlip, (*crank, -31))
-    d.add("crank pin", ShoulderScrew("M5-0.8", length=10), (*pin, 20))
-    for name, z in (("lower", 10), ("upper", 17.6)):
-        d.add(f"{name} roller washer", PlainWasher("M6", "iso7089"), (*pin, z))
-    d.add("roller", SingleRowCappedDeepGrooveBallBearing("M6-19-6"), (*pin, 11.6))
-    slot = Pos(reach - 42, 0, 0) * bar(84, 19.1, 8)
-    lever = holed(bar(190, 24, 8) + Pos(reach - 47, 0, 0) * bar(94, 34, 8), [(0, 0, 4.05), (190, 0, 3)], 8) - slot
-    d.add("lever", lever, (0, 0, 11.1), Z, up)
-    d.add("link", bar(80, 20, 8, (0, 4.05), (80, 4.05)), (*top, 20.7), Z, towards((*top, 0), (*ram, 0))[1])
-    body = Pos(0, 0, 4) * Box(160, 40, 8) + Pos(0, 0, 9.55) * Box(160, 24, 19.1)
-    d.add("ram", holed(body, [(0, 0, 3)], 19.1), (*ram, 0))
-    for name, (x, y), z in (("lever pivot", (0, 0), 9.5), ("lever pin", top, 19.1), ("ram pin", ram, 19.1)):
+    d.add("crank pin", ShoulderScrew("M6-1", length=12), (*pin, 22))
+    for name, z in (("lower", 10), ("upper", 18.8)):
+        d.add(f"{name} roller washer", PlainWasher("M8", "iso7089"), (*pin, z))
+    d.add("roller", SingleRowCappedDeepGrooveBallBearing("M8-22-7"), (*pin, 11.8))
+    slot = Pos(reach - 42, 0, 0) * bar(84, 22.1, 8)
+    lever = holed(bar(190, 24, 8) + Pos(reach - 47, 0, 0) * bar(94, 40, 8), [(0, 0, 4.05), (190, 0, 3)], 8) - slot
+    d.add("lever", lever, (0, 0, 11.3), Z, up)
+    d.add("link", bar(80, 20, 8, (0, 4.05), (80, 4.05)), (*top, 21.1), Z, towards((*top, 0), (*ram, 0))[1])
+    body = Pos(0, 0, 4) * Box(160, 40, 8) + Pos(0, 0, 9.65) * Box(160, 24, 19.3)
+    d.add("ram", holed(body, [(0, 0, 3)], 19.3), (*ram, 0))
+    for name, (x, y), z in (("lever pivot", (0, 0), 9.5), ("lever pin", top, 19.3), ("ram pin", ram, 19.3)):
         d.add(name, ShoulderScrew("M6-1", length=12), (x, y, z + 12))
         d.add(f"{name} lower washer", PlainWasher("M8", "iso7089"), (x, y, z))
-        d.add(f"{name} upper washer", PlainWasher("M8", "iso7089"), (x, y, z + 9.6))
+        d.add(f"{name} upper washer", PlainWasher("M8", "iso7089"), (x, y, z + 9.8))
     for name, y, inwards in (("near", 212.5, 1), ("far", 267.5, -1)):
         holes = [(x, 0, 2.75) for x in (-80, 0, 80)]
         d.add(f"{name} gib", holed(Pos(0, 0, 4.1) * Box(240, 14.8, 8.2), holes, 8.2), (0, y, 0))
@@ -78,8 +79,8 @@ def quick_return() -> Drawing:
 def gripper() -> Drawing:
     """Draw a gripper: a stepper turns two gears with an arm on each, and links keep the fingers parallel."""
     d = Drawing("gripper", ["bottom plate"], 1)
-    posts, axles = [(-44, -19), (44, -19), (0, 20)], [(15, 0), (-38, -6), (38, -6)]
-    plate = Pos(0, 0, 3) * Box(104, 50, 6)
+    posts, axles = [(-44, -22), (44, -22), (0, 28)], [(15, 0), (-42, -6), (42, -6)]
+    plate = Pos(0, 0, 3) * Box(104, 66, 6)
     bolts = [(x, y, 2.7) for x, y in posts + axles]
     bottom = holed(plate, [*bolts, (-15, 0, 11.1)], 6)
     motor_screws = [(-15 + 15.5 * i, 15.5 * j) for i in (-1, 1) for j in (-1, 1)]
@@ -95,28 +96,29 @@ def gripper() -> Drawing:
     for side, name in ((-1, "driven"), (1, "idle")):
         gear = Pos(0, 0, 4) * SpurGear(1.5, 20, 20, 8) + Pos(0, 0, 8) * rod(6, 6)
         swing = (0.5 * side, 0.75**0.5, 0)
-        drilled = [(r * side * 0.5, r * 0.75**0.5, 1.25) for r in (9.0, 12.5)]
+        turn = np.array([swing[:2], (-swing[1], swing[0])])
+        drilled = [(*(np.array([8.6, y]) @ turn), 1.25) for y in (-4.0, 4.0)]
         gear = holed(Rot(0, 0, 9 * (side > 0)) * gear, drilled, 8)
         gear = holed(gear, [(0, 0, 2.5 if side < 0 else 2.55)], 14)
         if side < 0:
             gear -= Pos(3, 0, 11) * Cylinder(1.25, 8, rotation=(0, 90, 0))
             d.add("gear set screw", SetScrew("M3-0.5", length=4), (-15 + 6.2, 0, 19), X)
         d.add(f"{name} gear", gear, (15 * side, 0, 8))
-        arm = bar(50, 12, 4, (0, 6.1), (9.0, 1.7), (12.5, 1.7), (50, 2.6))
+        arm = holed(bar(50, 16, 4, (0, 6.1), (50, 2.6)), [(8.6, y, 1.7) for y in (-4, 4)], 4)
         d.add(f"{name} arm", arm, (15 * side, 0, 16), Z, swing)
         for k, (x, y, _) in enumerate(drilled):
             at = (15 * side + x, y, 20)
             d.add(f"{name} arm screw {k + 1}", ButtonHeadScrew("M3-0.5", length=8), at)
-        pivots = (np.array([15.0 * side, 0]), np.array([38.0 * side, -6]))
+        pivots = (np.array([15.0 * side, 0]), np.array([42.0 * side, -6]))
         d.add(f"{name} link", bar(50, 10, 4, (0, 2.6), (50, 2.6)), (*pivots[1], 16), Z, swing)
         ends = [each + 50 * np.array(swing[:2]) for each in pivots]
         span, out = towards((*ends[0], 0), (*ends[1], 0))
-        finger = bar(span, 12, 4, (0, 2.6), (span, 2.6))
+        finger = bar(span, 20, 4, (0, 2.6), (span, 2.6))
         d.add(f"{name} finger", finger, (*ends[0], 21), Z, out)
         middle = (ends[0] + ends[1]) / 2
-        jaw = holed(Pos(0, 29, 2) * Box(10, 70, 4), [(0, 0, 1.7), (0, 4, 1.7)], 4)
+        jaw = holed(Pos(0, 29, 2) * Box(10, 70, 4), [(0, -4, 1.7), (0, 4, 1.7)], 4)
         d.add(f"{name} jaw", jaw, (*middle, 25))
-        for k, y in enumerate((0, 4)):
+        for k, y in enumerate((-4, 4)):
             d.add(f"{name} jaw screw {k + 1}", ButtonHeadScrew("M3-0.5", length=8), (middle[0], middle[1] + y, 29))
         for what, end in (("arm", ends[0]), ("link", ends[1])):
             d.add(f"{name} {what} shim", ShimWasher("10x5x1"), (*end, 20))
@@ -147,7 +149,7 @@ def castor() -> Drawing:
     d.add("swivel collar", ring(7.5, 5.05, 2), (0, 0, 9))
     d.add("king pin", HexHeadScrew("M10-1.5", length=40), (0, 0, 11))
     d.add("king pin washer", PlainWasher("M10", "iso7089"), (0, 0, -8), DOWN)
-    d.add("king pin nut", HexNut("M10-1.5"), (0, 0, -10), DOWN)
+    d.add("king pin nut", HexNut("M10-1.5"), (0, 0, -10.2), DOWN)
     axle = np.array([-30.0, 0.0, -70.0])
     fork = Pos(0, 0, -5) * Box(44, 50, 6)
     length, down = towards((0, 0, -8), axle)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bd_warehouse.bearing import SingleRowCappedDeepGrooveBallBearing
-from bd_warehouse.fastener import HexNut, SocketHeadCapScrew
+from bd_warehouse.fastener import HexNut, LowProfileScrew, SetScrew, SocketHeadCapScrew
 from bd_warehouse.open_builds import (
     AcmeAntiBacklashNutBlock8mm,
     AluminumSpacer,
@@ -12,6 +12,9 @@ from bd_warehouse.open_builds import (
     MetricLeadScrew,
     ShimWasher,
     StepperMotor,
+    TNut,
+    VSlotLinearRail,
+    XtremeSolidVWheelAssembly,
 )
 from bd_warehouse.retaining_ring import InternalSnapRing, RetainingRingGroove
 from build123d import Box, Cylinder, Plane, Pos
@@ -25,7 +28,7 @@ RODS, HEIGHT = (-35.0, 35.0), 40.0
 def screw_stage() -> Drawing:
     """Draw a carriage with bushings on two rods, moved by a lead screw through a nut block, coupled to a stepper."""
     d = Drawing("screw_stage", ["base"], 1)
-    feet = [(x, y) for x in (5, 215) for y in (-30, 30)]
+    feet = [(x, y) for x in (5, 215) for y in (-45, 45)]
     base = holed(Pos(110, 0, -5) * Box(240, 120, 10), [(x, y, 2.75) for x, y in feet], 10, -10)
     d.add("base", holed(base, [(x, y, 4.75) for x, y in feet], 5.5, -10))
     for k, (x, y) in enumerate(feet):
@@ -46,7 +49,7 @@ def screw_stage() -> Drawing:
         d.weld("base", f"rod {k + 1}")
     add_carriage(d)
     add_motor(d)
-    d.add("lead screw", MetricLeadScrew(236), (-19, 0, HEIGHT), X)
+    d.add("lead screw", MetricLeadScrew(234), (-17, 0, HEIGHT), X)
     d.weld("lead screw", "coupler")
     d.label("Prismatic", "base", "carriage", (0, 0, HEIGHT), X)
     d.label("Revolute", "base", "lead screw", (0, 0, HEIGHT), X)
@@ -71,7 +74,7 @@ def add_carriage(d: Drawing) -> None:
     d.add("nut block", AcmeAntiBacklashNutBlock8mm(), (100, 0, HEIGHT), Z, Y)
     for k, (x, y, _) in enumerate(screws):
         d.add(f"nut block screw {k + 1}", SocketHeadCapScrew("M5-0.8", length=20), (x, y, HEIGHT + 15))
-        d.add(f"nut block nut {k + 1}", HexNut("M5-0.8"), (x, y, HEIGHT - 1), DOWN, Y)
+        d.add(f"nut block nut {k + 1}", HexNut("M5-0.8"), (x, y, HEIGHT - 1), DOWN, X)
     d.weld("carriage", "nut block", *names)
 
 
@@ -88,3 +91,34 @@ def add_motor(d: Drawing) -> None:
         d.add(f"standoff screw {k + 1}", SocketHeadCapScrew("M5-0.8", length=55), (-45, 28 * i, HEIGHT + 28 * j), BACK)
     d.add("coupler", FlexibleCoupler("8mm"), (-30, 0, HEIGHT), X)
     d.weld("base", "motor plate")
+
+
+def v_slot_gantry() -> Drawing:
+    """Draw a plate on four wheels, two of them on eccentric spacers, along a rail with a motor and its pulley."""
+    d = Drawing("v_slot_gantry", ["rail"], 2)
+    d.add("rail", Pos(0, 0, -150) * VSlotLinearRail("20x40", 300), (0, 0, 0), X, Z)
+    reach, turn = 30.32, 0.79  # from the axis of the rail to that of a wheel, and of a spacer from its bore
+    plate = Pos(0, 0, 15.5) * Box(100, 100, 6)
+    for k, (i, j) in enumerate(CORNERS):
+        d.add(f"wheel {k + 1}", XtremeSolidVWheelAssembly(j < 0), (30 * i, reach * j, 0), Z, X)
+        plate = holed(plate, [(30 * i, reach * j - turn * (j < 0), 3.57 if j < 0 else 2.55)], 6, 12.5)
+        plate = holed(plate, [(30 * i, reach * j, 4.9)], 1.55, 16.95)
+    d.add("gantry plate", plate)
+    screws = [(x, y) for x in (-140, -120) for y in (-10, 10)]
+    mount = holed(Pos(-160, 0, -13) * Box(100, 50, 6), [(*each, 2.75) for each in screws] + [(-180, 0, 11.1)], 6, -16)
+    corners = [(-180 + 15.5 * i, 15.5 * j) for i, j in CORNERS]
+    d.add("motor plate", holed(mount, [(*each, 1.7) for each in corners], 6, -16))
+    for k, (x, y) in enumerate(screws):
+        d.add(f"plate screw {k + 1}", LowProfileScrew("M5-0.8", length=10), (x, y, -16), DOWN)
+        d.add(f"plate nut {k + 1}", TNut(), (x, y, -10), DOWN, X)
+    d.add("motor", StepperMotor("Nema17"), (-180, 0, -16))
+    for k, each in enumerate(corners):
+        d.add(f"motor screw {k + 1}", SocketHeadCapScrew("M3-0.5", length=10), (*each, -10))
+    pulley = holed(rod(8, 16) - Pos(0, 0, 5) * (rod(8, 10) - rod(6, 10)), [(0, 0, 2.5)], 16)
+    pulley -= Pos(4, 0, 2.5) * Cylinder(1.25, 10, rotation=(0, 90, 0))
+    d.add("pulley", pulley, (-180, 0, -8))
+    d.add("pulley set screw", SetScrew("M3-0.5", length=4), (-180 + 6.3, 0, -5.5), X)
+    d.weld("rail", "motor plate", "motor")
+    d.label("Prismatic", "rail", "gantry plate", (0, 0, 0), X)
+    d.label("Revolute", "rail", "pulley", (-180, 0, 0))
+    return d
