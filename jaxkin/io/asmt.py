@@ -186,7 +186,7 @@ class _Reader:
         moments = numbers(found.said("MomentOfInertias"), 3, f"{where}: MomentOfInertias")
         if mass == UNKNOWN_MASS and np.all(moments == UNKNOWN_MASS):
             return None
-        return inertial(mass, self._pose(found), (*moments, 0.0, 0.0, 0.0), where)
+        return inertial(mass, self._pose(found), (*moments, 0.0, 0.0, 0.0), where, self.made.notes)
 
     def _markers(self, node: Node, link: str, pose: Pose, path: str) -> None:
         for point in node.every("RefPoints"):

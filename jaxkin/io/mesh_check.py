@@ -35,7 +35,7 @@ def check(path: Path) -> str | None:
         head = file.read(20_000)
     if size > MAX_MESH_BYTES and kind != "stl":
         raise ValueError(f"{path.name} is {size / 1e6:.0f} MB, more than {MAX_MESH_BYTES / 1e6:.0f}: export it coarser")
-    return {"stl": _stl, "obj": _obj, "ply": _ply, "3mf": _3mf, "glb": _glb}[kind](path, head, size)
+    return {"stl": _stl, "obj": _obj, "ply": _ply, "3mf": _3mf, "glb": _glb, "dae": _dae}[kind](path, head, size)
 
 
 def is_binary_stl(path: Path) -> bool:
@@ -137,3 +137,9 @@ def _glb(path: Path, head: bytes, size: int) -> str:
             "copy or export it again"
         )
     return "m"  # of the format
+
+
+def _dae(path: Path, head: bytes, size: int) -> str:
+    if b"<COLLADA" not in head or b"<!DOCTYPE" in head:
+        raise ValueError(f"{path.name} is no COLLADA file: expected <COLLADA> as its first element, and no DOCTYPE")
+    return "m"  # corners are read in metres, whatever unit the file has

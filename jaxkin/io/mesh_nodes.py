@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import tempfile
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +15,7 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.geometry.pose import apply
-from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES, check, is_binary_stl, too_many
+from jaxkin.io.mesh_check import MAX_MESH_NODES, MAX_TRIANGLES, check, is_binary_stl
 from jaxkin.io.sandbox import run_apart
 from jaxkin.io.time_limit import TimeLimit
 
@@ -48,12 +49,33 @@ def read_nodes(path: Path, limit: TimeLimit) -> tuple[list[Node], str]:
     Raises ValueError where it is no mesh that can be read, or not within the limit.
     """
     unit = check(path)
-    nodes = _binary_stl(path) if is_binary_stl(path) else _by_trimesh(path, limit)
-    if not nodes:
-        raise ValueError(f"{path.name} holds no triangles: export the parts as solids")
-    if (count := sum(len(node.corners) for node in nodes)) > MAX_TRIANGLES:
-        raise too_many(path.name, count)
-    return nodes, unit or ""
+    found = _binary_stl(path) if is_binary_stl(path) else _by_trimesh([path], limit)[path]
+    if isinstance(found, ValueError):
+        raise found
+    return found, unit or ""
+
+
+def read_several(paths: Iterable[Path], seconds: float | None = None) -> dict[Path, list[Node] | ValueError]:
+    """Read the nodes of mesh files, or why there are none; `seconds` is the time allowed for each.
+
+    The program that reads takes most of a second to start: one reads all of them. Where a file ends it, the next begins
+    with that file, to which all of its time belongs.
+    """
+    found: dict[Path, list[Node] | ValueError] = {}
+    rest = []
+    for path in paths:
+        try:
+            check(path)
+            if is_binary_stl(path):
+                found[path] = _binary_stl(path)
+            else:
+                rest.append(path)
+        except ValueError as error:
+            found[path] = error
+    while rest:
+        found |= (read := _by_trimesh(rest, TimeLimit.start(rest[0], seconds)))
+        rest = rest[len(read) :]
+    return found
 
 
 def _binary_stl(path: Path) -> list[Node]:
@@ -65,29 +87,53 @@ def _binary_stl(path: Path) -> list[Node]:
     return [_node(path.stem, None, np.fromfile(path, record, offset=84)["corners"], np.eye(4), path.name)]
 
 
-def _by_trimesh(path: Path, limit: TimeLimit) -> list[Node]:
-    kind = path.suffix.lower().removeprefix(".")
+def _by_trimesh(paths: list[Path], limit: TimeLimit) -> dict[Path, list[Node] | ValueError]:
+    """Read as many of the files, in their order, as one program does before one of them ends it; at least the first."""
     with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder) / "nodes.npz"
-        status, said = run_apart(
-            "mesh_worker.py",
-            kind,
-            MAX_TRIANGLES,
-            MAX_MESH_NODES,
-            target,
-            path.resolve(),
-            folder=folder,
-            limit=limit,
-            memory=MESH_MEMORY,
-        )
-        if status:
-            why = (said.strip().splitlines() or ["the reader crashed on it"])[-1]
-            raise ValueError(f"{path.name} cannot be read as {kind.upper()}: {why}; export it again")
-        with np.load(target) as data:
-            return [
+        files = [path.resolve() for path in paths]
+        try:
+            _, said = run_apart(
+                "mesh_worker.py",
+                MAX_TRIANGLES,
+                MAX_MESH_NODES,
+                folder,
+                *files,
+                folder=folder,
+                limit=limit,
+                memory=MESH_MEMORY,
+            )
+            ended = _unreadable(paths[0], (said.strip().splitlines() or ["the reader crashed on it"])[-1])
+        except ValueError as overtime:
+            ended = overtime
+        found = {}
+        for k, path in enumerate(paths):
+            nodes, reason = Path(folder) / f"{k}.npz", Path(folder) / f"{k}.txt"
+            if reason.exists():
+                found[path] = _unreadable(path, reason.read_text())
+            elif nodes.exists():
+                found[path] = _nodes(path, nodes)
+            else:
+                break
+        return found or {paths[0]: ended}
+
+
+def _unreadable(path: Path, why: str) -> ValueError:
+    kind = path.suffix.removeprefix(".").upper()
+    return ValueError(f"{path.name} cannot be read as {kind}: {why}; export it again")
+
+
+def _nodes(path: Path, written: Path) -> list[Node] | ValueError:
+    """Make the nodes of a file of what the reader wrote."""
+    with np.load(written) as data:
+        entries = json.loads(str(data["about"]))
+        try:
+            nodes = [
                 _node(entry["name"], entry["color"], data[f"corners{k}"], data[f"pose{k}"], path.name)
-                for k, entry in enumerate(json.loads(str(data["about"])))
+                for k, entry in enumerate(entries)
             ]
+        except ValueError as error:
+            return error
+    return nodes or ValueError(f"{path.name} holds no triangles: export the parts as solids")
 
 
 @np.errstate(over="ignore", invalid="ignore")  # sizes that are infinite are refused below

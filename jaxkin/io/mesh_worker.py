@@ -1,12 +1,14 @@
-"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TYPE TRIANGLES NODES TARGET FILE`.
+"""Reads mesh files by trimesh, as a program of its own: `python mesh_worker.py TRIANGLES NODES FOLDER FILE...`.
 
 What it reads is not to be trusted: a few bytes may ask for any amount of memory or time. It imports nothing of jaxkin,
-so that it starts at once. TARGET becomes a .npz of the triangles of every node, and their names.
+so that it starts at once. Of the k-th file FOLDER gets k.npz, the triangles of every node and their names, or k.txt,
+the reason why there are none, as one line.
 """
 
 import json
 import sys
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,30 +18,36 @@ class Refused(Exception):
     """What the reader would take, but is too much or makes no sense."""
 
 
-def main(kind: str, most: int, parts: int, target: str, source: str) -> None:
-    """Write the nodes of a file, or the reason why there are none, as one line on standard error."""
-    try:
-        with open(source, "rb") as file:
-            nodes = read(file, kind, most, parts)
-    except MemoryError:
-        sys.exit("it asks for more memory than a mesh of that size needs")
-    except RecursionError:
-        sys.exit("its nodes are nested without end")
-    except Refused as error:
-        sys.exit(str(error))
-    except Exception as error:  # the loaders raise whatever a damaged file makes them stumble over: one line for all
-        sys.exit(f"{type(error).__name__}: {error}".splitlines()[0][:200])
-    arrays = {f"{key}{k}": node[key] for k, node in enumerate(nodes) for key in ("corners", "pose")}
-    about = [{"name": node["name"], "color": node["color"]} for node in nodes]
-    np.savez(target, **arrays, about=np.array(json.dumps(about)))
+def main(most: int, parts: int, folder: Path, sources: list[Path]) -> None:
+    """Write the nodes of each file, or the reason why there are none."""
+    kinds = [source.suffix.lower().removeprefix(".") for source in sources]
+    # what trimesh could use and reading does without takes twice as long to import as all the rest
+    for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if "3mf" not in kinds else ())):
+        sys.modules[module] = None  # pyright: ignore[reportArgumentType]
+    for k, (source, kind) in enumerate(zip(sources, kinds, strict=True)):
+        try:
+            with source.open("rb") as file:
+                nodes = read(file, kind, most, parts)
+            arrays = {f"{key}{n}": node[key] for n, node in enumerate(nodes) for key in ("corners", "pose")}
+            about = [{"name": node["name"], "color": node["color"]} for node in nodes]
+            np.savez(folder / "unfinished.npz", **arrays, about=np.array(json.dumps(about)))
+            (folder / "unfinished.npz").replace(folder / f"{k}.npz")
+        except Exception as error:  # the loaders raise whatever a damaged file makes them stumble over
+            (folder / f"{k}.txt").write_text(reason(error))
+
+
+def reason(error: Exception) -> str:
+    """Say in one line why a file is not read."""
+    if isinstance(error, MemoryError):
+        return "it asks for more memory than a mesh of that size needs"
+    if isinstance(error, RecursionError):
+        return "its nodes are nested without end"
+    return str(error) if isinstance(error, Refused) else f"{type(error).__name__}: {error}".splitlines()[0][:200]
 
 
 def read(file, kind: str, most: int, parts: int) -> list[dict]:
     """Read nodes with triangles, each with its name, its colour, its corners in its own frame, and its pose in the
     world."""
-    # what trimesh could use and reading does without takes twice as long to import as all the rest
-    for module in ("scipy", "matplotlib", "PIL", *(("networkx",) if kind != "3mf" else ())):
-        sys.modules[module] = None  # pyright: ignore[reportArgumentType]
     from trimesh import Trimesh, graph, load_scene
 
     if kind == "3mf":  # trimesh gives up the search without a word when there are many instances
@@ -66,8 +74,17 @@ def read(file, kind: str, most: int, parts: int) -> list[dict]:
                 raise Refused(f"its corners have {mesh.vertices.shape[1]} coordinates")
             if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices):
                 raise Refused("its triangles name corners that are not there")
-            nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": pose})
+            placed = metres(mesh) @ pose
+            nodes.append({"name": str(name), "color": color(mesh), "corners": mesh.triangles, "pose": placed})
     return nodes
+
+
+def metres(mesh) -> np.ndarray:
+    """Make the (4, 4) scaling to metres of a mesh of COLLADA, the only format whose unit trimesh leaves in its corners,
+    as "meters" or "0.01 * meters"; the identity for others."""
+    said = mesh.metadata.get("units", "")
+    factor = float(said.split()[0]) if said.endswith("* meters") else 1.0
+    return np.diag([factor, factor, factor, 1.0])
 
 
 def instances(G, source, parts: int) -> list[list]:
@@ -94,5 +111,5 @@ def color(mesh) -> list[float] | None:
 
 
 if __name__ == "__main__":
-    kind, most, parts, target, source = sys.argv[1:]
-    main(kind, int(most), int(parts), target, source)
+    most, parts, folder, *sources = sys.argv[1:]
+    main(int(most), int(parts), Path(folder), [Path(source) for source in sources])

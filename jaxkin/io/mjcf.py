@@ -112,7 +112,8 @@ class _Reader:
         names = [name for name in found.poses if name != WORLD or WORLD in needed]
         fixed = [*([WORLD] if WORLD in needed else []), *found.floating]
         links = tuple(
-            RobotLink(name, found.poses[name], tuple(found.shapes[name]), found.inertials.get(name)) for name in names
+            RobotLink(name, found.poses[name], tuple(found.shapes[name]), inertial=found.inertials.get(name))
+            for name in names
         )
         notes = (*found.notes, *ties.notes)
         model = RobotModel(links, joints, tuple(fixed), motors, notes, couplings)
@@ -177,7 +178,9 @@ class _Reader:
             six = numbers(full, 6, where)
         else:
             six = np.concatenate([numbers(found.get("diaginertia"), 3, where), np.zeros(3)])
-        self.found.inertials[body] = inertial(mass, self.compiler.pose(found.attrib, where), six, where)
+        made = inertial(mass, self.compiler.pose(found.attrib, where), six, where, self.found.notes)
+        if made is not None:
+            self.found.inertials[body] = made
 
     def _own_joints(self, element: Element, at: Pose, where: str) -> Iterator[tuple[Element, Pose]]:
         """Yield the joints of a body with the place that they are given in: those in frames are given in these."""

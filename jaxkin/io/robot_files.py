@@ -24,8 +24,8 @@ FCSTD = ".fcstd"
 ROBOT_SUFFIXES = (".urdf", ".mjcf", ".sdf", ".world", ASMT, FCSTD)
 """Suffixes of robot files; those of MuJoCo are ".xml", as other files are too."""
 
-ROBOT_ROOTS = ("robot", "mujoco", "sdf")
-"""First elements of robot files."""
+ROBOT_ROOTS = ("robot", "mujoco", "sdf", "mujocoinclude")
+"""First elements of robot files, and of what a model of MuJoCo includes."""
 
 
 def read_robot(
@@ -48,6 +48,8 @@ def read_robot(
         return assembled(read_mjcf(path, root), path, seconds)
     if root.tag == "sdf":
         return assembled(read_sdf(path, root), path, seconds)
+    if root.tag == "mujocoinclude":
+        raise ValueError(f"{path.name}: it is a part of a model (<mujocoinclude>): load the file that includes it")
     raise ValueError(f"{path.name}: expected URDF (<robot>), MJCF (<mujoco>) or SDF (<sdf>), got <{root.tag}>")
 
 

@@ -49,6 +49,9 @@ class RobotLink:
     pose: Pose
     """From the link to the world, metres."""
     shapes: tuple[Shape, ...] = ()
+    """What is seen of it."""
+    collisions: tuple[Shape, ...] = ()
+    """What it collides with: drawn where nothing that is seen of it can be read."""
     inertial: Inertial | None = None
     """In the frame of the link, metres; None where the file says nothing of its mass."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,11 +14,9 @@ from jaxkin.assembly.close_export import closed_export
 from jaxkin.assembly.exported import Constraint, Exported
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import apply
-from jaxkin.io.mesh import MESHES
-from jaxkin.io.mesh_nodes import read_nodes
 from jaxkin.io.names import cleaned, unique
+from jaxkin.io.robot_drawn import Drawn, triangles_of
 from jaxkin.io.robot_model import RobotJoint, RobotLink, RobotModel, Shape
-from jaxkin.io.time_limit import TimeLimit
 from jaxkin.joints.combine import Chain
 from jaxkin.joints.on_frames import MOVEMENT_OF
 from jaxkin.topology.components import connected
@@ -28,13 +26,6 @@ MARK = 0.02
 
 LEAST_EXTENT = 1e-3
 """Extent in metres that a robot is given at least: all links of one may begin at the same point."""
-
-FOLDERS_UP = 4
-"""Folders above that of a robot file in which its meshes are looked for: packages of ROS keep urdf/ and meshes/ side by
-side, at most two or three levels below the folder that package:// stands for."""
-
-PREFIXES = ("package://", "model://", "file://")
-"""Beginnings of the names of meshes that stand for folders of other machines."""
 
 
 def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tuple[Part, ...], str, Exported]:
@@ -48,15 +39,15 @@ def assembled(model: RobotModel, path: Path, seconds: float | None) -> tuple[tup
     link_names = _clean_names([link.name for link in model.links])
     joint_names = _clean_names([each.name for each in model.joints])
     model = _held(model, path.name)
-    meshes = _Meshes(path, seconds)
+    drawn = Drawn(path, model.links, seconds)
     mark = MARK * _extent(model)
-    parts = tuple(_part(link, link_names[link.name], meshes.triangles, mark) for link in model.links)
+    parts = tuple(_part(link, link_names[link.name], drawn.solids[link.name], mark) for link in model.links)
     constraints = [_constraint(each, joint_names[each.name], link_names) for each in model.joints]
     exported = Exported(
         fixed=tuple(link_names[name] for name in model.fixed),
         rigid=(),
         constraints=tuple(constraints),
-        notes=(*model.notes, *meshes.notes()),
+        notes=(*model.notes, *drawn.notes),
         motors=tuple(_renamed(name, joint_names) for name in model.motors),
         couplings=tuple(
             replace(each, coordinates=tuple(_renamed(name, joint_names) for name in each.coordinates))
@@ -113,82 +104,10 @@ def _extent(model: RobotModel) -> float:
     return max(LEAST_EXTENT, float(np.ptp(points, axis=0).max()))
 
 
-def _part(link: RobotLink, name: str, triangles_of: Callable[[Shape, str], np.ndarray | None], mark: float) -> Part:
-    """Make a part of a link, in the world; a small box at its origin where none of its solids is there."""
-    found = [triangles for shape in link.shapes if (triangles := triangles_of(shape, link.name)) is not None]
-    notes = () if found or not link.shapes else ("no file of its solid",)
-    corners = np.concatenate(found) if found else _corners(Shape(np.eye(4), "box", (mark,) * 3))
+def _part(link: RobotLink, name: str, solids: list[np.ndarray], mark: float) -> Part:
+    """Make a part of a link and its solids, in the world; a small box at its origin where there are none."""
+    notes = () if solids or not (link.shapes or link.collisions) else ("no file of its solid",)
+    corners = np.concatenate(solids) if solids else triangles_of(Shape(np.eye(4), "box", (mark,) * 3))
     inertial = None if link.inertial is None else link.inertial.moved(link.pose)
-    triangles, is_solid = apply(link.pose, corners), bool(found)
+    triangles, is_solid = apply(link.pose, corners), bool(solids)
     return Part(name, (), triangles, notes=notes, original_name=link.name, inertial=inertial, is_solid=is_solid)
-
-
-def _corners(shape: Shape) -> np.ndarray:
-    """Make the triangles (n, 3, 3) of a solid that needs no file, in the frame of its link, metres."""
-    import trimesh
-
-    make = {
-        "box": lambda: trimesh.creation.box(shape.size),
-        "sphere": lambda: trimesh.creation.icosphere(2).apply_scale(np.broadcast_to(shape.size, 3)),
-        "cylinder": lambda: trimesh.creation.cylinder(*shape.size, sections=32),
-        "capsule": lambda: trimesh.creation.capsule(shape.size[1], shape.size[0], count=(16, 16)),
-    }
-    corners = np.array(make[shape.kind]().triangles, float)
-    if shape.kind == "capsule":  # trimesh centres a capsule at the middle of one of its ends in some versions
-        corners -= (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
-    return apply(shape.pose, corners)
-
-
-class _Meshes:
-    """The mesh files of a robot, each read once."""
-
-    def __init__(self, path: Path, seconds: float | None) -> None:
-        self.path, self.seconds = path, seconds
-        self.folders = [path.resolve().parent, *path.resolve().parent.parents][: FOLDERS_UP + 1]
-        self.read: dict[str, np.ndarray | str] = {}
-        """Triangles in the unit of the file, or why there are none."""
-        self.missing: dict[str, list[str]] = {}
-        """Why there are none -> the links."""
-
-    def triangles(self, shape: Shape, link: str) -> np.ndarray | None:
-        """Make the triangles (n, 3, 3) of a solid in the frame of its link, metres; None where there is no file."""
-        if shape.kind != "mesh":
-            return _corners(shape)
-        if shape.file not in self.read:
-            self.read[shape.file] = self._read(shape.file) if shape.corners is None else shape.corners
-        found = self.read[shape.file]
-        if isinstance(found, str):
-            links = self.missing.setdefault(found, [])
-            links += [link] if link not in links else []
-            return None
-        corners = found * np.array(shape.size or (1.0, 1.0, 1.0))
-        if np.prod(shape.size or (1.0,)) < 0:
-            corners = corners[:, ::-1]
-        return apply(shape.pose, corners)
-
-    def notes(self) -> list[str]:
-        """Name the meshes that are not there, with their links."""
-        return [
-            f"{self.path.name}: {why}; {listed(list(map(repr, links)))} {'is' if len(links) == 1 else 'are'} drawn "
-            "without it"
-            for why, links in self.missing.items()
-        ]
-
-    def _read(self, name: str) -> np.ndarray | str:
-        rest = name
-        for prefix in PREFIXES:
-            rest = rest.removeprefix(prefix)
-        rest = rest.replace("\\", "/").lstrip("/")
-        if Path(rest).suffix.lower() not in MESHES:
-            return f"mesh {name!r} is not read: its format is none of {', '.join(MESHES)}"
-        shorter = rest.partition("/")[2]  # without the name of the package
-        tries = [folder / part for folder in self.folders for part in (rest, shorter) if part]
-        absolute = [Path(f"/{rest}")] if name.startswith(("/", "file:///")) else []
-        file = next((each for each in (*absolute, *tries) if each.is_file()), None)
-        if file is None:
-            return f"mesh {name!r} is not there"
-        try:
-            nodes, _ = read_nodes(file, TimeLimit.start(file, self.seconds))
-        except ValueError as error:
-            return f"mesh {name!r} cannot be read: {error}"
-        return np.concatenate([node.corners for node in nodes])

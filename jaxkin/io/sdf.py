@@ -117,9 +117,10 @@ class _Reader:
         static = static or (model.findtext("static") or "").strip() in ("true", "1")
         for each in model.iterfind("link"):
             name = each.get("name", "")
-            shapes = shapes_of(each, self.file, self.notes)
-            place, weighs = pose @ frames.in_model(name), sdf_inertial(each, f"{self.file}: {tag(each)}: inertial")
-            self.links[prefix + name] = RobotLink(prefix + name, place, shapes, weighs)
+            seen, felt = (shapes_of(each, what, self.file, self.notes) for what in ("visual", "collision"))
+            weighs = sdf_inertial(each, f"{self.file}: {tag(each)}: inertial", self.notes)
+            place = pose @ frames.in_model(name)
+            self.links[prefix + name] = RobotLink(prefix + name, place, seen, felt, weighs)
             self.fixed += [prefix + name] if static else []
         for each in model.iterfind("model"):
             name = each.get("name", "")

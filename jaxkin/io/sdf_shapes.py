@@ -10,10 +10,10 @@ from jaxkin.io.robot_model import Shape, numbers, tag
 from jaxkin.io.sdf_frames import read_pose
 
 
-def shapes_of(link: Element, file: str, notes: list[str]) -> tuple[Shape, ...]:
-    """Read what is seen of a link; where that is nothing, what it collides with. What is no known solid is noted."""
+def shapes_of(link: Element, what: str, file: str, notes: list[str]) -> tuple[Shape, ...]:
+    """Read the solids of the elements `what` of a link: "visual" or "collision". What is no known solid is noted."""
     found = []
-    for each in link.findall("visual") or link.findall("collision"):
+    for each in link.iterfind(what):
         pose = read_pose(each, f"{file}: {tag(link)}")
         where = f"{file}: {tag(link)}: {tag(each)}"
         for solid in each.iterfind("geometry/*"):

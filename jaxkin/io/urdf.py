@@ -87,7 +87,10 @@ class _Reader:
             poses[child] = poses[parent] @ self._origin(each.find("origin"), tag(each))
             joints.append(self._joint(each, (parent, child), poses[child]))
         links = tuple(
-            RobotLink(name, poses[name], self._shapes(each), self._inertial(each)) for name, each in self.links.items()
+            RobotLink(
+                name, poses[name], self._shapes(each, "visual"), self._shapes(each, "collision"), self._inertial(each)
+            )
+            for name, each in self.links.items()
         )
         known = {each.name: each for each in joints}
         for name, _ in self.loops.kinds:
@@ -189,7 +192,8 @@ class _Reader:
             return None
         leader = found.get("joint", "")
         if leader not in joints:
-            raise ValueError(f"{where} names the unknown joint {leader!r}{nearest(leader, joints)}")
+            self.notes.append(f"{where} names the unknown joint {leader!r}{nearest(leader, joints)}; left out")
+            return None
         factor, offset = (
             float(numbers(found.get(key), 1, where, (none,))[0]) for key, none in (("multiplier", 1), ("offset", 0))
         )
@@ -214,12 +218,13 @@ class _Reader:
         mass = numbers(given["mass"].get("value") if "mass" in given else None, 1, f"{where}: mass")
         matrix = given["inertia"].attrib if "inertia" in given else {}
         six = [float(numbers(matrix.get(name), 1, f"{where}: {name}", (0,))[0]) for name in SIX]
-        return inertial(float(mass[0]), self._origin(given.get("origin"), f"{tag(link)}: inertial"), six, where)
+        return inertial(
+            float(mass[0]), self._origin(given.get("origin"), f"{tag(link)}: inertial"), six, where, self.notes
+        )
 
-    def _shapes(self, link: Element) -> tuple[Shape, ...]:
-        """Read what is seen of a link; where that is nothing, what it collides with."""
-        every = link.findall("visual") or link.findall("collision")
-        return tuple(shape for each in every if (shape := self._shape(each, tag(link))) is not None)
+    def _shapes(self, link: Element, what: str) -> tuple[Shape, ...]:
+        """Read the solids of the elements `what` of a link: "visual" or "collision"."""
+        return tuple(shape for each in link.iterfind(what) if (shape := self._shape(each, tag(link))) is not None)
 
     def _shape(self, each: Element, where: str) -> Shape | None:
         pose = self._origin(each.find("origin"), where)

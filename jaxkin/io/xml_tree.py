@@ -59,7 +59,7 @@ def parse_xml(data: bytes, name: str) -> Element:
     parser.CharacterDataHandler = builder.data
     parser.StartDoctypeDeclHandler = refuse
     try:
-        parser.Parse(data, True)
+        parser.Parse(data.lstrip(), True)  # many readers take a blank line before the declaration, which XML does not
     except (expat.ExpatError, LookupError) as error:  # an encoding that there is not is looked up
         raise ValueError(f"{name}: damaged XML: {error}") from None
     return builder.close()

@@ -203,16 +203,34 @@ def test_a_link_without_a_solid_is_not_weighed_by_the_box_that_marks_its_place(t
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ('<mass value="-1"/>', "<link name='b'>: inertial: expected a mass from 0 on, got -1"),
         ('<inertia ixx="1"/>', "<link name='b'>: inertial: mass: expected 1 finite number, got None"),
         ('<mass value="x"/>', "inertial: mass: expected 1 finite number, got 'x'"),
-        ('<mass value="1"/><inertia ixx="-1" iyy="1" izz="1"/>', "expected an inertia without negative eigenvalues"),
     ],
 )
-def test_what_is_no_mass_is_refused(tmp_path, given, message):
-    (tmp_path / "r.urdf").write_text(
+def test_what_is_no_number_is_refused(tmp_path, given, message):
+    with pytest.raises(ValueError, match=message):
+        hinged(tmp_path, given)
+
+
+def hinged(folder, given):
+    """Load a link "b" with the given inertial on a hinge."""
+    (folder / "r.urdf").write_text(
         f'<robot name="r"><link name="a"/><link name="b"><inertial>{given}</inertial></link><joint name="j" '
         'type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
     )
-    with pytest.raises(ValueError, match=message):
-        jk.load(tmp_path / "r.urdf")
+    return jk.load(folder / "r.urdf").mechanism()
+
+
+def test_a_robot_moves_whatever_its_file_says_of_masses(tmp_path):
+    """Robots that others simulate have masses that no body has: what is taken in their place is said."""
+    negative = hinged(tmp_path, '<mass value="-1"/>')
+    assert "<link name='b'>: inertial: expected a mass from 0 on, got -1; it is not taken" in "\n".join(negative.notes)
+    with pytest.raises(ValueError, match="'b'"):
+        jk.masses(negative)
+    turned = hinged(tmp_path, '<mass value="1"/><inertia ixx="1" iyy="1" izz="5" ixy="2"/>')
+    assert "no body has the inertia [1.0, 1.0, 5.0, 2.0, 0.0, 0.0], of which one eigenvalue is -1" in turned.notes[0]
+    found = jk.masses(turned)
+    # of eigenvalues 3 and -1 along (1, 1) and (1, -1) the first is left
+    np.testing.assert_allclose(
+        found.inertia[found.parts.index("b")], [[1.5, 1.5, 0], [1.5, 1.5, 0], [0, 0, 5]], atol=1e-12
+    )
