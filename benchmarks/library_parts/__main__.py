@@ -9,6 +9,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import geared
+import heads
 import linkages
 import machines
 import shafts
@@ -26,6 +28,10 @@ MECHANISMS = (
     shafts.cardan,
     linkages.table_leg,
     stages.v_slot_gantry,
+    geared.planetary,
+    geared.arbor_press,
+    heads.hook_block,
+    heads.pan_tilt,
 )
 
 if __name__ == "__main__":
