@@ -40,12 +40,13 @@ def hook_block() -> Drawing:
         d.add(f"crosshead circlip {name}", ExternalSnapRing("16"), (0, 30.25 * side, -100), along)
         d.add(f"stay {name}", ring(8, 4.1, 44), (32 * side, -22, -50), Y)
         d.bolt(f"stay {name}", "M8-1.25", (32 * side, 30, -50), Y, 60)
+    crosshead -= Pos(0, 0, 10.5) * Cylinder(17.5, 3)  # the cage of the thrust bearing passes its outer ring
     d.add("crosshead", crosshead, (0, 0, -100))
-    d.add("thrust bearing", SingleRowTaperedRollerBearing("M15-42-14.25"), (0, 0, -88 + 14.25), DOWN)
+    d.add("thrust bearing", SingleRowTaperedRollerBearing("M15-42-14.25"), (0, 0, -88))
     hook = Pos(0, 0, -130) * rod(7.5, 66) + Pos(0, 0, -152) * Torus(25, 7.5, rotation=(90, 0, 0))
-    hook -= Pos(0, 0, -88 + 16.45) * RetainingRingGroove(ExternalSnapRing("15"))
+    hook -= Pos(0, 0, -88 + 14.2) * RetainingRingGroove(ExternalSnapRing("15"))
     d.add("hook", hook)
-    d.add("hook circlip", ExternalSnapRing("15"), (0, 0, -88 + 16.5))
+    d.add("hook circlip", ExternalSnapRing("15"), (0, 0, -88 + 14.25))
     d.weld("cheek 2", "cheek 1")
     d.label("Revolute", "cheek 2", "sheave", (0, 0, 0), Y)
     d.label("Revolute", "cheek 2", "crosshead", (0, 0, -100), Y)
@@ -76,7 +77,7 @@ def pan_tilt() -> Drawing:
         cradle = cradle + Pos(31 * side, 0, 92) * Box(8, 40, 32)
         cradle -= Pos(31 * side, 0, 100) * Cylinder(3, 8, rotation=(0, 90, 0))
     d.add("cradle", holed(cradle, [(0, y, 3.2) for y in (-12, 12)], 8, 76))
-    for name, side, inwards in (("left", -1, X), ("right", 1, (-1.0, 0.0, 0.0))):
+    for name, side in (("left", -1), ("right", 1)):
         upright = Pos(0, 0, 37) * Box(10, 50, 74) - Pos(0, 0, 58) * Cylinder(8, 10, rotation=(0, 90, 0))
         upright = holed(upright, [(0, y, 2.1) for y in (-15, 15)], 16)
         out = (float(side), 0.0, 0.0)
