@@ -24,8 +24,8 @@ Solid = Any
 class Drawing:
     """An assembly, the parts that it is fixed by, and its joints.
 
-    Labels name one part of each body; `freedoms` are the motions that the designer meant, without wheels, balls and
-    fasteners that turn idly.
+    Labels name one part of each body; `freedoms` are the motions that the designer meant, without rollers, rings
+    and fasteners that turn idly.
     """
 
     def __init__(self, name: str, fixed: Sequence[str], freedoms: int) -> None:
@@ -132,9 +132,11 @@ def meet(first: Vec, second: Vec, r1: float, r2: float, side: int = 1) -> tuple[
 
 
 def write_all(makers: Iterable[Callable[[], Drawing]], folder: Path, names: Sequence[str]) -> None:
-    """Draw mechanisms, all or those named, and write their files."""
+    """Draw mechanisms, all or those named, and write their files; say what is wrong where a name is not known."""
+    known = {make.__name__: make for make in makers}
+    if unknown := [name for name in names if name not in known]:
+        raise SystemExit(f"no drawing is named {', '.join(unknown)}; there are {', '.join(known)}")
     folder.mkdir(parents=True, exist_ok=True)
-    for make in makers:
-        if not names or make.__name__ in names:
-            make().write(folder)
-            print(make.__name__, flush=True)
+    for name in names or known:
+        known[name]().write(folder)
+        print(name, flush=True)

@@ -54,6 +54,11 @@ def rivet(radius: float, grip: float) -> Solid:
     return Pos(0, 0, -grip / 2) * rod(radius, grip) + Pos(0, 0, end) * head + Pos(0, 0, -end) * head
 
 
+def turned(solid: Solid, start: tuple[float, float], end: tuple[float, float]) -> Solid:
+    """Turn a solid about z from the x axis to a direction."""
+    return Rot(0, 0, float(np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0])))) * solid
+
+
 def toggle_clamp() -> Drawing:
     """Draw a horizontal toggle clamp of doubled sheets on rivets; a spindle is held on its arm between two nuts."""
     d = Drawing("toggle_clamp", ["base"], 1)
@@ -64,9 +69,9 @@ def toggle_clamp() -> Drawing:
         base -= Pos(x, -2, z) * Cylinder(2.75, 4, rotation=(90, 0, 0))
     d.add("base", holed(base, [(*o, 3.05), (*s, 3.05)], 6, -3))
     handle = bar(towards((*o, 0), (*e, 0))[0], 16, 3, (0, 3.05))
-    grip = Pos(*o) * _turned(handle, o, e) + Pos(*e) * _turned(bar(90, 16, 3), e, (e[0] - 60, e[1] + 60))
-    arm = Pos(*s) * _turned(bar(26, 16, 3), s, f) + Pos(*s) * bar(60, 16, 3)
-    link = Pos(*e) * _turned(bar(42, 14, 3), e, f)
+    grip = Pos(*o) * turned(handle, o, e) + Pos(*e) * turned(bar(90, 16, 3), e, (e[0] - 60, e[1] + 60))
+    arm = Pos(*s) * turned(bar(26, 16, 3), s, f) + Pos(*s) * bar(60, 16, 3)
+    link = Pos(*e) * turned(bar(42, 14, 3), e, f)
     sheets = {"handle": (grip, (o, e), 3.1), "arm": (arm, (s, f), 3.1), "link": (link, (e, f), 6.2)}
     for name, (sheet, pivots, z) in sheets.items():
         sheet = holed(sheet, [(*pivot, 3.05) for pivot in pivots], 3)
@@ -85,11 +90,6 @@ def toggle_clamp() -> Drawing:
     d.label("Revolute", "handle front", "link front", (*e, 0))
     d.label("Revolute", "link front", "arm front", (*f, 0))
     return d
-
-
-def _turned(solid: Solid, start: tuple[float, float], end: tuple[float, float]) -> Solid:
-    """Turn a solid about z from the x axis to a direction."""
-    return Rot(0, 0, float(np.degrees(np.arctan2(end[1] - start[1], end[0] - start[0])))) * solid
 
 
 def table_leg() -> Drawing:

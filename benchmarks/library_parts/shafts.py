@@ -86,11 +86,8 @@ def add_piston(d: Drawing, pin: np.ndarray) -> None:
 
 def yoke(reach: float) -> Solid:
     """Draw a yoke whose shaft points along -x, with bores for cups along y and grooves for their circlips."""
-    shape = Pos(-reach, 0, 0) * Rot(0, 90, 0) * rod(5, reach) + Pos(12 - reach, 0, 0) * Rot(0, 90, 0) * rod(
-        6.5, reach - 36
-    )
-    shape -= Box(40, 20, 20)
-    shape = shape + Pos(-24, 0, 0) * Box(8, 40, 18.4)
+    shaft = rod(5, reach - 20) + Pos(0, 0, 12) * rod(6.5, reach - 36)  # a shoulder for the ring of its bearing
+    shape = Pos(-reach, 0, 0) * Rot(0, 90, 0) * shaft + Pos(-24, 0, 0) * Box(8, 40, 18.4)
     for side in (-1, 1):
         arm = Pos(-10, 15 * side, 0) * Box(20, 10, 18.4) + Pos(0, 15 * side, 0) * Cylinder(9.2, 10, rotation=(90, 0, 0))
         arm -= Pos(0, 15 * side, 0) * Cylinder(7, 10, rotation=(90, 0, 0))
