@@ -268,6 +268,9 @@ def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Co
 
 
 def _faces(part: Part) -> str:
+    """Tell what a part is made of: its faces by kind, or else its triangles."""
+    if not part.is_solid:
+        return "no solid: drawn as a small box"
     kinds = Counter(face.surface.kind for face in part.faces)
     faces = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in sorted(kinds.items()))
-    return faces or "no face that was understood"
+    return faces or f"{len(part.triangles):,} triangles, no face known"

@@ -34,6 +34,8 @@ from jaxkin.topology.structure import structure
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
 
+ROUNDED = 1e-12
+"""Radians and lengths in the unit of the file: what is aligned by less was not noise, and is not told."""
 _LISTED = 8
 """Names, or near misses, that a message lists at most."""
 
@@ -196,7 +198,7 @@ def _left_out(ignored: int, replaced: Sequence[Contact], by_hand: Mapping, body:
 
 
 def _aligned(found: FoundJoints, unit: str) -> list[str]:
-    if not found.angle and not found.length:
+    if max(found.angle, found.length) < ROUNDED:
         return []
     return [
         f"for the noise of the file, directions were aligned by at most {found.angle:.1g} rad "
