@@ -2,8 +2,9 @@
 
 DIR holds assemblies as NAME.step or NAME.step.xz, and exports for Simscape Multibody as NAME.xml, these at any depth,
 as repositories hold them. Where the CAD system's own joints are known, NAME.joints.json lies beside the file:
-`instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres). Without
-known joints the part to fix comes from `assembly.proposals`.
+`instances` (name, grounded) and `joints` (type, and of both parts the name, a point and the axis, in metres), and
+perhaps `freedoms`, the useful ones that were meant. Without known joints the part to fix comes from
+`assembly.proposals`.
 
 A labelled pair of parts is right where the bodies of the two parts have the same joint about the same axis, or are one
 body if they are welded; right but for an idle slide or spin where the kinds differ by a coordinate that moves nothing
@@ -201,7 +202,7 @@ def row(path: Path, verbose: bool) -> str:
         len(assembly.parts),
         len(mechanism.bodies),
         *((counts[v] for v in VERDICTS) if data else "----"),
-        mobility.useful,
+        f"{mobility.useful} of {data['freedoms']}" if data and "freedoms" in data else mobility.useful,
         mobility.freedoms,
         (not said) + len(mobility.drivable),
         f"{closed} of {poses}",
