@@ -179,7 +179,7 @@ def _find(
 def _deal_out(
     layout: DisplacementSources,
     systems: tuple[LoopSystem, ...] | None,
-    found: list[tuple[list[Array], Array]],
+    found: Sequence[tuple[Sequence[Array | np.ndarray], Array | np.ndarray]],
     rows: Float[Array | np.ndarray, "driven poses"],
     finite: Bool[Array | np.ndarray, " poses"] | None,
     xp: Any = jnp,
@@ -203,7 +203,7 @@ def _deal_out(
             place[columns[column]] = xp.unwrap(own[column])
     place |= dict(zip(layout.driven, rows, strict=True))  # inputs as they were given
 
-    def finished(row, otherwise: float = np.nan):
+    def finished(row, otherwise: float | int = np.nan):
         return row if finite is None else xp.where(finite if row.ndim == 1 else finite[:, None], row, otherwise)
 
     moved = {

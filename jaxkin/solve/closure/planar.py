@@ -99,7 +99,7 @@ def _unrolled(terms: list[Float[Array, "loops _ poses"]]) -> bool:
 
 
 def _along_links(
-    system: LoopSystem, geometry: Planar, terms: list[Float[Array, "loops links poses"]]
+    system: LoopSystem, geometry: Planar, terms: list[Float[Array, "loops _ #poses"]]
 ) -> Float[Array, "loops rows poses"]:
     """Compute the Jacobian, `Planar.jacobian` times the terms, link by link: most of its coefficients are zero.
 
