@@ -71,8 +71,10 @@ def find_limit(
         if taken is None:
             return Found(LimitKind.LOST, here, None, False)
         there, length = taken
-        crossed = _crossed(curve, there, direction, ranges, number if turns else None)
-        located = [(*curve.locate(here, length, event.value), event) for event in crossed]
+        located = []
+        for event in _events(curve, direction, ranges, number if turns else None):
+            if (end := _crossed(curve, here, there, length, event)) is not None:
+                located.append((*curve.locate(here, end, event.value), event))
         if located:
             _, at, first = min(located, key=lambda each: each[0])
             repeats = first.kind is LimitKind.NONE and _is_home(curve, at, features)
@@ -91,20 +93,41 @@ class _Event(NamedTuple):
     kind: LimitKind
     value: Callable[[Here], float]
     column: int | None = None
+    rate: Callable[[Here], float] | None = None
+    """Derivative of the value by the arc length; None where the value is not looked at between the ends of a step."""
 
 
-def _crossed(
-    curve: Curve, there: Here, direction: float, ranges: Sequence[CoordinateRange], number: int | None
-) -> list[_Event]:
-    """The limits that a step has crossed; `number` is that of the full turn of the drive that comes next."""
+def _events(curve: Curve, direction: float, ranges: Sequence[CoordinateRange], number: int | None) -> list[_Event]:
+    """List what ends the motion; `number` is that of the full turn of the drive that comes next."""
     drive = curve.drive
     events = [_Event(LimitKind.LOCKS, lambda here: direction * float(here.tangent[drive]))]
     for column, low, high in ranges:
-        events.append(_Event(LimitKind.RANGE, lambda here, c=column, end=low: float(here.q[c]) - end, column))
-        events.append(_Event(LimitKind.RANGE, lambda here, c=column, end=high: end - float(here.q[c]), column))
+        for sign, end in ((1.0, low), (-1.0, high)):
+            if np.isfinite(end):
+                events.append(
+                    _Event(
+                        LimitKind.RANGE,
+                        lambda here, c=column, sign=sign, end=end: sign * (float(here.q[c]) - end),
+                        column,
+                        lambda here, c=column, sign=sign: sign * float(here.tangent[c]),
+                    )
+                )
     if number is not None:
         events.append(_Event(LimitKind.NONE, lambda here: number * TURN - direction * float(here.q[drive])))
-    return [event for event in events if event.value(there) < 0]
+    return events
+
+
+def _crossed(curve: Curve, here: Here, there: Here, length: float, event: _Event) -> float | None:
+    """Find an arc length within a step at which a limit is passed; None where the step does not pass it.
+
+    A coordinate that turns back within the step may be beyond its range between its ends: then it is at its extremum.
+    """
+    if event.value(there) < 0:
+        return length
+    if event.rate is None or not event.rate(here) < 0 < event.rate(there):
+        return None
+    s, extremum = curve.locate(here, length, event.rate)
+    return s if event.value(extremum) < 0 else None
 
 
 def _is_home(curve: Curve, at: Here, features: PoseFeatures) -> bool:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
+from jaxkin import design
 from reference.mechanisms import slider_crank
 
 TURN = np.linspace(0.0, 2 * np.pi, 12, endpoint=False)
@@ -41,6 +42,28 @@ def test_less_peak_torque_for_a_stroke():
     assert best.feasible and best.moves.everywhere
     assert best.mechanism.lengths[CRANK] == pytest.approx(30.0, abs=1e-4)
     assert best.value == pytest.approx(float(torque(start(30.0).sweep({"A": TURN}))), rel=1e-5)
+
+
+@pytest.mark.long
+@pytest.mark.study
+def test_the_longest_stroke_within_a_limit_is_the_range_that_limits_find():
+    """A slide that ends at x = 90 lets a crank of 30 turn past its dead point, ROD - 30, and no longer one."""
+    end = 90.0
+
+    def short(motion):
+        return -design.stroke(motion, "S") / 100
+
+    # displacements are counted from the pose that was drawn, with a crank of 40
+    within = design.above("S", end - 40.0 - ROD, size=100.0)
+    best = jk.optimize(
+        short, start(22.0), drive={"A": TURN}, lengths={CRANK: (15.0, 60.0)}, constraints=[within], progress=False
+    )
+    assert best.feasible
+    crank = best.mechanism.lengths[CRANK]
+    assert crank == pytest.approx(30.0, abs=1e-4)
+    for own, turns in ((crank - 0.01, True), (crank + 0.01, False)):
+        drawn = slider_crank(theta=0.0, crank=own, rod=ROD, offset=0.0)
+        assert jk.limits(drawn, "A", ranges={"S": (end - own - ROD, np.inf)}).full_turn == turns
 
 
 @pytest.mark.long

@@ -30,6 +30,19 @@ def crank_range(theta: float, ground: float, crank: float, coupler: float, rocke
     return least - theta, (2 * np.pi - least if np.isnan(most) else most) - theta
 
 
+@pytest.mark.parametrize("beyond", [1e-8, 1e-4, 0.01, 0.3, 3.0])
+def test_a_range_that_is_left_within_a_step_ends_the_drive(beyond):
+    """A slide is beyond its end beside the dead point only, however short the arc: by the law of cosines."""
+    crank, rod = 30.0, 120.0
+    mechanism = slider_crank(theta=0.0, crank=crank, rod=rod, offset=0.0)
+    found = jk.limits(mechanism, "A", ranges={"S": (-2 * crank + beyond, np.inf)})
+    # the angle is that of a cosine near -1: an error of the slide counts by its root
+    expected = corner(crank, rod - crank + beyond, rod)
+    np.testing.assert_allclose(found.range, (-expected, expected), rtol=0, atol=1e-9 / np.sqrt(beyond))
+    assert found.upper.kind is LimitKind.RANGE and found.upper.joints == ("S",) and not found.full_turn
+    assert jk.limits(mechanism, "A", ranges={"S": (-2 * crank - beyond, np.inf)}).full_turn
+
+
 @pytest.mark.long
 def test_a_fourbar_locks_where_coupler_and_rocker_are_aligned(tmp_path):
     """By the law of cosines, to 1e-12: far below the 1e-9 that is promised."""
