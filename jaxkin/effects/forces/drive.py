@@ -21,8 +21,8 @@ from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.pose_groups import by_groups
-from jaxkin.effects.forces.potential import potential
-from jaxkin.effects.forces.screws import Scale, driven_by
+from jaxkin.effects.forces.potential import borne, potential
+from jaxkin.effects.forces.screws import driven_by
 from jaxkin.effects.forces.wrenches import (
     STANDARD_GRAVITY,
     Acting,
@@ -172,6 +172,8 @@ def _at_rest(
     In motion one program takes longer than three, by groups as well: 5.7 ms and 4.5.
     """
 
+    weights = None if acting.masses is None else borne(linkage, acting.masses)
+
     def of_group(given: tuple[Rows, Int[Array, " poses"], Inputs], acting: Weights) -> tuple[Inputs, Inputs]:
         displacements, status, inputs = given
         own = known._replace(displacements=displacements, status=status)
@@ -183,8 +185,8 @@ def _at_rest(
         if acting.applied:
             moving, sums = acting_on(unit, False, linkage, found, acting._replace(masses=None))
             forces, _ = _forces(drive, unit, linkage, status, moving, sums, {}, found.along, None)
-        if acting.masses is not None:
-            energy = partial(potential, linkage, Scale.of(linkage), acting.masses, acting.gravity)
+        if weights is not None:
+            energy = partial(potential, linkage, weights, acting.gravity)
             # backwards once, for any number of drives: forwards, each of them would be as long a program
             slopes = jax.grad(lambda rows: jnp.sum(energy(rows)))(found.displacements)
             for name, joint, index in drive.driven:
