@@ -46,7 +46,9 @@ def test_help_and_errors_of_arguments_come_without_jax(arguments):
 
 @pytest.mark.long
 def test_demo_writes_all_files_and_keeps_compiled_programs(tmp_path):
-    done = run("demo", "--out", tmp_path / "out", XDG_CACHE_HOME=str(tmp_path / "cache"))
+    # with few optimisations programs take less than the 0.1 s from which on they are kept
+    kept = {"XDG_CACHE_HOME": str(tmp_path / "cache"), "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0"}
+    done = run("demo", "--out", tmp_path / "out", **kept)
     assert done.returncode == 0, done.stderr
     assert {file.name for file in (tmp_path / "out").iterdir()} == set(WRITERS)
     assert "361  CLOSED" in done.stdout
