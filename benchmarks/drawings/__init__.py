@@ -15,5 +15,6 @@ from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import powered as powered
 from drawings import road as road
+from drawings import robotics as robotics
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop
