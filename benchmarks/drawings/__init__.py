@@ -14,6 +14,7 @@ from drawings import household as household
 from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import powered as powered
+from drawings import reciprocating as reciprocating
 from drawings import road as road
 from drawings import robotics as robotics
 from drawings import vehicles as vehicles

@@ -52,7 +52,7 @@ def delta_robot(random):
         for k, x in enumerate((62, 78)):
             drawing.add(f"bracket screw {t} {k}", turned(screw((x, -5, 6), -Z, 1.5, 10), t))
         way = (tip - hub) / reach
-        arm = union(cyl(hub - 6 * Y, Y, 9, 14), cyl(hub, way, 5, reach), cyl(tip - 22 * Y, Y, 5, 44))
+        arm = union(cyl(hub - 6 * Y, Y, 9, 14), cyl(hub, way, 4.5, reach), cyl(tip - 22 * Y, Y, 5, 44))
         arm = cut(arm, bore(hub, Y, 2.5, 20), *(cyl(tip + s * 14 * Y, s * Y, 2, 9) for s in (-1, 1)))
         drawing.add(f"arm {t}", turned(cut(arm, cyl(hub + 5 * Y, -way, 1.5, 20)), t))
         drawing.add(f"grub screw {t}", turned(cyl(hub + 5 * Y - 2.5 * way, -way, 1.5, 6), t))
@@ -152,7 +152,7 @@ def yoke(middle, along, pin, foot: float):
 @kind
 def platform_leg(random):
     """A leg of a platform: universal joints with needle cups below and above a cylinder, its rod and gland."""
-    drawing, play, height = Drawing(["base"]), random.choice([0.0, 0.02]), random.uniform(240, 300)
+    drawing, play, height = Drawing(["base"]), random.choice([0.0, 0.02]), random.uniform(225, 270)
     low, high = at(0, 0, 32), at(0, 0, height)
     plates = {"base": (low, -Z, -10.0), "platform": (high, Z, height + 28 + 6)}
     for name, (p, way, z) in plates.items():
