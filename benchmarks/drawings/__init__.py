@@ -17,5 +17,6 @@ from drawings import powered as powered
 from drawings import reciprocating as reciprocating
 from drawings import road as road
 from drawings import robotics as robotics
+from drawings import turning as turning
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop
