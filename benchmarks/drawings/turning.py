@@ -183,7 +183,7 @@ def watt_governor(random):
         bush = union(tube((0, y, 0), s * Y, 5 + play / 4, 7, 18), tube((0, y, 0), -s * Y, 5 + play / 4, 9, 2))
         drawing.add(f"bush {k}", bush)
         drawing.joint("Weld", f"bush {k}", "column")
-    feather = box((-1.5, low[1] - 45, 3), (1.5, low[1] + 9, 6.8))
+    feather = box((-1.5, max(low[1] - 45, 62), 3), (1.5, low[1] + 9, 6.8))
     pin = cyl((0, 202, -12), Z, 1.5, 24)
     drawing.add("spindle", cut(cyl((0, -34, 0), Y, 5, 250), feather, pin))
     drawing.add("feather", feather)
