@@ -132,8 +132,9 @@ def bicycle_hinge(random):
     drawing.add("lever", cut(lever, bore(cam, Z, 5 + play, 60)))
     drawing.add("lock nut", hexagon(cam + 7 * X, X, 5.5, 3, 4))
     spring_clip = union(box((80, -24, -5), (90, -21.4, 5)), box((87, -31, -5), (90, -22, 5)))
-    drawing.add("catch", cut(spring_clip, cyl((85, 0, 0), X, 22, 10), bore((83, -23, 0), Y, 1, 6)))
+    drawing.add("catch", cut(spring_clip, cyl((70, 0, 0), X, 22, 40), bore((83, -23, 0), Y, 1, 6)))
     drawing.add("cable", cyl((-150, 24.5, 0), X, 2, 120))
+    drawing.joint("Weld", "catch", "rear frame")
     drawing.joint("Revolute", "rear frame", "front frame", hinge, Z)
     drawing.joint("Weld", "hinge pin", "rear frame")
     for k in range(2):

@@ -190,7 +190,7 @@ def needle_bar(random):
     foot = cut(foot, cyl((20, -118, 6), Y, 3, 40), cyl((20, -112, 6), X, 1.5, 9), box((-2, -140, 3), (2, -120, 9)))
     drawing.add("foot", foot)
     drawing.add("foot screw", screw((26, -112, 6), -X, 1.5, 3))
-    drawing.add("face cover", cut(box((-35, -120, 22), (40, 40, 24)), bore((0, -14, 22), Z, 12, 9)))
+    drawing.add("face cover", cut(box((-35, -120, 14), (40, 40, 16)), bore((0, -14, 14), Z, 12, 9)))
     drawing.joint("Revolute", "main shaft", "head", (0, 0, 0), Z)
     drawing.joint("Weld", "crank", "main shaft")
     drawing.joint("Weld", "crank pin", "crank")
