@@ -148,7 +148,7 @@ def bicycle_hinge(random):
 @kind
 def garage_hinges(random):
     """Two panels of a garage door, folded hinges that carry roller stems, wheels on balls, C-channel tracks."""
-    drawing, play = Drawing(["lower panel"]), random.choice([0.1, 0.25])
+    drawing, play = Drawing(["lower panel", "left jamb", "right jamb"]), random.choice([0.1, 0.25])
     depth = random.uniform(38, 42)
     pin, stem = at(0, 0, depth + 10), at(0, -22, depth + 12)
     spots = {k: [at(x, k * 42, depth) for x in (-232 - r, -228 + r, 228 - r, 232 + r)] for k, r in ((-1, 13), (1, 10))}

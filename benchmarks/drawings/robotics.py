@@ -129,7 +129,6 @@ def rocker_bogie(random):
     for name, shape in arms.items():
         drawing.add(name, shape)
     drawing.joint("Weld", "lid", "chassis")
-    drawing.joint("Weld", "lock nut", "rocker bolt")
     drawing.joint("Weld", "shoulder screw", "rocker")
     drawing.joint("Weld", "bogie bush", "bogie")
     drawing.joint("Revolute", "rocker", "chassis", o, Z)
