@@ -121,7 +121,7 @@ def bicycle_hinge(random):
     for k, z in enumerate((-8, 0.5)):
         drawing.add(f"hinge bush {k}", tube(hinge + z * Z, Z, 5 + play, 6.5, 7.5))
     drawing.add("eye pin", rivet(eye - 13 * Z, Z, 3, 26))
-    bolt = cut(union(cyl(eye - 6.8 * Z, Z, 7, 13.6), cyl(eye, X, 4, 52)), bore(eye, Z, 3 + play, 60))
+    bolt = cut(union(cyl(eye - 6.8 * Z, Z, 7, 13.6), cyl(eye, X, 4, 54)), bore(eye, Z, 3 + play, 60))
     drawing.add("eye bolt", bolt)
     drawing.add("cam washer", tube(at(14, -38, 0), X, 4.3, 9, 3))
     drawing.add("trunnion", cut(cyl(cam - 13 * Z, Z, 5, 26), bore(cam, X, 4, 60)))
@@ -130,7 +130,7 @@ def bicycle_hinge(random):
         lever, box(cam + at(-20, -20, -7), cam + at(20, 20, 7)), box(cam + at(24, -5, -10), cam + at(91, 9, 10))
     )
     drawing.add("lever", cut(lever, bore(cam, Z, 5 + play, 60)))
-    drawing.add("lock nut", hexagon(cam + 7 * X, X, 5.5, 3, 4))
+    drawing.add("lock nut", hexagon(cam + 5 * X, X, 5.5, 3, 4))
     spring_clip = union(box((80, -24, -5), (90, -21.4, 5)), box((87, -31, -5), (90, -22, 5)))
     drawing.add("catch", cut(spring_clip, cyl((70, 0, 0), X, 22, 40), bore((83, -23, 0), Y, 1, 6)))
     drawing.add("cable", cyl((-150, 24.5, 0), X, 2, 120))

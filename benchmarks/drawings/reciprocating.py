@@ -130,7 +130,7 @@ def oscillating_engine(random):
     piston = union(cyl((0, -reach + 54, 26), Y, 7 - play, 12), cyl((0, -reach, 26), Y, 2.5, 55))
     piston = union(piston, cyl((0, -reach, 22), Z, 4.5, 8))
     drawing.add("piston", rocked(cut(piston, bore((0, -reach, 22), Z, 2 + play, 90))))
-    wheel = union(tube(o - 26 * Z, Z, 24, 30, 12), cyl(o - 26 * Z, Z, 7, 20), tube(o - 22 * Z, Z, 6, 25, 4))
+    wheel = union(tube(o - 26 * Z, Z, 24, 30, 12), cyl(o - 26 * Z, Z, 7, 25.7), tube(o - 22 * Z, Z, 6, 25, 4))
     drawing.add("flywheel", cut(wheel, bore(o, Z, 3, 90), cyl(o - 9 * Z, X, 1.25, 9)))
     drawing.add("flywheel grub screw", cyl(o - 9 * Z + 3 * X, X, 1.25, 4))
     drawing.joint("Weld", "column", "base")

@@ -51,7 +51,7 @@ def rotary_table(random):
         drawing.add(f"worm bearing {s}", tube(worm + s * 45 * X, s * X, 5, 11, 8))
         drawing.add(f"worm sleeve {s}", tube(worm + s * 18 * X, s * X, 5, 5.9, 27))
     drawing.add("bearing nut", tube(worm + 53 * X, X, 5.5, 11, 5))
-    drawing.add("plug", cyl(worm - 53 * X, -X, 11, 4))
+    drawing.add("plug", cyl(worm - 54 * X, -X, 11, 4))
     hand = union(tube(worm + 92 * X, X, 5 + play / 10, 30, 8), tube(worm + 90 * X, X, 5 + play / 10, 10, 14))
     keyway = box(worm + at(90, -1, 3), worm + at(104, 1, 6))
     crank = worm + at(100, 22, 0)
