@@ -64,7 +64,9 @@ def delta_robot(random):
             body = union(cyl(one, along, 3, rod), sphere(one, 6.5), sphere(other, 6.5))
             body = cut(body, sphere(one, 4 + play), sphere(other, 4 + play))
             for p in (one, other):
-                body = cut(body, box(p + at(-9, -s * 2, -9), p + at(9, -s * 9, 9)))
+                body = cut(body, box(p + at(-9, 2, -9), p + at(9, 9, 9)))
+            if s > 0:  # turned, not cut on the other side: there the kernel reads its own sphere inside out
+                body = body.rotate(tuple(one.tolist()), tuple(other.tolist()), 180)
             drawing.add(f"rod {t} {s}", turned(body, t))
             for name, p, owner in (("upper", one, f"arm {t}"), ("lower", other, "effector")):
                 drawing.add(f"{name} stud {t} {s}", turned(ball_stud(p - s * 16 * Y, p, 2, 4), t))
