@@ -98,9 +98,11 @@ def verdict(label: Mapping[str, Any], found: Mechanism, idle: set[str], truly_id
     if len(between) > 1 or between[0].kind not in ("revolute", "cylindrical", "prismatic"):
         return "other"
     joint, got = between[0], set(between[0].coordinates)
-    if not wanted or not same_axis(label, joint, scale, "phi" in wanted | got):
-        return "other"
     more = {name for name in got - wanted if f"{joint.name}.{name}" in idle}
+    if not wanted:
+        return "idle" if more == got else "other"
+    if not same_axis(label, joint, scale, "phi" in wanted | got):
+        return "other"
     if got == wanted:
         return "right"
     return "idle" if got - wanted <= more and wanted - got <= truly_idle else "other"
