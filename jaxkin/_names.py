@@ -1,11 +1,11 @@
-"""What is given by name, and names that were not found: the nearest known one, for messages."""
+"""Names that were not found: the nearest known one, for messages; and parts by pattern."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, Protocol
+from typing import Protocol
 
 _MAX_KNOWN = 8
 """Known names that a message lists at most: more are not read."""
@@ -19,13 +19,6 @@ class InAssembly(Protocol):
 
     @property
     def path(self) -> tuple[str, ...]: ...
-
-
-def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
-    """Return what was given if it is a mapping, else raise ValueError with an example."""
-    if not isinstance(given, Mapping):
-        raise ValueError(f"{what} are given by name, as in {example}, got {given!r}")
-    return given
 
 
 def match_parts(patterns: str | Sequence[str], parts: Sequence[InAssembly], what: str = "parts") -> tuple[str, ...]:

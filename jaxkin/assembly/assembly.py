@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from jaxkin._arguments import several, text
 from jaxkin._grouped import SCREEN, grouped, kind_of, product, shortened
 from jaxkin._names import match_parts, nearest
 from jaxkin.assembly.exported import Exported
@@ -116,8 +117,7 @@ class Assembly:
             if fixed or rigid or ignore or joints or exclude or contacts or not (combine and infer):
                 raise ValueError(f"{self.source} holds a whole mechanism: write .mechanism() without other words")
             return self.saved
-        if exclude:
-            left = _in_full(exclude, self.parts, "exclude")
+        if left := _in_full(exclude, self.parts, "exclude"):
             if contacts is None and not (infer and self.exported):
                 contacts = self.contacts()
             return self.without(left).mechanism(
@@ -242,20 +242,17 @@ class Assembly:
 
 def _in_full(names: Sequence[str], parts: Sequence[Part], what: str) -> Sequence[str]:
     """Replace patterns with "*", "?" or "/" by names in full; other names are checked where they are used."""
-    if isinstance(names, str):
-        return names  # refused where it is used
-    if names is None:
-        raise ValueError(f"{what} must be a list of part names, got None; leave it out where there are none")
     known = {part.name for part in parts}
     found: dict[str, None] = {}
-    for name in names:
-        pattern = isinstance(name, str) and name not in known and {*"*?/"} & {*name}
+    for name in several(names, what, "part names"):
+        pattern = text(name, f"an entry of {what}") not in known and {*"*?/"} & {*name}
         found |= dict.fromkeys(match_parts(name, parts, what) if pattern else [name])
     return tuple(found)
 
 
 def _groups(rigid: Sequence[Sequence[str]], parts: Sequence[Part]) -> Sequence[Sequence[str]]:
-    return rigid if isinstance(rigid, str) else [_in_full(group, parts, "rigid") for group in rigid]
+    groups = several(rigid, "rigid", "groups of parts", '[["bolt", "plate"]]')
+    return [group if isinstance(group, str) else _in_full(group, parts, "rigid") for group in groups]
 
 
 def _contacts_without(contacts: Sequence[Contact], names: Collection[str]) -> Contacts:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from jaxkin._arguments import several
 from jaxkin._names import closest, nearest
 from jaxkin.contacts.contact import Contact
 
@@ -17,7 +18,8 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
     A side is a part, "stop", for all of its contacts with the other side, or one of its faces as reports print it,
     "stop face 7". Raises ValueError for an entry that is no pair, or that no contact is between.
     """
-    if isinstance(ignore, str) or any(isinstance(pair, str) or len(pair) != 2 for pair in ignore):
+    ignore = several(ignore, "ignore", "pairs of parts or of their faces", '[["slider", "stop"]]')
+    if any(not isinstance(pair, tuple | list) or len(pair) != 2 for pair in ignore):
         raise ValueError(
             'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
             f'[["slider face 3", "stop face 7"]], got {ignore!r}'

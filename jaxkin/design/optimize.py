@@ -12,6 +12,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin._arguments import check_mechanism, whole_number
 from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, worth_more
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
@@ -95,8 +96,8 @@ def optimize(
         raise ValueError(f"solver must be jk.design.LevenbergMarquardt(...) or jk.design.LBFGS(...), got {solver!r}")
     if not (callable(loss) or isinstance(loss, Objective)):
         raise ValueError(f"the loss must be an objective of jk.design, or a function of the motion, got {loss!r}")
-    if starts < 1:
-        raise ValueError(f"starts must be at least 1, got {starts}")
+    check_mechanism(mechanism, "best designs")
+    starts, seed = whole_number(starts, "starts", 1), whole_number(seed, "seed")
     if solver is None:
         solver = LevenbergMarquardt() if isinstance(loss, Objective) else LBFGS()
     squares = isinstance(solver, LevenbergMarquardt)

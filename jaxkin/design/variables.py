@@ -11,6 +11,7 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import by_name
 from jaxkin.design.measures import STATIC, length_now
 from jaxkin.dimensions.frames import find_profile, locate
 from jaxkin.dimensions.lengths import find_length
@@ -145,7 +146,7 @@ def variables(
     sense."""
     bounded: list[_Bounded] = []
     fixed: dict[Any, Any] = {}
-    for key, bounds in lengths.items():
+    for key, bounds in by_name(lengths, "lengths", "{('coupler', 'B', 'C'): (3.0, 5.0)}").items():
         length = find_length(mechanism.linkage, key)
         now = length_now(mechanism, key)
         least = 0.0 if length.quantity in ("distance", "radius") and length.quantity != "offset" else -np.inf
@@ -153,15 +154,15 @@ def variables(
         if np.any(found.lower < least) and not any(f.kind == "plane" for f in length.body):
             raise ValueError(f"length {key!r}: the lower bound {float(found.lower)} is negative, and a length is not")
         bounded.append(found)
-    for key, bounds in points.items():
+    for key, bounds in by_name(points, "points", "{'A': (lower, upper)}").items():
         now = _point_now(mechanism, key)
         bounded.append(_entry("points", key, _free(f"point {key!r}", bounds, now)))
-    for key, given in drive.items():
+    for key, given in by_name(drive, "driven displacements", "{'A': angles}").items():
         if isinstance(given, Free):
             bounded.append(_entry("inputs", key, given, f"drive {key!r}"))
         else:
             fixed[key] = given if callable(given) else _as_array(given)
-    for key, given in extras.items():
+    for key, given in by_name(extras, "extras", "{'first': jk.design.Free(0.0, -1.0, 1.0)}").items():
         if not isinstance(given, Free):
             raise ValueError(f"extra {key!r}: write jk.design.Free(start, lower, upper), got {given!r}")
         bounded.append(_entry("extras", key, given, f"extra {key!r}"))

@@ -9,7 +9,8 @@ from typing import Any
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.patches import Patch
 from jaxkin.geometry.pose import RIGID_TOLERANCE, is_rigid
@@ -120,6 +121,8 @@ def _placed(linkage: Linkage, place: Place, given, change) -> Linkage:
 
 def locate(linkage: Linkage, place: Place) -> tuple[int, str | None]:
     """Find the column of a joint, and which copy of its frame is meant: None for both. ValueError for unknown names."""
+    if not isinstance(place, str) and not (isinstance(place, tuple) and len(place) == 2):
+        raise ValueError(f"a frame is named by its joint, 'A', or by (part, joint), ('crank', 'A'), got {place!r}")
     part, name = (None, place) if isinstance(place, str) else place
     names = linkage.structure.joints
     if name not in names:

@@ -10,7 +10,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.feature_geometry import between, moved, value
 from jaxkin.dimensions.features import Feature, Key, Length, length_table

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import jax
 import numpy as np
 
+from jaxkin._arguments import check_mechanism, one_number, several
 from jaxkin.effects.extended import Extended
 from jaxkin.linkage.coordinates import coordinate, named
 from jaxkin.mechanism.drive_plan import plan_drive
@@ -124,6 +125,10 @@ def work_precision(
     about to be swept. Needs mpmath. Raises ValueError as `sweep` does, where `options` say a tolerance or a method, and
     where no pose closes.
     """
+    check_mechanism(mechanism, "accuracy and time")
+    entries = several(tolerances, "tolerances", "numbers", "[1e-6, 1e-12]")
+    tolerances = tuple(float(one_number(each, "each of the tolerances")) for each in entries)
+    methods = several(methods, "methods", "names of methods")
     options = options_with(options)
     for name, of_options in (("tolerance", options.tolerance), ("method", options.method)):
         if of_options != getattr(SolverOptions, name):

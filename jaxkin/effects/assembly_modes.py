@@ -14,7 +14,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Float
 
-from jaxkin._names import by_name, listed
+from jaxkin._arguments import by_name, check_mechanism, one_number, text, whole_number
+from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import FoundPoses, PoseFeatures, Starts, find_modes, wrap_angles
@@ -192,11 +193,10 @@ def assembly_modes(
     Raises ValueError for a drive that leaves freedoms (the modes would be infinitely many) or that the loops cannot
     follow, for loops that are open in the assembled pose or agree only nearly, and inside `jit`, `vmap` and `grad`.
     """
+    check_mechanism(mechanism, "assembly modes")
     if traced((mechanism, drive)):
         raise ValueError("modes are searched on the host: call assembly_modes outside of jit, vmap and grad")
-    for name, number in {"tries": tries, "seed": seed}.items():
-        if isinstance(number, bool) or not isinstance(number, int | np.integer) or number < (name == "tries"):
-            raise ValueError(f"{name} must be a whole number, {int(name == 'tries')} or more, got {number!r}")
+    tries, seed = whole_number(tries, "tries", 1), whole_number(seed, "seed")
     options, linkage = options_with(options), mechanism.linkage
     ranges = _ranges(drive)
     driven = resolve(linkage, ranges)
@@ -216,7 +216,7 @@ def assembly_modes(
     reached = mechanism.sweep(ranges, options=options) if any(given.values()) else None
     is_reached = reached is None or bool(reached.closed[0])
     max_residual = options.tolerance or default_tolerance(dtypes.canonicalize_dtype(float))
-    starts, searched = Starts(int(tries), int(seed), options), []
+    starts, searched = Starts(tries, seed, options), []
     for loop_group in plan.loop_groups:
         number = linkage.structure.loop_groups.index(loop_group.members)
         loops = ClosedLoops(linkage.joints, linkage.structure, loop_group.members, linkage.couplings)
@@ -235,9 +235,8 @@ def _ranges(drive: Mapping[str, float]) -> dict[str, np.ndarray]:
     """Make ranges of one pose of the numbers of a drive."""
     ranges = {}
     for name, value in by_name(drive, "inputs", "{'A': 0.3}").items():
-        if not isinstance(name, str) or np.shape(value) != ():
-            raise ValueError(f"inputs are one number for each coordinate, as in {{'A': 0.3}}, got {name!r}: {value!r}")
-        ranges[name] = np.reshape(value, 1)
+        key = text(name, "the coordinate of an input")
+        ranges[key] = one_number(value, f"the input {key!r}", "one finite number, as in {'A': 0.3}")[None]
     return ranges
 
 

@@ -12,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._names import by_name
+from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
 from jaxkin.effects.calibration_data import Data, Kind, data_of
 from jaxkin.effects.calibration_result import Calibration
@@ -73,6 +73,8 @@ def calibrate(
     measured poses, unknowns that the loops have no room for, data that tell none of the unknowns, and for traced
     numbers.
     """
+    check_mechanism(mechanism, "calibrations")
+    iterations = whole_number(iterations, "iterations", 1)
     driven = by_name(drive, "driven displacements", "{'A': angles}")
     if traced(mechanism, tuple(driven.values()), tuple(by_name(measured, "measurements", "{'D': angles}").values())):
         raise ValueError("calibrate is for numbers: call it outside of jit, vmap and grad")

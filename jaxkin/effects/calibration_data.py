@@ -10,7 +10,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import nearest
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.mechanism import Mechanism

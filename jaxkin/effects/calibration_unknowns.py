@@ -13,6 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.dimensions.frames import locate
@@ -101,17 +102,17 @@ def unknowns_of(
     """Check the unknowns that were asked for, and find the axes of each frame; ValueError for what is not there."""
     if isinstance(lengths, str) or (isinstance(lengths, tuple) and lengths and isinstance(lengths[0], str)):
         raise ValueError(f"lengths must be a list of keys of mechanism.lengths, as [{lengths!r}], got {lengths!r}")
-    keys = list(lengths)
+    keys = several(lengths, "lengths", "keys of mechanism.lengths")
     for key in keys:
         find_length(mechanism.linkage, key)
     if len(set(keys)) < len(keys):
         raise ValueError("lengths names one of them twice")
-    if isinstance(frames, str):
-        raise ValueError(f"frames must be a list of joints and (part, joint), as [{frames!r}], got {frames!r}")
-    places = frames if isinstance(frames, Mapping) else dict.fromkeys(frames)
+    wanted = [(place, None) for place in several(frames, "frames", "joints and (part, joint)")]
     found, axes = [], []
-    for place, components in places.items():
+    for place, components in frames.items() if isinstance(frames, Mapping) else wanted:
         column, side = locate(mechanism.linkage, place)
+        if place in [known[0] for known in found]:
+            raise ValueError(f"frames names {place!r} twice")
         joint = mechanism.all_joints[column]
         if side is None and len(joint.movements) > 1:
             raise ValueError(f"frames: {place!r} has several frames: say on which part, as {(joint.parts[0], place)!r}")
@@ -129,11 +130,12 @@ def unknowns_of(
         axes.append(rows)
     if isinstance(markers, Target):
         raise ValueError(f"markers must be a list of measured points, as [{markers!r}], got {markers!r}")
+    markers = several(markers, "markers", "measured points")
     for marker in markers:
         if not isinstance(marker, Target) or marker.kind != "point" or marker not in measured:
             points = ", ".join(key.joint for key in measured if isinstance(key, Target) and key.kind == "point")
             raise ValueError(f"markers must be points that were measured ({points or 'there is none'}), got {marker!r}")
-    unknowns = Unknowns(tuple(keys), tuple(found), tuple(markers))
+    unknowns = Unknowns(keys, tuple(found), markers)
     if not unknowns.names:
         raise ValueError("nothing to calibrate: name lengths, frames or markers")
     return unknowns, axes

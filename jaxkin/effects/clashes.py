@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._arguments import check_motion, numbers, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.clash_shapes import Shape, boxes_along, displaced, near_pairs, shape_of
@@ -147,8 +148,7 @@ def clashes(
     Raises ValueError for a mechanism without solids, for names that are not there, for lengths that are negative, and
     inside `jit`, `vmap` and `grad`.
     """
-    if not isinstance(motion, Motion):
-        raise ValueError(f"clashes are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "clashes")
     if traced(motion):
         raise ValueError("clashes are found on the host: call clashes outside of jit, vmap and grad")
     mechanism = motion.mechanism
@@ -157,8 +157,9 @@ def clashes(
             "clashes needs solids, and this mechanism has none: make it from files, jk.load(files).mechanism(fixed=...)"
         )
     for name, given in (("within", within), ("tolerance", tolerance)):
-        if given is not None and not given >= 0:
-            raise ValueError(f"{name} is a length, zero or more in the unit of the mechanism, got {given!r}")
+        expected = "a length, zero or more in the unit of the mechanism"
+        if given is not None and not (np.shape(given) == () and numbers(given, name, expected) >= 0):
+            raise ValueError(f"{name} must be {expected}, got {given!r}")
     setting = FaceSetting(mechanism)
     within = WITHIN * size(mechanism.solids) if within is None else float(within)
     still = SAME_PLACE * setting.length
@@ -194,8 +195,8 @@ def _compared(mechanism: Mechanism, setting: FaceSetting, ignore: Sequence[Seque
     bodies = np.unique([setting.body[name] for name in names], return_inverse=True)[1]
     solid = np.array([part.is_solid for part in mechanism.solids])
     compared = (bodies[:, None] != bodies[None]) & solid[:, None] & solid[None]
-    for pair in ignore:
-        if isinstance(pair, str) or len(pair) != 2:
+    for pair in several(ignore, "ignore", "pairs of parts", '[["bolt", "plate"]]'):
+        if not isinstance(pair, tuple | list) or len(pair) != 2:
             raise ValueError(f"ignore is a list of pairs of parts, [['bolt', 'plate']], got the entry {pair!r}")
         for name in pair:
             if name not in names:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._arguments import check_motion
 from jaxkin._traced import traced
 from jaxkin.effects.curve_contact import CurveContact, CurveContacts, Poses, made_contact
 from jaxkin.effects.surface_contact import contacts_on_surface
@@ -36,6 +37,7 @@ def curve_contacts(motion: Motion) -> CurveContacts:
     profiles of each joint are looked at; `jk.clashes` looks at the solids. Raises ValueError for a mechanism
     without joints along curves or over surfaces, and inside `jit`, `vmap` and `grad`.
     """
+    check_motion(motion, "contacts of curves")
     if traced(motion):
         raise ValueError("curve_contacts is for numbers: call it outside of jit, vmap and grad")
     found = []

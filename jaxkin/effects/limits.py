@@ -11,7 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._names import by_name, listed
+from jaxkin._arguments import by_name, check_mechanism, several
+from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked
 from jaxkin.effects.mode_plot import draw_modes
@@ -118,14 +119,13 @@ def limits(
     Raises ValueError for unknown names, for ranges that do not hold the assembled pose, where freedoms are left, where
     the loops are open or singular in the assembled pose, and inside `jit`, `vmap` and `grad`.
     """
+    check_mechanism(mechanism, "limits")
     if traced(mechanism):
         raise ValueError("limits are searched on the host: call limits outside of jit, vmap and grad")
     linkage = mechanism.linkage
     if not isinstance(drive, str):
         raise ValueError(f"limits are those of one coordinate, such as {mechanism.all_joints[0].name!r}, got {drive!r}")
-    if isinstance(hold, str):
-        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
-    hold = [drive, *hold]
+    hold = [drive, *several(hold, "hold", "coordinates")]
     driven = coordinates(linkage, hold)
     name, place = next(iter(driven.items()))
     check_closed(linkage, mechanism.unit, "limits", f"limits({drive!r})")

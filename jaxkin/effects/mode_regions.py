@@ -17,7 +17,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Float, Int
 
-from jaxkin._names import by_name, listed, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import listed, nearest
 from jaxkin.effects.assembly_modes import AssemblyModes
 from jaxkin.effects.grid_steps import GridSteps
 from jaxkin.effects.pose_plot import save_rows

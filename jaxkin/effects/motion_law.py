@@ -18,6 +18,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import one_number, several
 from jaxkin._files import save_figure
 from jaxkin._names import closest
 from jaxkin.solve.execution.compiler import whole_program
@@ -186,19 +187,21 @@ def motion_law(segments: Iterable[tuple[Any, ...]], start: float = 0.0) -> Motio
     mechanism. Raises ValueError for unknown laws and durations that are not positive.
     """
     found = []
-    for number, given in enumerate(segments, start=1):
-        name, *numbers = given if isinstance(given, tuple | list) else (given,)
+    for number, given in enumerate(
+        several(segments, "segments", "segments (law, duration, rise)", "[('cycloidal', 1.0, 0.5)]"), start=1
+    ):
+        name, *sizes = given if isinstance(given, tuple | list) else (given,)
         where = f"segment {number}"
-        if name not in LAWS:
+        if not isinstance(name, str) or name not in LAWS:
             known = ", ".join(map(repr, LAWS))
             raise ValueError(f"{where}: the law must be one of {known}, got {name!r}{closest(name, LAWS)}")
         wanted = 1 if name == DWELL else 2
-        if len(numbers) != wanted or not all(np.isscalar(x) and np.isfinite(x) for x in numbers):
+        if len(sizes) != wanted or not all(np.isscalar(x) and np.isfinite(x) for x in sizes):
             said = f"({name!r}, duration{'' if wanted == 1 else ', rise'})"
             raise ValueError(f"{where}: expected {said} with finite numbers, got {given!r}")
-        if numbers[0] <= 0:
-            raise ValueError(f"{where}: its duration must be positive, got {numbers[0]!r}")
-        found.append(Segment(name, float(numbers[0]), float(numbers[1]) if wanted > 1 else 0.0))
+        if sizes[0] <= 0:
+            raise ValueError(f"{where}: its duration must be positive, got {sizes[0]!r}")
+        found.append(Segment(name, float(sizes[0]), float(sizes[1]) if wanted > 1 else 0.0))
     if not found:
         raise ValueError("a motion law needs at least one segment, as in [('cycloidal', 1.0, 0.5)]")
-    return MotionLaw(tuple(found), float(start))
+    return MotionLaw(tuple(found), float(one_number(start, "the start")))

@@ -14,7 +14,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name, check_motion, numbers
+from jaxkin._names import nearest
 from jaxkin.effects.pose_plot import draw_lines, save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.joint import Joint
@@ -199,11 +200,10 @@ def _of_parts(
 
 def tangents_of(motion: Motion, rates: Mapping[str, Any]) -> Inputs:
     """Rates of all driven displacements, one a pose, from those that were given by name."""
-    if not isinstance(motion, Motion):
-        raise ValueError(f"rates are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "rates")
     given = {}
     for key, rate in by_name(rates, "rates", f"{{{next(iter(motion.inputs))!r}: 1.0}}").items():
-        value = rate if isinstance(rate, jax.Array) else np.asarray(rate, dtypes.canonicalize_dtype(float))
+        value = rate if isinstance(rate, jax.Array) else numbers(rate, f"the rate of {key!r}")
         if value.ndim > 1 or (value.ndim == 1 and len(value) != len(motion)):
             raise ValueError(
                 f"the rate of {key!r} must be one number or one for each of the {len(motion)} poses, got shape "

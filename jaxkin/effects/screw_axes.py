@@ -35,6 +35,8 @@ def screw_axes(velocities: Rates, part: str) -> ScrewAxes:
     through w x v / w^2, and the pitch is w . v / w^2. Works inside `jit`, `vmap` and `grad`. Raises ValueError for a
     part that is not there.
     """
+    if not isinstance(velocities, Rates):
+        raise ValueError(f"screw axes are those of jk.velocities(motion, rates), got {type(velocities).__name__}")
     omega = velocities.angular(part)
     place, rates = velocities.motion.transforms[part], velocities.transforms[part]
     rotation, shift = place[:, :3, :3], place[:, :3, 3]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin._arguments import check_motion, one_number
 from jaxkin._files import save_figure, whole
 from jaxkin._names import nearest
 from jaxkin._traced import traced
@@ -195,8 +196,7 @@ def swept_volume(motion: Motion, part: str, *, resolution: float | None = None) 
 
 def _given(motion: Any, part: str) -> tuple[Part, Float[np.ndarray, "poses 4 4"], int]:
     """The solid of a part, its closed places, and how many poses are left out; ValueError for what cannot be swept."""
-    if not isinstance(motion, Motion):
-        raise ValueError(f"a swept volume is that of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "swept volumes")
     if traced(motion):
         raise ValueError("a swept volume is found on the host: ask outside of jit, vmap and grad")
     mechanism = motion.mechanism
@@ -216,8 +216,10 @@ def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray
     """The step of the grid; ValueError for one that makes no sense, or too many points."""
     if resolution is None:
         return float((high - low).max()) / STEPS_ACROSS
-    if isinstance(resolution, bool | str) or not 0 < resolution < np.inf:
-        raise ValueError(f"the resolution must be a length above zero, unit of the mechanism, got {resolution!r}")
+    expected = "a length above zero, unit of the mechanism"
+    resolution = float(one_number(resolution, "the resolution", expected))
+    if resolution <= 0:
+        raise ValueError(f"the resolution must be {expected}, got {resolution!r}")
     points = float(np.prod((high - low) / resolution + 2 * BAND + 3))
     if points > MAX_POINTS:
         least = float(resolution * (points / MAX_POINTS) ** (1 / 3))
@@ -225,7 +227,7 @@ def _step(part: str, resolution: float | None, low: np.ndarray, high: np.ndarray
             f"the box that {part!r} sweeps has {points:.2g} points {resolution:g} apart, and {MAX_POINTS:.2g} are the "
             f"most: write resolution={1.1 * least:.2g}"
         )
-    return float(resolution)
+    return resolution
 
 
 def _placements(places: np.ndarray, moved: np.ndarray, step: float) -> Iterator[Float[np.ndarray, "4 4"]]:

@@ -9,7 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin._names import by_name
+from jaxkin._arguments import by_name, check_mechanism, whole_number
 from jaxkin._traced import traced
 from jaxkin.dimensions.lengths import find_length, length_now
 from jaxkin.effects.design_batch import Measured, evaluate, value_and_slopes
@@ -71,6 +71,9 @@ def tolerances(
         raise ValueError("tolerances need at least one length or clearance, as {('coupler', 'B', 'C'): 0.05}")
     if not callable(measure):
         raise ValueError(f"the measure must be a function of the pose, motion or mechanism, got {measure!r}")
+    check_mechanism(mechanism, "tolerances")
+    drive = by_name(drive or {}, "driven displacements", "{'A': 0.3}")
+    samples, seed = whole_number(samples, "samples"), whole_number(seed, "seed")
     nominal = _nominal(mechanism, stated)
     limits = _limits_of(wanted)
     directions = {name: directions_of_play(mechanism.linkage, name) for name in played}
@@ -78,11 +81,11 @@ def tolerances(
         measure,
         tuple(stated),
         tuple(directions.items()),
-        tuple(drive or ()),
-        bool(drive) and _is_one_pose(by_name(drive, "driven displacements", "{'A': 0.3}")),
+        tuple(drive),
+        bool(drive) and _is_one_pose(drive),
         options_with(options),
     )
-    driven = tuple(_displacements(key, value) for key, value in (drive or {}).items())
+    driven = tuple(_displacements(key, value) for key, value in drive.items())
     places = np.zeros(sum(directions.values()))
     on_host = not traced(mechanism, driven, nominal)
     start = np.concatenate([nominal, places]) if on_host else jnp.concatenate([jnp.stack(nominal), places])
@@ -107,7 +110,7 @@ def tolerances(
     if not on_host:
         return found
     poses = 1 if measured.one_pose or not driven else len(driven[0])
-    return _sampled(found, measured, mechanism, driven, np.asarray(start), poses, _count(samples), seed)
+    return _sampled(found, measured, mechanism, driven, np.asarray(start), poses, samples, seed)
 
 
 def _sampled(
@@ -198,12 +201,6 @@ def _limits_of(wanted: Any) -> tuple[float, float] | None:
     except (TypeError, ValueError):
         raise ValueError(f"wanted must be (low, high), two numbers in rising order, got {wanted!r}") from None
     return low, high
-
-
-def _count(samples: Any) -> int:
-    if isinstance(samples, bool) or not isinstance(samples, int | np.integer) or samples < 0:
-        raise ValueError(f"samples must be a whole number, 0 for none, got {samples!r}")
-    return int(samples)
 
 
 def _check_nominal(value: float, reached: bool, slopes: Float[np.ndarray, " numbers"]) -> None:

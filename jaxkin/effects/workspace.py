@@ -14,7 +14,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._names import by_name, listed, nearest
+from jaxkin._arguments import by_name, check_mechanism, numbers, several
+from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.effects.grid_flood import flood
 from jaxkin.effects.pose_plot import save_rows
@@ -141,15 +142,14 @@ def workspace(
     Raises ValueError for names, ranges and points that make no sense, for a drive that leaves freedoms or that the
     loops cannot follow, for loops that are open in the assembled pose, and inside `jit`, `vmap` and `grad`.
     """
+    check_mechanism(mechanism, "workspaces")
     if traced((mechanism, point)):
         raise ValueError("a workspace is mapped on the host: call workspace outside of jit, vmap and grad")
     linkage, options = mechanism.linkage, options_with(options)
     grid = _grid(ranges)
     if part not in mechanism.parts:
         raise ValueError(f"there is no part {part!r}{nearest(part, mechanism.parts)}")
-    if isinstance(hold, str):
-        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
-    keys = (*grid, *hold)
+    keys = (*grid, *several(hold, "hold", "coordinates"))
     driven = coordinates(linkage, keys)
     check_closed(linkage, mechanism.unit, "a workspace", "workspace(...)")
     if linkage.ideal:
@@ -216,11 +216,7 @@ def _grid(ranges: Mapping[str, Sequence[float] | np.ndarray]) -> dict[str, Float
     example = "{'A': np.linspace(-1, 1, 41), 'B': np.linspace(-1, 1, 41)}"
     found = {}
     for key, values in by_name(ranges, "ranges", example).items():
-        try:
-            found[key] = np.asarray(values, float)
-        except (TypeError, ValueError):
-            raise ValueError(f"the values of {key!r} must be numbers, got {values!r}") from None
-        row = found[key]
+        found[key] = row = numbers(values, f"the values of {key!r}")
         if row.ndim != 1 or len(row) < 2 or not np.isfinite(row).all() or np.any(np.diff(row) <= 0):
             raise ValueError(f"the values of {key!r} must be two finite numbers or more, rising, got {values!r}")
     if len(found) != 2:
@@ -254,10 +250,10 @@ def _read(
         rows = [jnp.zeros((inputs.shape[1], count), inputs.dtype) for count in layout.freedoms]
         for (joint, k), row in zip(layout.driven, inputs, strict=True):
             rows[joint] = rows[joint].at[:, k].set(row)
-        for system, columns, own, numbers, found in zip(
+        for system, columns, own, group, found in zip(
             layout.systems, layout.columns, layout.inputs, joints, poses, strict=True
         ):
-            x = displacements(system, numbers, inputs[np.array(own, int)], found)
+            x = displacements(system, group, inputs[np.array(own, int)], found)
             for (joint, k), row in zip(columns, x, strict=True):
                 rows[joint] = rows[joint].at[:, k].set(row)
         place = part_transforms(linkage, tuple(rows))[layout.part]

@@ -59,7 +59,7 @@ def load(
     time, where files differ in their unit, or are in another one than `unit`. Warns of damages that leave something to
     be read.
     """
-    if unit is not None and unit not in METRES:
+    if unit is not None and (not isinstance(unit, str) or unit not in METRES):
         raise ValueError(f"unit must be one of {', '.join(filter(None, METRES))}, got {unit!r}")
     if isinstance(source, str | Path):
         path, name = Path(source), Path(source).name

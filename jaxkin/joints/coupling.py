@@ -20,7 +20,8 @@ import numpy as np
 from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name, one_number, text
+from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.movements import MOVEMENTS, is_length
 from jaxkin.joints.joint import Joint
@@ -114,7 +115,7 @@ def relation(factors: Mapping[str, Number], offset: Number = 0.0, *, name: str |
     that are zero or no finite numbers.
     """
     given = by_name(factors, "the factors of a relation", "{'A.phi': 2.0, 'B.phi': -1.0}")
-    names = tuple(given)
+    names = _two(*given)
     return _linear(name or f"relation {' '.join(names)}", names, tuple(given.values()), "factor", None, offset)
 
 
@@ -165,6 +166,8 @@ def _linear(
 
 def _two(*coordinates: str) -> tuple[str, ...]:
     """Check that a coupling ties at least two coordinates, each named once."""
+    for each in coordinates:
+        text(each, "a coordinate of a coupling")
     if len(set(coordinates)) < max(len(coordinates), 2):
         raise ValueError(f"a coupling ties at least two different coordinates, got {', '.join(map(repr, coordinates))}")
     return coordinates
@@ -175,9 +178,7 @@ def _check_numbers(given: Mapping[str, Any], zero: bool = False) -> None:
     for what, value in given.items():
         if traced(value):
             continue
-        if isinstance(value, str | bool) or np.shape(value) != () or not np.isrealobj(value) or not np.isfinite(value):
-            raise ValueError(f"{what} must be one finite number, got {value!r}")
-        if value == 0 and not zero:
+        if one_number(value, what) == 0 and not zero:
             raise ValueError(f"{what} must not be zero: nothing would be coupled then")
 
 

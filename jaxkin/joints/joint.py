@@ -20,6 +20,7 @@ import numpy as np
 from jax.tree_util import GetAttrKey
 from jaxtyping import Float
 
+from jaxkin._arguments import text
 from jaxkin._traced import traced
 from jaxkin.contacts.states import CONTACT_STATES, ContactState
 from jaxkin.geometry.curves import Spline
@@ -152,6 +153,9 @@ def joint(
     `frames` are 4x4 poses in world coordinates at the assembled pose, one for each movement; `pitch` is the advance per
     turn of a screw. Numbers stay float64 on the host until JAX computes with them; traced numbers stay traced.
     """
+    text(name, "the name of a joint")
+    for part in parts:
+        text(part, f"a part of joint {name!r}")
     xp = jnp if traced(frames, pitch) else np
     poses = xp.stack([xp.asarray(frame, dtype=float) for frame in frames]).reshape(-1, 4, 4)
     return Joint(name, parts, kind, movements, poses, poses, xp.asarray(pitch, dtype=float), evidence, limits, curves)

@@ -14,6 +14,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from jaxkin._arguments import one_number
 from jaxkin._traced import traced
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.pose import is_rigid
@@ -162,8 +163,7 @@ def screw(
     limits: GivenLimits | None = None,
 ) -> Joint:
     """Make a helical pair that advances by `pitch` per turn (positive: right-handed). Coordinate: phi."""
-    if not traced(pitch) and (isinstance(pitch, str) or np.shape(pitch) != () or not np.isfinite(pitch)):
-        raise ValueError(f"joint {name!r}: pitch must be a finite number, the advance per turn, got {pitch!r}")
+    one_number(pitch, f"joint {name!r}: pitch", "a finite number, the advance per turn")
     return with_limits(
         joint(name, (part1, part2), JointKind.SCREW, ("T_screw",), [axis_frame(name, point, axis)], pitch), limits
     )

@@ -16,7 +16,8 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import nearest
 from jaxkin.geometry.rigid import as_matrices, inverse, product
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.joint_motion import joint_motion

@@ -11,7 +11,8 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Bool, Float
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.linkage import Linkage
 

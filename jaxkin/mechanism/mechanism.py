@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax
 
+from jaxkin._arguments import several, text
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
@@ -82,6 +83,7 @@ class Mechanism:
         is not there, or `align` is wrong.
         """
         check_joints(joints)
+        couplings, unit = several(couplings, "couplings", "couplings", "[jk.gear(...)]"), text(unit, "unit")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
         linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), unit)

@@ -12,8 +12,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
+from jaxkin._arguments import by_name
 from jaxkin._named import Named
-from jaxkin._names import by_name
 from jaxkin._traced import traced
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.targets import Key, Target

@@ -13,7 +13,8 @@ import numpy as np
 from jax import dtypes
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin._names import by_name, nearest
+from jaxkin._arguments import by_name, check_mechanism, several
+from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.collect import nan_where_not_finite
@@ -84,10 +85,11 @@ def project(
     zero where `nearest` is False. Raises ValueError for names that are not there, arrays of other shapes, and weights
     that are not positive.
     """
+    check_mechanism(mechanism, "nearest poses")
     linkage, options = mechanism.linkage, options or SolverOptions()
     warn_of_float32()
     rows = _given(mechanism, given)
-    held = coordinates(linkage, tuple(hold)) if (hold := tuple(hold)) else {}
+    held = coordinates(linkage, hold) if (hold := several(hold, "hold", "coordinates")) else {}
     factors = _weights(mechanism, weights or {})
     xp = jnp if traced(rows) else np
     every = [rows[joint.name] for joint in mechanism.all_joints]
@@ -190,6 +192,8 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
     if len({*counts.values()}) > 1:
         raise ValueError(f"all joints need as many poses, got {counts}")
     poses = next(iter(counts.values()))
+    if not poses:
+        raise ValueError("the coordinates have no pose: give at least one, as in {'A': angles}")
     return {
         joint.name: found.get(joint.name, np.zeros((poses, joint.freedoms), dtype)) for joint in mechanism.all_joints
     }
@@ -198,7 +202,7 @@ def _given(mechanism: Mechanism, given: Mapping[str, Any]) -> dict[str, Float[Ar
 def _weights(mechanism: Mechanism, weights: Mapping[str, float | int]) -> dict[tuple[int, int], float]:
     """Find the weight of each coordinate, (joint, coordinate); ValueError for one that is not positive."""
     every = {(number, k): 1.0 for number, joint in enumerate(mechanism.all_joints) for k in range(joint.freedoms)}
-    for name, weight in weights.items():
+    for name, weight in by_name(weights, "weights", "{'A': 10.0}").items():
         try:
             value = float(weight)
         except (TypeError, ValueError):

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin._arguments import several
 from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.geometry.pose import Pose, turned_by
@@ -110,9 +111,7 @@ def close(
         raise ValueError(
             "close() is for numbers: inside jit, vmap and grad sweep the mechanism, which closes its loops"
         )
-    if isinstance(hold, str):
-        raise ValueError(f"hold must be a list of coordinates, got the text {hold!r}; write [{hold!r}]")
-    held = {coordinate(mechanism.linkage, key) for key in hold}
+    held = {coordinate(mechanism.linkage, key) for key in several(hold, "hold", "coordinates")}
     given = replace(mechanism.linkage, ideal=())
     groups = [_close_group(given, loop_group, held, noise) for loop_group in given.structure.loop_groups]
     before, after = (float(np.linalg.norm([getattr(group, gap) for group in groups])) for gap in ("before", "after"))

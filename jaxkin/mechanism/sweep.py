@@ -13,7 +13,7 @@ import numpy as np
 from jax import dtypes, lax
 from jaxtyping import Array, Float
 
-from jaxkin._names import by_name
+from jaxkin._arguments import by_name
 from jaxkin._traced import inside_trace, traced
 from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect

@@ -15,6 +15,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import text
 from jaxkin._memory import once_for_each
 from jaxkin._names import nearest
 from jaxkin._traced import traced
@@ -54,7 +55,7 @@ class Target:
 
 def pose(part: str) -> Target:
     """Prescribe the pose of a part: (poses, 4, 4), its displacements from the assembled pose in world coordinates."""
-    return Target(part, "pose")
+    return Target(text(part, "the part of a target"), "pose")
 
 
 def point(part: str, at: Iterable[float | int]) -> Target:
@@ -69,12 +70,12 @@ def point(part: str, at: Iterable[float | int]) -> Target:
     if found.shape != (3,) or not np.isfinite(found).all():
         raise ValueError(f"the point of a target must be three finite numbers (x, y, z), got {at!r}")
     x, y, z = map(float, found)
-    return Target(part, "point", (x, y, z))
+    return Target(text(part, "the part of a target"), "point", (x, y, z))
 
 
 def orientation(part: str) -> Target:
     """Prescribe the orientation of a part: (poses, 3, 3), its rotations from the assembled pose."""
-    return Target(part, "orientation")
+    return Target(text(part, "the part of a target"), "orientation")
 
 
 Key = str | Target

@@ -16,15 +16,13 @@ of an assembly that was drawn with its bolts nobody reads the names in every loo
 def check_names(parts: Sequence[str], joints: Sequence[tuple[str, str, str]], fixed: Sequence[str]) -> None:
     """Refuse names that are no texts, repeat or are unknown, a joint of a part with itself, and no fixed part:
     ValueError."""
-    if isinstance(fixed, str):
-        raise ValueError(f"fixed must be a list of part names, got the text {fixed!r}; write fixed=[{fixed!r}]")
     if not parts:
         raise ValueError("there are no parts; name at least one, and fix it")
-    for what, names in (("part", parts), ("joint", [name for name, _, _ in joints])):
+    named = {"part": parts, "joint": [name for name, _, _ in joints], "fixed part": fixed}
+    for what, names in named.items():
         if wrong := [name for name in names if not isinstance(name, str)]:
             raise ValueError(f"the name of a {what} must be a text, got {wrong[0]!r}; write {str(wrong[0])!r}")
         _refuse_repeats(what, names)
-    _refuse_repeats("fixed part", fixed)
     known = set(parts)
     for name, part1, part2 in joints:
         for part in (part1, part2):

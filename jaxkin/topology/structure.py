@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from jaxtyping import Int
 
+from jaxkin._arguments import several
 from jaxkin.topology.checks import check_chords, check_connected, check_names, merged_name
 from jaxkin.topology.describe import describe
 from jaxkin.topology.elements import ElementNode, StructureElement, element_tree, named
@@ -235,6 +236,10 @@ def structure(
     chain of joints connects to a fixed one, chords that do not leave a spanning tree, and chords whose loops no
     reversal gives common directions.
     """
+    parts, fixed = several(parts, "parts", "part names"), several(fixed, "fixed", "part names")
+    joints = several(joints, "joints", "joints (name, part 1, part 2)", "[('A', 'base', 'crank')]")
+    if wrong := [joint for joint in joints if not isinstance(joint, tuple | list) or len(joint) != 3]:
+        raise ValueError(f"a joint is given as (name, part 1, part 2), got {wrong[0]!r}")
     check_names(parts, joints, fixed)
     names = tuple(name for name, _, _ in joints)
     check_chords(names, chords)

@@ -129,7 +129,7 @@ BAD = {
     "tie": (dict(lengths={CRANK: (20, 60)}, ties={ROCKER: COUPLER}), r"\('coupler', 'B', 'C'\) is no variable"),
     "extra": (dict(extras={"x": 3.0}), r"write jk\.design\.Free"),
     "method": (dict(lengths={CRANK: (20, 60)}, solver="newton"), r"LevenbergMarquardt\(...\) or .*, got 'newton'"),
-    "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts must be at least 1"),
+    "starts": (dict(lengths={CRANK: (20, 60)}, starts=0), r"starts must be a whole number, 1 or more, got 0"),
     "drive": (dict(drive={"Q": TURN}, lengths={CRANK: (20, 60)}), r"no joint 'Q'"),
 }
 

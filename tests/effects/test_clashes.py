@@ -221,7 +221,7 @@ def test_poses_that_are_not_closed_are_nan_and_pairs_can_be_left_out(tmp_path):
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"within": -1}, "within is a length, zero or more"),
+        ({"within": -1}, "within must be a length, zero or more"),
         ({"ignore": ["arm"]}, r"pairs of parts, \[\['bolt', 'plate'\]\], got the entry 'arm'"),
         ({"ignore": [["arm", "bal"]]}, "unknown part 'bal'.*'ball'"),
     ],

@@ -168,7 +168,7 @@ def test_what_is_held_stays_as_by_a_drive_of_zero(name):
     found, motion = mechanism.close(hold=["A"]), mechanism.sweep({"A": [0.0]})
     assert found.closed and max(astuple(found.moves["crank"])) < 1e-12  # rounding of products of frames
     assert found.moves["rocker"].angle == pytest.approx(abs(float(motion.coordinates["D"][0, 0])), abs=1e-9)
-    with pytest.raises(ValueError, match=r"write \['A'\]"):
+    with pytest.raises(ValueError, match=r"write hold=\['A'\]"):
         mechanism.close(hold="A")
     with pytest.raises(ValueError, match="no joint 'Q'"):
         mechanism.close(hold=["Q"])

@@ -187,7 +187,7 @@ def test_joints_and_targets_together():
         ({"A": [0.0]}, {"weights": {"A": -1.0}}, "zero or more"),
         ({"A": [0.0]}, {"rest": {"K": 0.0}}, "K"),
         ({"A": [0.0]}, {"inputs": ["K"]}, "K"),
-        ({"A": [0.0]}, {"starts": 0}, "at least 1"),
+        ({"A": [0.0]}, {"starts": 0}, "1 or more"),
     ],
 )
 def test_what_makes_no_problem_is_refused(targets, options, message):

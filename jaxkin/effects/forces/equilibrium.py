@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._arguments import by_name, check_mechanism, numbers
 from jaxkin._traced import traced
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import Applied
@@ -89,12 +90,14 @@ def equilibrium(
     Raises ValueError for drives of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
     as `jk.drive_forces`.
     """
+    check_mechanism(mechanism, "equilibria")
+    drive = by_name(drive, "driven displacements", "{'A': np.linspace(0, 2 * np.pi, 73)}")
     if traced(mechanism, dict(drive), masses, applied):
         raise ValueError("equilibria are found on the host: call jk.equilibrium outside of jit, vmap and grad")
     if len(drive) != 1:
         raise ValueError(f"an equilibrium is found along one driven coordinate, got {len(drive)}; hold the others")
     ((key, given),) = drive.items()
-    inputs = np.unique(np.asarray(given, float).ravel())
+    inputs = np.unique(numbers(given, f"the range of {key!r}").ravel())
     if len(inputs) < 2 or not np.isfinite(inputs).all():
         raise ValueError(f"the range of {key!r} must be two displacements or more, as np.linspace(0, 2 * np.pi, 73)")
 

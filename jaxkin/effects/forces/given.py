@@ -9,6 +9,7 @@ import jax
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import numbers, one_number, text, yes_or_no
 from jaxkin._traced import traced
 
 Numbers = Float[Array | np.ndarray, "*poses"]
@@ -101,8 +102,12 @@ def force(part: str, point: Any, vector: Any, *, turns: bool = False) -> Force:
     `point` is where the point is in the assembled pose. With `turns` the vector, given for the assembled pose, turns
     with the part.
     """
+    what = f"the force on {text(part, 'the part of a force')!r}"
     return Force(
-        part, _vectors(point, f"the point on {part!r}", one=True), _vectors(vector, f"the force on {part!r}"), turns
+        part,
+        _vectors(point, f"the point on {part!r}", one=True),
+        _vectors(vector, what),
+        yes_or_no(turns, f"turns of {what}"),
     )
 
 
@@ -111,7 +116,8 @@ def torque(part: str, vector: Any, *, turns: bool = False) -> Torque:
 
     With `turns` the vector, given for the assembled pose, turns with the part.
     """
-    return Torque(part, _vectors(vector, f"the torque on {part!r}"), turns)
+    what = f"the torque on {text(part, 'the part of a torque')!r}"
+    return Torque(part, _vectors(vector, what), yes_or_no(turns, f"turns of {what}"))
 
 
 def spring(
@@ -122,7 +128,7 @@ def spring(
     It pulls with stiffness (distance - length) + damping times the rate of the distance: newtons per metre, the unit of
     the mechanism, newton seconds per metre.
     """
-    what = f"the spring of {part1!r} and {part2!r}"
+    what = f"the spring of {text(part1, 'a part of a spring')!r} and {text(part2, 'a part of a spring')!r}"
     xp = jax.numpy if traced(point1, point2) else np
     points = xp.stack([_vectors(point, f"a point of {what}", one=True) for point in (point1, point2)])
     numbers = (_numbers(each, what) for each in (stiffness, length, damping))
@@ -135,7 +141,7 @@ def joint_spring(coordinate: str, stiffness: Any, rest: Any = 0.0, damping: Any 
     `stiffness` is in newton metres per radian or newtons per metre, `rest` the displacement without a force, in radians
     or the unit of the mechanism, `damping` in newton metre seconds per radian or newton seconds per metre.
     """
-    what = f"the spring in {coordinate!r}"
+    what = f"the spring in {text(coordinate, 'the coordinate of a spring')!r}"
     return JointLoad(coordinate, np.zeros(()), *(_numbers(each, what) for each in (stiffness, rest, damping)))
 
 
@@ -144,7 +150,8 @@ def joint_load(coordinate: str, load: Any) -> JointLoad:
 
     It acts on part 2 of the joint along the coordinate, and its opposite on part 1.
     """
-    return JointLoad(coordinate, _numbers(load, f"the load in {coordinate!r}"), *[np.zeros(())] * 3)
+    what = f"the load in {text(coordinate, 'the coordinate of a load')!r}"
+    return JointLoad(coordinate, _numbers(load, what), *[np.zeros(())] * 3)
 
 
 def joint_friction(joint: str, coefficient: Any, *, radius: Any = None, smooth: Any = 0.0) -> JointFriction:
@@ -160,7 +167,7 @@ def joint_friction(joint: str, coefficient: Any, *, radius: Any = None, smooth: 
     it has no direction. With `smooth`, a speed v0 in the unit of the mechanism a second, it is multiplied by
     v / sqrt(v^2 + v0^2). One number each. Raises ValueError for numbers below zero.
     """
-    what = f"the friction of {joint!r}"
+    what = f"the friction of {text(joint, 'the joint of friction')!r}"
     given = [_one(coefficient, what, "coefficient"), _one(smooth, what, "smooth")]
     across = None if radius is None else _one(radius, what, "radius")
     if across is not None and not traced(across) and across == 0:
@@ -170,15 +177,15 @@ def joint_friction(joint: str, coefficient: Any, *, radius: Any = None, smooth: 
 
 def _one(given: Any, what: str, name: str) -> Any:
     """One number from zero on; ValueError for others."""
-    found = _real(given, f"the {name} of {what}", "one number")
-    if found.shape != () or (not traced(found) and not (np.isfinite(found) and found >= 0)):
+    found = one_number(given, f"the {name} of {what}", "one number from 0 on")
+    if not traced(found) and found < 0:
         raise ValueError(f"the {name} of {what} must be one number from 0 on, got {given!r}")
     return found
 
 
 def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
     """Three numbers, or unless `one`, rows of three; ValueError for others."""
-    found = _real(given, what, "three numbers (x, y, z)")
+    found = numbers(given, what, "three numbers (x, y, z)")
     if found.shape[-1:] != (3,) or found.ndim > (1 if one else 2):
         rows = "" if one else ", or one row of them a pose"
         raise ValueError(f"{what} must be three numbers (x, y, z){rows}, got shape {found.shape}")
@@ -186,19 +193,14 @@ def _vectors(given: Any, what: str, one: bool = False) -> Vectors:
 
 
 def _numbers(given: Any, what: str) -> Numbers:
-    found = _real(given, what, "numbers")
-    if found.ndim > 1:
-        raise ValueError(f"{what} must have one number, or one a pose, got shape {found.shape}")
+    """One number, or one a pose; ValueError for others, and for one that is not finite.
+
+    Of several some may be NaN, where nothing was measured: so are the forces of those poses.
+    """
+    found = numbers(given, what)
+    if found.ndim > 1 or (found.ndim == 0 and not (traced(found) or np.isfinite(found))):
+        raise ValueError(f"{what} must have one finite number, or one a pose, got {given!r}")
     return found
-
-
-def _real(given: Any, what: str, expected: str) -> Any:
-    if traced(given):
-        return jax.numpy.asarray(given, float)
-    try:
-        return np.asarray(given, float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{what} must be {expected}, got {given!r}") from None
 
 
 _PER_POSE = {

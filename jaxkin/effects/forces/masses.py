@@ -11,7 +11,8 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._names import by_name, closest, match_parts, nearest
+from jaxkin._arguments import by_name
+from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.units import METRES

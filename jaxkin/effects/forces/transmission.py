@@ -10,6 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import check_motion
 from jaxkin._names import listed, nearest
 from jaxkin.effects.forces.drive import drive_forces
 from jaxkin.effects.forces.given import joint_load
@@ -79,6 +80,7 @@ def transmission(motion: Motion, output: str, *, joint: str | None = None) -> Tr
     Works inside `jit`, `vmap` and `grad`. Raises ValueError for motions with several drives, an output that is driven,
     and where the joint must be named.
     """
+    check_motion(motion, "transmissions")
     mechanism = motion.mechanism
     if len(motion.inputs) != 1:
         raise ValueError(f"a transmission has one input, and this motion is driven by {listed(list(motion.inputs))}")

@@ -14,6 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._arguments import check_motion, numbers, several
 from jaxkin._names import nearest
 from jaxkin._traced import traced
 from jaxkin.effects.forces.changes import Changes, Rows
@@ -140,7 +141,7 @@ def _of_mass(moving: Moving, masses: Masses, gravity: Any, part: str, lever: Any
 def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFriction, ...]]:
     """What is applied but for friction, and the friction of joints, which depends on the rest; else ValueError."""
     given = acting.applied
-    applied = (given,) if isinstance(given, Applied) else tuple(given)
+    applied = (given,) if isinstance(given, Applied) else several(given, "applied", "loads", "[jk.force(...)]")
     for each in applied:
         if not isinstance(each, Applied):
             raise ValueError(f"applied loads are made by jk.force, jk.torque, jk.spring, ..., got {each!r}")
@@ -150,8 +151,7 @@ def loads_and_frictions(acting: Acting) -> tuple[tuple[Load, ...], tuple[JointFr
 
 def check(motion: Motion, acting: Acting) -> None:
     """Raise ValueError for arguments that do not fit the motion, with what to write instead."""
-    if not isinstance(motion, Motion):
-        raise ValueError(f"forces are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "forces")
     mechanism, masses, (applied, frictions) = motion.mechanism, acting.masses, loads_and_frictions(acting)
     for each in applied:
         parts = each.parts if isinstance(each, Spring) else () if isinstance(each, JointLoad) else (each.part,)
@@ -184,10 +184,10 @@ def check(motion: Motion, acting: Acting) -> None:
 
 def weights(acting: Acting) -> Weights:
     """Make arrays of what acts; ValueError for a gravity that is no vector."""
-    given = acting.gravity
-    gravity = given if traced(given) else np.asarray(given, float)
-    if gravity.shape != (3,):
-        raise ValueError(f"gravity must be three numbers, m/s^2, as (0, 0, -9.81), got {given!r}")
+    expected = "three finite numbers, m/s^2, as (0, 0, -9.81)"
+    gravity = numbers(acting.gravity, "gravity", expected)
+    if gravity.shape != (3,) or not (traced(gravity) or np.isfinite(gravity).all()):
+        raise ValueError(f"gravity must be {expected}, got {acting.gravity!r}")
     return Weights(acting.masses, gravity, loads_and_frictions(acting)[0])
 
 

@@ -10,7 +10,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float
 
-from jaxkin._names import by_name
+from jaxkin._arguments import by_name, check_mechanism, several, whole_number, yes_or_no
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinates
 from jaxkin.mechanism.inverse.aims import aims_of
@@ -101,15 +101,16 @@ def inverse(
     their three angles, which are singular a quarter turn of phi from the assembled pose. Raises ValueError for names
     that are not there, values of another shape, and inside `jit`, `vmap` and `grad`.
     """
+    check_mechanism(mechanism, "inverse kinematics")
     if not isinstance(targets, Mapping) or not targets:
         raise ValueError(f"targets map jk.pose, jk.point, jk.orientation or joints to values, got {targets!r}")
     if traced((mechanism, [*targets.values()])):
         raise ValueError("inverse is for numbers: inside jit, vmap and grad sweep over targets instead")
-    for name, count in (("starts", starts), ("iterations", iterations)):
-        if not isinstance(count, int) or count < 1:
-            raise ValueError(f"{name} is a whole number, at least 1, got {count!r}")
-    problem = Problem(mechanism, aims_of(mechanism, targets, weights or {}))
-    chosen = coordinates(mechanism.linkage, [*(inputs or mechanism.motors or _drivable(mechanism))])
+    starts, iterations = whole_number(starts, "starts", 1), whole_number(iterations, "iterations", 1)
+    seed, limits = whole_number(seed, "seed"), yes_or_no(limits, "limits")
+    wanted = several(inputs or mechanism.motors or _drivable(mechanism), "inputs", "coordinates")
+    problem = Problem(mechanism, aims_of(mechanism, targets, by_name(weights or {}, "weights", "{'A': 10.0}")))
+    chosen = coordinates(mechanism.linkage, wanted)
     for name in chosen:
         problem.inputs[problem.column(name)] = True
     for name, value in by_name(rest or {}, "places of rest", "{'A': 0.1}").items():

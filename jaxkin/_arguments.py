@@ -1,0 +1,97 @@
+"""What users pass to functions, held against what was expected: a ValueError says what arrived and what to write."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import jax.numpy as jnp
+import numpy as np
+from jax import dtypes
+
+from jaxkin._traced import traced
+
+
+def check_mechanism(given: Any, what: str) -> None:
+    """Raise ValueError for what is no mechanism; `what` is found of it, and begins the message.
+
+    A mechanism is known by its linkage, as a motion by its displacements: their classes are on higher floors than some
+    of the functions that are given them.
+    """
+    if not hasattr(given, "linkage"):
+        example = "jk.load(file).mechanism(fixed=[...])"
+        raise ValueError(f"{what} are those of a mechanism, {example}, got {type(given).__name__}")
+
+
+def check_motion(given: Any, what: str) -> None:
+    """Raise ValueError for what is no motion; `what` is found of it, and begins the message."""
+    if not hasattr(given, "displacements"):
+        raise ValueError(f"{what} are those of a motion, mechanism.sweep(drive), got {type(given).__name__}")
+
+
+def by_name(given: Any, what: str, example: str) -> Mapping[Any, Any]:
+    """Return what was given if it is a mapping, else raise ValueError with an example."""
+    if not isinstance(given, Mapping):
+        raise ValueError(f"{what} are given by name, as in {example}, got {given!r}")
+    return given
+
+
+def several(given: Any, what: str, entries: str, example: str = "") -> tuple[Any, ...]:
+    """Return the entries of the list that the argument `what` is; ValueError for text and for what has no entries.
+
+    `entries` says what they should be; an `example` says it of those that are no names.
+    """
+    expected = f"{what} must be a list of {entries}{f', such as {example}' if example else ''}"
+    if isinstance(given, str):
+        advice = "" if example else f"; write {what}=[{given!r}]"
+        raise ValueError(f"{expected}, got the text {given!r}{advice}")
+    try:
+        return tuple(given)
+    except TypeError:
+        raise ValueError(f"{expected}, got {given!r}") from None
+
+
+def text(given: Any, what: str) -> str:
+    """Return what was given if it is text, else raise ValueError."""
+    if not isinstance(given, str):
+        raise ValueError(f"{what} must be text, got {given!r}")
+    return given
+
+
+def yes_or_no(given: Any, what: str) -> bool:
+    """Return what was given if it is True or False, else raise ValueError."""
+    if not isinstance(given, bool | np.bool_):
+        raise ValueError(f"{what} must be True or False, got {given!r}")
+    return bool(given)
+
+
+def numbers(given: Any, what: str, expected: str = "numbers") -> Any:
+    """Return an array of what was given, of JAX where it is traced, else of numpy; ValueError for what is no number.
+
+    None and text are none, although numpy makes numbers of them.
+    """
+    dtype = dtypes.canonicalize_dtype(float)
+    if traced(given):
+        return jnp.asarray(given, dtype)
+    try:
+        found = np.asarray(given)
+        if found.dtype.kind not in "biuf":
+            raise TypeError
+        return found.astype(dtype, copy=False)
+    except (TypeError, ValueError):
+        raise ValueError(f"{what} must be {expected}, got {given!r}") from None
+
+
+def one_number(given: Any, what: str, expected: str = "one finite number") -> Any:
+    """Return one finite number as an array without axes, else raise ValueError; a traced one is not looked at."""
+    found = numbers(given, what, expected)
+    if isinstance(given, bool) or found.shape != () or not (traced(found) or np.isfinite(found)):
+        raise ValueError(f"{what} must be {expected}, got {given!r}")
+    return found
+
+
+def whole_number(given: Any, what: str, least: int = 0) -> int:
+    """Return a whole number from `least` on, else raise ValueError."""
+    if isinstance(given, bool) or not isinstance(given, int | np.integer) or given < least:
+        raise ValueError(f"{what} must be a whole number, {least} or more, got {given!r}")
+    return int(given)
