@@ -31,6 +31,7 @@ from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
 from jaxkin.solve.system.chain_tables import Z_AXIS, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, rotation_matrix
 
 Rotation = Float[Array, "3 3 *poses"]
@@ -97,7 +98,8 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
         residual.append(misfit)
         rows.append(slopes)
     residual = jnp.concatenate(residual)
-    jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
+    slopes = jnp.concatenate([row.reshape(len(table.used), -1, poses) for row in rows], axis=1)
+    jacobian = scatter_rows(slopes, table.used, system.columns).swapaxes(0, 1)
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
 
 
