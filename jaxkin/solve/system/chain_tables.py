@@ -146,7 +146,7 @@ def chain_tables(system: LoopSystem) -> ChainTables:
 
 
 def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Compute `ChainTables.source` of all columns, and `repeats`, from the columns and the balls of all rows, both (rows, chains)."""
+    """Find `ChainTables.source` of all columns, and `repeats`, from columns and balls of all rows (rows, chains)."""
     length, chains = column.shape
     twists_a_row = _twists_a_row(system)
     source = np.full((system.columns, chains), twists_a_row * length, np.int32)
