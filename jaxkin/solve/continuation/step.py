@@ -61,7 +61,7 @@ coordinates change as the square root of the distance from the limit, so they ar
 SHORTEST_FIRST_STEP = 1e-10
 """Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
-"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`, since none is predicted."""
+"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`: none is predicted."""
 NEAR_LIMIT = 4 * SHORTEST_STEP
 """Largest distance, radians or characteristic lengths, from the last pose before a limit to a target that may still be
 on this side of the limit. The limit is about one refused step away; refused steps are shortened to a third
