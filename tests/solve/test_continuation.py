@@ -38,11 +38,10 @@ def pose(theta):
     return State(x, no_balls), State(slope, no_balls)
 
 
-def trail(state, tangent, before, before_tangent, width, earlier_tangent=None, earlier_width=None):
-    """The last two poses of a branch, or three."""
-    never = jnp.full_like(width, jnp.inf)
-    earlier = (before_tangent, never) if earlier_tangent is None else (earlier_tangent, earlier_width)
-    return Trail(state, tangent, before, before_tangent, width, *earlier)
+def trail(state, tangent, before, before_tangent, width, earlier=None):
+    """The last two poses of a branch; `earlier` is the slope of a third one and its distance from the second."""
+    older = (before_tangent, jnp.full_like(width, jnp.inf)) if earlier is None else earlier
+    return Trail(state, tangent, before, before_tangent, width, *older)
 
 
 def assert_order(errors, order):
@@ -118,7 +117,7 @@ def test_balls_are_predicted_by_slopes_alone_to_the_fourth_order():
     predict = jax.jit(
         lambda before: (
             predict_state(
-                trail(state, tangent, before, before_tangent, width, earlier_tangent, 1.5 * width), width, width < 0
+                trail(state, tangent, before, before_tangent, width, (earlier_tangent, 1.5 * width)), width, width < 0
             )[0].turns
         )
     )
