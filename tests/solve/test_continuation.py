@@ -40,8 +40,8 @@ def pose(theta):
 
 def trail(state, tangent, before, before_tangent, width, earlier=None):
     """The last two poses of a branch; `earlier` is the slope of a third one and its distance from the second."""
-    older = (before_tangent, jnp.full_like(width, jnp.inf)) if earlier is None else earlier
-    return Trail(state, tangent, before, before_tangent, width, *older)
+    slope, distance = (before_tangent, jnp.full_like(width, jnp.inf)) if earlier is None else earlier
+    return Trail(state, tangent, before, before_tangent, width, slope, distance)
 
 
 def assert_order(errors, order):
