@@ -31,6 +31,7 @@ from jaxkin.solve.closure.along_curves import along_curves
 from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
 from jaxkin.solve.system.chain_tables import Z_AXIS, ChainTables, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, rotation_matrix
 
 Rotation = Float[Array, "3 3 *poses"]
@@ -92,12 +93,13 @@ def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tupl
     residual += [*_of_loops(moved)]
     rows.append(twists[table.source[:, ends], 3:, ends])
     if table.rods.size:
-        misfit, slopes = _of_rods(table.rods, table.source, translation, twists)
+        misfit, slopes = _of_rods(table, translation, twists)
         squares += jnp.sum(misfit**2, axis=0)
         residual.append(misfit)
         rows.append(slopes)
     residual = jnp.concatenate(residual)
-    jacobian = jnp.concatenate([row.transpose(1, 2, 0, 3).reshape(-1, system.columns, poses) for row in rows])
+    slopes = jnp.concatenate([row.reshape(len(table.used), -1, poses) for row in rows], axis=1)
+    jacobian = scatter_rows(slopes, table.used, system.columns).swapaxes(0, 1)
     return residual, jacobian, jnp.sum(turned**2, axis=(0, 1, 2)), squares
 
 
@@ -129,14 +131,15 @@ def _of_loops(vectors: Float[Array, "3 loops poses"]) -> Float[Array, "loops 3 p
 
 
 def _of_rods(
-    rods: np.ndarray, source: np.ndarray, translation: Float[Array, "3 chains poses"], twists: Array
-) -> tuple[Float[Array, "rods poses"], Float[Array, "columns rods 1 poses"]]:
+    table: ChainTables, translation: Float[Array, "3 chains poses"], twists: Array
+) -> tuple[Float[Array, "rods poses"], Float[Array, "used rods 1 poses"]]:
     """Compute the difference between the lengths of both chains of each rod, and its derivatives."""
-    apart = translation[:, rods]
-    length = lengths(apart)
-    along = jnp.moveaxis(apart / length, 0, 2)
-    one, other = jnp.sum(along[:, None] * twists[source[:, rods], 3:, rods].swapaxes(0, 1), axis=3)
-    return length[0] - length[1], (one - other)[:, :, None]
+    length = lengths(translation)
+    # projected before they are gathered: a gather takes longer than the three products
+    along = jnp.sum(translation / length * twists[:, 3:], axis=1)
+    one, other = jnp.moveaxis(along[table.source[:, table.rods], table.rods], 1, 0)
+    first, second = table.rods
+    return length[first] - length[second], (one - other)[:, :, None]
 
 
 def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, Float[Array, "3 3 poses"]]:

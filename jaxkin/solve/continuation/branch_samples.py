@@ -21,9 +21,9 @@ from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
-from jaxkin.solve.linear.least_norm import scatter_rows
 from jaxkin.solve.status import Status, is_closed
 from jaxkin.solve.system.loop_system import LoopSystem
+from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, rate, retract, turning
 
 EXTRAPOLATED = 1e-3

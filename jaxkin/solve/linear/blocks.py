@@ -13,8 +13,9 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.gram import Matrix, Vector, column_products
-from jaxkin.solve.linear.least_norm import factor_normal_equations, scatter_rows
+from jaxkin.solve.linear.least_norm import factor_normal_equations
 from jaxkin.solve.system.equation_blocks import EquationBlock
+from jaxkin.solve.system.scatter import scatter_rows
 
 
 def solve_blocks(

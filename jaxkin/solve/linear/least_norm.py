@@ -24,6 +24,7 @@ from jaxkin.solve.linear.cholesky import factor_by_library, factor_cholesky
 from jaxkin.solve.linear.gauss_jordan import factor_gauss_jordan
 from jaxkin.solve.linear.gram import Damping, Matrix, Vector, mean_square
 from jaxkin.solve.linear.ldl import factor_entries, factor_ldl
+from jaxkin.solve.system.scatter import scatter_rows
 
 MAX_ALWAYS_UNROLLED_ROWS = 3
 """Largest number of rows that straight-line code solves for any number of poses: that of one planar loop."""
@@ -98,18 +99,6 @@ def _select_columns(jacobian: Matrix, used: Sequence[int]) -> Float[Array, "rows
 def _restore_columns(x: Array, used: Sequence[int], columns: int) -> Array:
     """Put zeros into x for the columns that `_select_columns` left out."""
     return x if len(x) == columns else scatter_rows(x, used, columns)
-
-
-def scatter_rows(found: Float[Array, "some *entries"], which: Sequence[int] | np.ndarray, number: int) -> Array:
-    """Put the rows `found` at the places `which` among `number` rows, zeros elsewhere.
-
-    The rows are gathered: XLA would write scattered rows one after another.
-    """
-    place = np.full(number, len(which))
-    place[list(which)] = np.arange(len(which))
-    if len(which) < number:
-        found = jnp.concatenate([found, jnp.zeros((1, *found.shape[1:]), found.dtype)])
-    return found if np.array_equal(place, np.arange(number)) else found[place]
 
 
 def factor_normal_equations(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:

@@ -111,9 +111,11 @@ class ChainTables(NamedTuple):
     cut_ball: np.ndarray
     cut_sign: np.ndarray
     source: np.ndarray
-    """(columns, chains): number of the twist that is the column of the Jacobian. Twists are numbered four a row (about
+    """(used, chains): number of the twist that is the column of the Jacobian. Twists are numbered four a row (about
     or along z, then the three of a ball), or one a row if the system has no balls. If the chain does not hold the
     coordinate, it is the number of twists, where a zero twist is appended."""
+    used: np.ndarray
+    """(used,): columns of the coordinates that any chain holds; the others are zero in the Jacobian of the loops."""
     repeats: np.ndarray
     """(3, repeats): number of the twist that `source` names for a coordinate, number of the twist of another row with
     the same coordinate, which is to be added to it, and their chain."""
@@ -135,17 +137,18 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     ended = np.array([chain.ends for chain in chains], np.int32).reshape(-1, len(ChainEnds._fields))
     ends = dict(zip(ChainEnds._fields, ended.T, strict=True))
     source, repeats = _sources(system, rows["column"], rows["ball"])
+    used = np.flatnonzero((source < _twists_a_row(system) * length).any(axis=1))
     quaternion = np.full(len(system.balls) + 1, len(system.turned_balls), np.int32)
     quaternion[list(system.turned_balls)] = np.arange(len(system.turned_balls))
     rows["ball"] = quaternion[rows["ball"]]
     rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
-    return ChainTables(**rows, **ends, source=source, repeats=repeats, rods=rods)
+    return ChainTables(**rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods)
 
 
 def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Compute `ChainTables.source` and `repeats` from the columns and the balls of all rows, both (rows, chains)."""
+    """Find `ChainTables.source` of all columns, and `repeats`, from columns and balls of all rows (rows, chains)."""
     length, chains = column.shape
-    twists_a_row = 4 if system.turned_balls else 1
+    twists_a_row = _twists_a_row(system)
     source = np.full((system.columns, chains), twists_a_row * length, np.int32)
     repeats = []
     for (row, chain), coordinate in np.ndenumerate(column):
@@ -160,6 +163,11 @@ def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[
             columns = system.balls[number]
             source[list(columns), chain] = 4 * row + 1 + np.arange(len(columns))
     return source, np.array(repeats, np.int32).reshape(-1, 3).T
+
+
+def _twists_a_row(system: LoopSystem) -> int:
+    """Count the twists of a row: one about or along z, and three more if the system has balls."""
+    return 4 if system.turned_balls else 1
 
 
 def _frames(system: LoopSystem) -> int:
