@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
-from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow
+from jaxkin.mechanism.known_motion import Follow, Inputs, KnownDrive, KnownMotion, derivatives, follow
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.topology.components import connected
 
@@ -38,42 +38,56 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     `rates` are first and second derivatives of the inputs. With u the one input and q what it moves, q' = dq/du u', and
     q'' is the derivative of dq/du along u', times u', plus dq/du u'': one pass yields all of them.
     """
-    place, moves = follow(drive, known), _moved(drive)
+    parts, moves = _independent(drive, known), _moved(drive)
 
     def along(inputs: Inputs) -> tuple[Rows, dict[str, Columns]]:
-        def by(chosen: dict[str, Any]) -> tuple[Rows, Rows]:
-            """The derivative by those of `chosen`, each so many times."""
-            own = {name: inputs[name] for name in chosen}
-            ones = {name: times * jnp.ones_like(inputs[name]) for name, times in chosen.items()}
-            return jax.jvp(lambda own: place(inputs | own), (own,), (ones,))
-
-        def columns(name: str, rows: Rows) -> Columns:
-            return {(joint, k): rows[joint][:, k] for joint, k in moves[name]}
-
-        if len(inputs) == 1:
-            (name,) = inputs
-            here, change = by({name: 1.0})
-            return here, {name: columns(name, change)}
+        rest = follow(drive._replace(loop_groups=()), known._replace(joints=()))(inputs)
+        here = {(joint, k): rows[:, k] for joint, rows in enumerate(rest) for k in range(rows.shape[1])}
         found = {name: {at: jnp.ones_like(inputs[name])} for name, (at, *more) in moves.items() if not more}
-        ties = [(each.inputs[0], other) for each in drive.loop_groups for other in each.inputs[1:]]
-        for group in connected([name for name in inputs if name not in found], ties):
-            names = sorted(group)
-            every = jax.vmap(lambda chosen, names=names: by(dict(zip(names, chosen, strict=True)))[1])(
-                jnp.eye(len(names))
-            )
-            found |= {name: columns(name, tuple(rows[k] for rows in every)) for k, name in enumerate(names)}
-        return place(inputs), {name: found[name] for name in inputs}
+        for names, place in parts:
+            own = {name: inputs[name] for name in names}
+
+            def by(times: Any, own=own, place=place) -> tuple[Rows, Rows]:
+                """The derivative by the inputs, each so many times."""
+                ones = {name: time * jnp.ones_like(own[name]) for name, time in zip(own, times, strict=True)}
+                return jax.jvp(place, (own,), (ones,))
+
+            if len(names) == 1:  # without a further axis
+                rows, change = by([1.0])
+                every = [change]
+            else:
+                rows, changes = jax.vmap(by, out_axes=(None, 0))(jnp.eye(len(names)))
+                every = [tuple(row[k] for row in changes) for k in range(len(names))]
+            for name, change in zip(names, every, strict=True):
+                found[name] = {(joint, k): change[joint][:, k] for joint, k in moves[name]}
+                here |= {(joint, k): rows[joint][:, k] for joint, k in moves[name]}
+        return _rows(here, rest), {name: found[name] for name in inputs}
 
     if rates is None:
         return Changes(*along(inputs))
     first, second = rates
     if len(inputs) > 1:
-        return Changes(*along(inputs), *derivatives(place, (inputs, first, second)))
+        return Changes(*along(inputs), *derivatives(follow(drive, known), (inputs, first, second)))
     (here, each), (_, again) = jax.jvp(along, (inputs,), (first,))
     (name,) = inputs
     velocity = {at: column * first[name] for at, column in each[name].items()}
     bent = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
     return Changes(here, each, _rows(velocity, here), _rows(bent, here))
+
+
+def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str], Follow]]:
+    """Cut a motion into parts that do not depend on each other: the inputs of each, and its displacements by these.
+
+    Inputs of one loop group belong together. Those that move no loop are left out.
+    """
+    ties = [(each.inputs[0], other) for each in drive.loop_groups for other in each.inputs]
+    found = []
+    for names in connected([name for each in drive.loop_groups for name in each.inputs], ties):
+        own = [number for number, each in enumerate(drive.loop_groups) if {*names} & {*each.inputs}]
+        driven = tuple(each for each in drive.driven if each[0] in names)
+        part = drive._replace(driven=driven, loop_groups=tuple(drive.loop_groups[number] for number in own))
+        found.append((sorted(names), follow(part, known._replace(joints=tuple(known.joints[n] for n in own)))))
+    return found
 
 
 def _moved(drive: KnownDrive) -> dict[str, list[tuple[int, int]]]:

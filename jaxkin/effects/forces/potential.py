@@ -14,18 +14,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
+from jaxkin._memory import once_for_each
+from jaxkin._traced import traced
 from jaxkin.effects.forces.masses import Masses
 from jaxkin.effects.forces.screws import Scale
 from jaxkin.geometry.elementary_motions import amount, displaced_columns
 from jaxkin.geometry.movements import MOVEMENTS, Movement
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.linkage.linkage import Linkage
+from jaxkin.solve.execution.compiler import whole_program
 
 Row = Sequence[Float[Array, "#poses"]]
 """A row of four numbers in each pose: three in the axes of a frame, and one for its origin."""
@@ -61,6 +65,24 @@ class Borne(NamedTuple):
     """The same mass times its centre, seen from where the row stands."""
 
 
+def borne_by(linkage: Linkage, masses: Masses) -> Borne:
+    """Return `borne`, found once for a linkage and its masses as long as both live, unless their numbers are traced."""
+    kept = _kept(masses)
+    if linkage in kept:
+        return kept[linkage]
+    found = _borne(linkage, masses)
+    if not traced(found):
+        kept[linkage] = found
+    return found
+
+
+@once_for_each
+def _kept(masses: Masses) -> WeakKeyDictionary[Linkage, Borne]:
+    """Keep what weights bear, by the linkage."""
+    del masses
+    return WeakKeyDictionary()
+
+
 def borne(linkage: Linkage, masses: Masses) -> Borne:
     """Refer the weights of all parts to the movements that carry them.
 
@@ -93,6 +115,9 @@ def borne(linkage: Linkage, masses: Masses) -> Borne:
     mass = jnp.zeros(moves.sum() + 1).at[row].add(masses.mass[own])
     moment = jnp.zeros((moves.sum() + 1, 3)).at[row].add(masses.mass[own, None] * centres)
     return Borne(enters[moves], mass, moment)
+
+
+_borne = whole_program(borne, static=())
 
 
 def potential(
