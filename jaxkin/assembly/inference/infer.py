@@ -26,6 +26,7 @@ from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, ti
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
@@ -85,6 +86,7 @@ def infer(
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
+    known.found += motor_shafts(known, fastening)
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
