@@ -95,11 +95,9 @@ def _is_slit(hole: Bore, pair: CommonAxis) -> bool:
     return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
 
 
-def _is_clamp(
-    known: Known, hole: Bore, pair: CommonAxis, pins: Collection[str], fastening: Collection[str]
-) -> bool:
-    """Tell whether a hole across a shaft is that of a screw that is not drawn, or holds a fastener beside the shaft that
-    is in nothing else."""
+def _is_clamp(known: Known, hole: Bore, pair: CommonAxis, pins: Collection[str], fastening: Collection[str]) -> bool:
+    """Tell whether a hole across a shaft is that of a screw: one that is not drawn, or a fastener beside the shaft that
+    is in no other part."""
     beside = _from_axis(hole, pair) > pair.one.radius
     hosts = {each.other.part for each in known.axes if each.one.part in pins and not each.virtual}
     return not pins or (beside and {*pins} <= {*fastening} and hosts <= {pair.other.part})

@@ -28,6 +28,7 @@ from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
+from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
@@ -98,6 +99,7 @@ def infer(
         known.add(added)
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
+    known.add(clamped_by_one_screw(known, every))
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
