@@ -37,7 +37,7 @@ from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
-from jaxkin.assembly.inference.standing import butting_pins, caps, embedded_pins, standing_rods
+from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -91,7 +91,6 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
-    known.add(caps(known))
     known.add(pressed_rings(known))
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
