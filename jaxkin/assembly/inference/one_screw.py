@@ -19,8 +19,6 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 THROUGH = 0.08
 """Clearance over the radius of a hole that a screw goes through, at least: M3 to M10 have 0.09 to 0.12 by ISO 273,
 hinges on screws less."""
-THROUGH_THREADED = 0.03
-"""The same where the screw is drawn thicker than its hole in the other part, as no pin of a hinge is."""
 
 
 def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference]:
@@ -38,10 +36,9 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
             tightest[pair.other.part] = pair
         for inner in (pair for pair in pairs if pair.other.part in stack.held and _is_tight(pair)):
             host = inner.other.part
-            least = THROUGH_THREADED if inner.threaded else THROUGH
             for part, pair in tightest.items():
                 apart = part in stack.held and body[part] != body[host] and pair.one.part == inner.one.part
-                through = pair.clearance >= least * pair.other.radius
+                through = pair.clearance >= THROUGH * pair.other.radius
                 if apart and through and lies_across(known, part, stack) and _lie_flat(known, part, host, inner):
                     found.append((part, inner, pair))
     partners: dict[str, set[str]] = {}
