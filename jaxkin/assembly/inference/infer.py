@@ -103,12 +103,13 @@ def infer(
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
     joined = hinges(known, fastening)
-    joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
+    guided = guided_on_faces(known)
+    joined += [*set_on_pins(known, joined), *guided]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.found += carriages(known)
     known.add(screwed_flat(known))
-    known.add(lying_on_one(known))
+    known.add(lying_on_one(known, guided))
     known.add(sunk_in_siblings(known))
     far = far_joints(known)
     known.add([each for each in far if each.joint is None])
