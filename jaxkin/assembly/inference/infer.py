@@ -29,6 +29,7 @@ from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
+from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
@@ -91,7 +92,7 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
-    known.add(pressed_rings(known))
+    known.add([*pressed_rings(known), *retaining_rings(known)])
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
     while added := bolted_bodies(known, every):
