@@ -27,13 +27,9 @@ MAX_OFFSET = 0.05
 """Distance of axes that count as one beside the clearance, over the radius."""
 _OTHER_RADIUS = 1.02
 """Radii of which one is larger by this factor are those of two surfaces, a pin and a sleeve on it."""
-SAME_RADIUS = 1e-3
-"""Radial clearance over the radius of the hole that is none."""
 MIN_ENGAGED = 0.05
 """Length of a pin in its hole, over the radius, at least: a pin that ends where a hole of the next part begins is not
 in it."""
-MIN_LAND = 0.08
-"""The same of a pin with play: a thinner disc, as that of a throttle, tilts in its bore and guides nothing."""
 MAX_GAP = 4.0
 """Equal bores farther apart along their axis, over the radius, have nothing to do with each other."""
 MAX_FAR = 20.0
@@ -143,8 +139,7 @@ def _fits(pair: CommonAxis, clearance: float | None) -> bool:
     loose, radius = pair.clearance, pair.other.radius
     centred = pair.offset <= max(loose, 0.0) + MAX_OFFSET * radius
     most = MAX_CLEARANCE * radius if clearance is None else clearance
-    least = MIN_LAND if loose > SAME_RADIUS * radius else MIN_ENGAGED
-    return -MAX_THREAD * radius <= loose <= most and centred and engaged(pair) > least * radius
+    return -MAX_THREAD * radius <= loose <= most and centred and engaged(pair) > MIN_ENGAGED * radius
 
 
 def _equal(pair: CommonAxis) -> bool:

@@ -54,7 +54,7 @@ def test_a_bar_on_one_screw_at_each_end_is_a_link(seed):
     drawn = assembly(base, link, other, screwed("screw"), screwed("end screw", (40.0, 0.0)), LEVER)
     body, mechanism = of(drawn, seed)
     assert len({body["base"], body["link"], body["other"]}) == 3
-    assert [joint.kind for joint in moving(mechanism)].count("revolute") == 3
+    assert [joint.kind for joint in moving(mechanism)].count("revolute") == 2
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -85,9 +85,9 @@ def test_screws_as_thin_as_their_root_clamp_what_their_heads_lie_on(seed):
 def test_a_screw_beside_the_shaft_clamps_a_round_hub(seed, link, held):
     """The pin of a link does not."""
     base = part("base", block((-60, -60, -140), (80, 80, -130)), ring(5.0, 12.0, -60, -40), ring(5.0, 12.0, 40, 60))
-    shaft = part("shaft", pin(5.0, -70, 70), block((-3, -30, 66), (3, 30, 70)))
-    hub = part("hub", ring(5.0, 12.0, -10, 10), across(ring(1.25, 1.3, -9, 9, (0.0, 7.0))))
-    screw = part("screw", across(pin(1.25, -9, 22 if link else 9, (0.0, 7.0))))
+    shaft = part("shaft", pin(5.0, -70, 70))
+    hub = part("hub", ring(5.0, 12.0, -10, 10), across(ring(1.25, 1.3, -8, 8, (0.0, 7.0))))
+    screw = part("screw", across(pin(1.25, -8, 22 if link else 8, (0.0, 7.0))))
     bar = part("bar", across(ring(1.3, 4.0, 14, 20, (0.0, 7.0))), block((14, 11, -3), (20, 50, 3)))
     body, _ = of(assembly(base, shaft, hub, screw, *([bar] if link else [])), seed)
     assert (body["hub"] == body["shaft"]) == held
@@ -98,7 +98,7 @@ def test_a_screw_beside_the_shaft_clamps_a_round_hub(seed, link, held):
 def test_a_slit_clamps_with_its_screw_but_not_with_a_quick_release(seed, lever, held):
     """The pin of a quick release is in its lever, too."""
     base = part("base", block((-60, -60, -140), (80, 80, -130)), ring(5.0, 12.0, -60, -40), ring(5.0, 12.0, 40, 60))
-    shaft = part("shaft", pin(5.0, -70, 70), block((-3, -30, 66), (3, 30, 70)))
+    shaft = part("shaft", pin(5.0, -70, 70))
     ears = [across(ring(1.5, 3.0, *sorted((s * 1.0, s * 8.0)), (0.0, 14.0))) for s in (1, -1)]
     hub = part("hub", ring(5.0, 12.0, -10, 10), *ears)
     screw = part("screw", across(pin(1.5, -8, 15 if lever else 8, (0.0, 14.0))))

@@ -1,4 +1,4 @@
-"""Tapered bearings, rings with screw holes, shafts of motors, retaining rings, discs in bores, rams, undercut rails.
+"""Tapered bearings, rings with screw holes, shafts of motors, retaining rings, rams, undercut rails.
 
 Each is drawn with a known truth; where it says a seed, at a place, a size and in an order at random.
 """
@@ -54,7 +54,7 @@ def test_a_tapered_roller_bearing_is_one_hinge(seed):
 def test_rings_with_screw_holes_are_those_of_a_bearing_with_its_rollers(seed):
     """As crossed roller bearings have them."""
     spots = [13.0 * np.array([np.cos(angle), np.sin(angle)]) for angle in np.arange(4) * np.pi / 2]
-    outer = part("outer", ring(10.6, 16.0, -4, 4), *(ring(1.0, 1.1, -4, 4, tuple(at)) for at in spots))
+    outer = part("outer", ring(10.6, 16.0, -4, 4), *(ring(1.0, 1.1, -4, 4, tuple(at))[2:3] for at in spots))
     inner = part("inner", ring(5.0, 7.4, -4, 4))
     around = [9.0 * np.array([np.cos(angle), np.sin(angle)]) for angle in np.arange(6) * np.pi / 3]
     rollers = [part(f"roller {k}", pin(1.4, -3, 3, tuple(at))) for k, at in enumerate(around)]
@@ -81,7 +81,7 @@ def test_a_pin_amid_screw_holes_with_a_hub_clamped_on_it_is_the_shaft_of_a_motor
     body, mechanism = of(assembly(motor, shaft, hub, screw, LEVER), seed)
     assert body["hub"] == body["shaft"]
     assert (body["shaft"] != body["base"]) == turns
-    assert sum(joint.kind == "revolute" for joint in moving(mechanism)) == 1 + turns
+    assert sum(joint.kind == "revolute" for joint in moving(mechanism)) == turns
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -90,18 +90,11 @@ def test_a_ring_that_springs_into_a_groove_goes_with_the_shaft(seed, end, kept):
     """In a groove that is five times as wide as the ring it is something else."""
     base = part("base", ring(5.0, 12.0, -20, 0), block((12, -60, -20), (80, 80, -10)), PIVOT)
     shaft = part("shaft", pin(5.0, -40, 10), pin(4.7, 10, end), pin(5.0, end, 40), block((-3, -30, 40), (3, 30, 44)))
-    clip = part("clip", ring(4.5, 7.0, 10.05, 11.05))
+    lug = [*ring(0.6, 0.7, 10.05, 11.05, (8.0, 0.0))[2:3], *block((6.5, -1.5, 10.05), (9.5, 1.5, 11.05))]
+    clip = part("clip", ring(4.5, 7.0, 10.05, 11.05), lug)
     body, _ = of(assembly(base, shaft, clip, LEVER), seed)
-    assert (body["clip"] == body["shaft"]) == kept != (body["shaft"] == body["base"])
-
-
-@pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(("length", "guided"), [(1.5, False), (8.0, True)])
-def test_a_thin_disc_with_play_guides_nothing_in_its_bore(seed, length, guided):
-    base = part("base", ring(24.0, 32.0, -30, 30), block((32, -60, -30), (80, 80, 0)), PIVOT)
-    disc = part("disc", pin(23.9, -length / 2, length / 2), block((-4, -4, length / 2), (4, 4, 20)))
-    _, mechanism = of(assembly(base, disc, LEVER), seed)
-    assert any(joint.name in ("base-disc", "disc-base") for joint in moving(mechanism)) == guided
+    assert (body["clip"] == body["shaft"]) == kept
+    assert body["shaft"] != body["base"]
 
 
 @pytest.mark.parametrize("seed", range(2))
