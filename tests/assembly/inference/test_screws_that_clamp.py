@@ -54,7 +54,7 @@ def test_a_bar_on_one_screw_at_each_end_is_a_link(seed):
     drawn = assembly(base, link, other, screwed("screw"), screwed("end screw", (40.0, 0.0)), LEVER)
     body, mechanism = of(drawn, seed)
     assert len({body["base"], body["link"], body["other"]}) == 3
-    assert [joint.kind for joint in moving(mechanism)].count("revolute") == 2
+    assert sum(joint.kind == "revolute" for joint in moving(mechanism)) == 2
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -107,10 +107,10 @@ def test_a_slit_clamps_with_its_screw_but_not_with_a_quick_release(seed, lever, 
     assert (body["hub"] == body["shaft"]) == held
 
 
-@pytest.mark.parametrize(("hole", "is_one"), [(across(ring(1.5, 1.6, -4.7, 4.7)), True), (None, False)])
-def test_a_hole_across_a_pin_is_that_of_a_cotter_and_one_beside_it_that_of_a_flange(hole, is_one):
-    collar = pin(8.0, -4, 0) if is_one else pin(14.0, -4, 0)
-    headed = part("headed", pin(5.0, 0, 30), collar, hole or ring(1.5, 1.6, -4, 0, (10.0, 0.0)))
+@pytest.mark.parametrize("is_one", [True, False])
+def test_a_hole_across_a_pin_is_that_of_a_cotter_and_one_beside_it_that_of_a_flange(is_one):
+    hole = across(ring(1.5, 1.6, -4.7, 4.7)) if is_one else ring(1.5, 1.6, -4, 0, (10.0, 0.0))
+    headed = part("headed", pin(5.0, 0, 30), pin(14.0, -4, 0), hole)
     plate = part("plate", ring(5.1, 20.0, 5, 15))
     every = {each.name: bores(each) for each in (headed, plate)}
     found = common_axes([bore for own in every.values() for bore in own])
