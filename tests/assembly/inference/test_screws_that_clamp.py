@@ -99,7 +99,7 @@ def test_a_slit_clamps_with_its_screw_but_not_with_a_quick_release(seed, lever, 
     """The pin of a quick release is in its lever, too."""
     base = part("base", block((-60, -60, -140), (80, 80, -130)), ring(5.0, 12.0, -60, -40), ring(5.0, 12.0, 40, 60))
     shaft = part("shaft", pin(5.0, -70, 70))
-    ears = [across(ring(1.5, 3.0, *sorted((s * 1.0, s * 8.0)), (0.0, 14.0))) for s in (1, -1)]
+    ears = [across(ring(1.5, 3.0, low, low + 7, (0.0, 14.0))) for low in (-8, 1)]
     hub = part("hub", ring(5.0, 12.0, -10, 10), *ears)
     screw = part("screw", across(pin(1.5, -8, 15 if lever else 8, (0.0, 14.0))))
     cam = part("cam", across(ring(1.6, 4.0, 9, 13, (0.0, 14.0))), block((9, 18, -3), (13, 60, 3)))
