@@ -123,11 +123,11 @@ def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
 def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     """Find the direction in which a part slides between faces of others that slant, and its largest play across.
 
-    The faces along that direction look outwards all round, as two flanks of a dovetail and its top do, so that they
-    leave little room between them.
+    The faces along that direction look outwards all round, as two flanks of a dovetail and its top do, and leave
+    little room for what is between them.
     """
     looking = facing(one, others)
-    held, corners = walls(looking), one.triangles.reshape(-1, 3)
+    held, middle = walls(looking), one.box.mean(axis=0)
     for k, (first, _, _) in enumerate(looking):
         for second, _, _ in looking[:k]:
             axis = np.cross(first, second)
@@ -137,8 +137,10 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
                 continue
             across = np.column_stack([first, np.cross(axis, first)])
-            room = _room([(normal @ across, gap) for normal, gap, _ in looking if abs(normal @ axis) < ACROSS])
-            if room is not None and np.all(room <= MAX_PLAY * np.ptp(corners @ across, axis=0)):
+            along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
+            room = _room([(normal @ across, gap) for normal, gap, _ in along])
+            width = _room([(normal @ across, place - normal @ middle) for normal, _, place in along])
+            if room is not None and width is not None and np.all(room <= MAX_PLAY * width):
                 return axis, float(room.max())
     return None
 
@@ -159,6 +161,6 @@ def _room(faces: Sequence[tuple[Vector, float]]) -> Vector | None:
         for j in range(i)
         if abs(np.linalg.det(normals[[i, j]])) > MIN_SLANT
     ]
-    slack = ACROSS * float(gaps.max())
+    slack = ACROSS * float(np.abs(gaps).max())
     corners = [shift for shift in met if np.all(normals @ shift <= gaps + slack)]
     return np.ptp(corners, axis=0) if corners else None
