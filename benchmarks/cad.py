@@ -33,6 +33,7 @@ import numpy as np
 
 import jaxkin as jk
 from jaxkin.assembly.assembly import Assembly
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mobility.loop_freedoms import loop_freedoms
 from jaxkin.topology.bodies import bodies
@@ -42,6 +43,9 @@ MAX_ANGLE, MAX_OFFSET = 1e-3, 1e-4
 METRE = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "in": 0.0254, "inch": 0.0254}
 COORDINATES = {"Weld": set(), "Revolute": {"phi"}, "Prismatic": {"z"}, "Cylindrical": {"z", "phi"}}
 VERDICTS = ("right", "idle", "other", "missed")
+BY_CONTACTS = "by exact contacts"
+"""How a verdict ends of a joint that is other than meant, and that exact contacts determine: nothing is inferred of
+it."""
 
 
 def true_mechanism(data: Mapping[str, Any]) -> Mechanism:
@@ -85,6 +89,11 @@ def bodies_of(mechanism: Mechanism) -> dict[str, str]:
     return {part: body for body, parts in mechanism.bodies.items() for part in parts}
 
 
+def by_contacts(joint: jk.Joint) -> bool:
+    """Tell whether exact contacts determine a joint."""
+    return joint.evidence is not None and joint.evidence.kind == EvidenceKind.CONTACT
+
+
 def verdict(label: Mapping[str, Any], found: Mechanism, idle: set[str], truly_idle: set[str], scale: float) -> str:
     """Judge a labelled pair by the joint of its bodies."""
     body = bodies_of(found)
@@ -95,17 +104,18 @@ def verdict(label: Mapping[str, Any], found: Mechanism, idle: set[str], truly_id
     between = [each for each in found.all_joints if {body[part] for part in each.parts} == {a, b}]
     if not between:
         return "missed"
+    other = f"other: {BY_CONTACTS}" if all(map(by_contacts, between)) else "other"
     if len(between) > 1 or between[0].kind not in ("revolute", "cylindrical", "prismatic"):
-        return "other"
+        return other
     joint, got = between[0], set(between[0].coordinates)
     more = {name for name in got - wanted if f"{joint.name}.{name}" in idle}
     if not wanted:
-        return "idle" if more == got else "other"
+        return "idle" if more == got else other
     if not same_axis(label, joint, scale, "phi" in wanted | got):
-        return "other"
+        return other
     if got == wanted:
         return "right"
-    return "idle" if got - wanted <= more and wanted - got <= truly_idle else "other"
+    return "idle" if got - wanted <= more and wanted - got <= truly_idle else other
 
 
 def same_axis(label: Mapping[str, Any], joint: jk.Joint, scale: float, turns: bool) -> bool:
@@ -192,7 +202,7 @@ def row(path: Path, verbose: bool) -> str:
     counts = Counter()
     if data:
         verdicts = judged(data, mechanism, METRE[assembly.unit])
-        counts = Counter(verdicts)
+        counts = Counter(each.split(":")[0] for each in verdicts)
         if verbose:
             pairs = [(v, each) for v, each in zip(verdicts, data["joints"], strict=True) if v not in ("right", "idle")]
             for v, each in pairs:

@@ -2,8 +2,8 @@
 
 Each kind of `benchmarks/drawings` is drawn at sizes, with plays, at a place and in an order at random, written as a
 STEP file, in millimetres or inches, read, and its joints are held against those that were meant. Verdicts are those of
-`benchmarks/cad.py`; a joint that is other than meant contradicts the truth, one that is missed does not. Where exact
-contacts alone make it so, as of a stud that fits its hole and may turn in it, nothing was inferred, and that is said.
+`benchmarks/cad.py`; a joint that is other than meant contradicts the truth, one that is missed does not. Of these some
+are joints that exact contacts determine, which no inference may change: they are counted apart.
 
     python benchmarks/drawn.py [KIND...] [--seeds 0,1] [--verbose]
 """
@@ -18,13 +18,11 @@ from time import perf_counter
 from typing import NamedTuple
 
 import numpy as np
-from cad import COORDINATES, METRE, VERDICTS, bodies_of, useless
+from cad import BY_CONTACTS, COORDINATES, METRE, VERDICTS, bodies_of, by_contacts, useless
 from drawings.drawing import KINDS, Drawing, TrueJoint, write
 
 import jaxkin as jk
 
-BY_CONTACTS = ", by exact contacts"
-"""End of the verdict on a joint of which nothing was inferred."""
 MAX_ANGLE, MAX_OFFSET = 1e-3, 0.1
 """Radians and millimetres between axes that are the same, as of `benchmarks/cad.py`."""
 
@@ -71,9 +69,9 @@ def verdict(wanted: TrueJoint, found: jk.Mechanism, idle: set[str], truly_idle: 
     if not between:
         return "missed"
     told = [_of_one(wanted, joint, coordinates, idle, truly_idle, place) for joint in between]
-    found_so = told[0] if len({*told}) == 1 else f"other: {len(between)} joints"
-    exact = found_so.startswith("other") and all(joint.evidence.kind == "contact" for joint in between)
-    return found_so + BY_CONTACTS if exact else found_so
+    judged = told[0] if len({*told}) == 1 else f"other: {len(between)} joints"
+    exact = judged.startswith("other") and all(by_contacts(joint) for joint in between)
+    return f"{judged} {BY_CONTACTS}" if exact else judged
 
 
 def _of_one(
@@ -144,6 +142,7 @@ def tried(name: str, seed: int, folder: Path, verbose: bool) -> Counter:
     seconds = perf_counter() - begun
     verdicts = judged(drawing, mechanism, Place(turn, shift, 1e-3 / METRE[assembly.unit]))
     counts = Counter(each.split(":")[0] for each in verdicts)
+    counts[BY_CONTACTS] = sum(each.endswith(BY_CONTACTS) for each in verdicts)
     useful, meant = mechanism.mobility().useful, true_mechanism(drawing).mobility().useful
     cells = "".join(f"{counts[each]:8}" for each in VERDICTS)
     print(f"{name:28}{len(drawing.parts):5}{cells}{useful:8} of {meant}{seconds:8.1f}", flush=True)
@@ -152,7 +151,6 @@ def tried(name: str, seed: int, folder: Path, verbose: bool) -> Counter:
             print(f"      {each}, where {' and '.join(joint.parts)} have a {joint.kind}")
     if verbose:
         print(mechanism)
-    counts["exact"] = sum(each.endswith(BY_CONTACTS) for each in verdicts)
     counts["freedoms"], counts["kinds"] = int(useful == meant), 1
     return counts
 
@@ -173,11 +171,9 @@ def main() -> None:
                 total += tried(name, seed, Path(folder), said.verbose)
     joints = sum(total[each] for each in VERDICTS)
     said_of = ", ".join(f"{total[each]} {each}" for each in VERDICTS)
-    inferred = total["other"] - total["exact"]
-    print(
-        f"{joints} joints: {said_of}; {100 * total['other'] / joints:.1f} % contradict the truth, "
-        f"{100 * inferred / joints:.1f} % by what was inferred and not by exact contacts"
-    )
+    print(f"{joints} joints: {said_of}; {100 * total['other'] / joints:.1f} % contradict the truth")
+    inferred = total["other"] - total[BY_CONTACTS]
+    print(f"{inferred} of them are inferred ({100 * inferred / joints:.1f} %), the others are those of exact contacts")
     print(f"{total['freedoms']} of {total['kinds']} have the right number of useful freedoms")
 
 

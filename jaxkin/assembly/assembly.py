@@ -106,7 +106,7 @@ class Assembly:
         - `infer`: without it contacts that are exact are all, as in the paper; parts that they tie to nothing are
           refused. Neither is anything inferred with `combine=False`.
         - `clearance`: the largest radial clearance of a pin that is inferred to be in its hole, in the unit of the
-          assembly; by default a quarter of the radius.
+          assembly; by default 0.29 of the radius.
         - `align`: the largest misalignment, in radians or over the size, that is taken for rounding: see
           `Mechanism.build`. What files in single precision leave is taken out in any case.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from jaxkin.assembly.caps import told_caps
 from jaxkin.assembly.guides import is_guide
 from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.bores import NEAR_ANGLE
@@ -85,7 +86,8 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
     unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
-    return unlocked or _counted(mechanism, found)
+    told = unlocked or _counted(mechanism, found)
+    return replace(told, history=(*told_caps(told), *told.history))
 
 
 def _choices(lying: Sequence[Inference]) -> list[Sequence[Inference]]:

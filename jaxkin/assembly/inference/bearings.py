@@ -11,7 +11,8 @@ from scipy.sparse.csgraph import connected_components
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.bores import Bore
-from jaxkin.geometry.part import Part
+from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.surfaces import Cone
 
 THICKEST = 0.45
 """Radius of the inner ring over that of the hole of the outer one, at least: rings of catalogues have 0.6 to 0.9, and
@@ -24,6 +25,9 @@ ROLLING = 3
 """Balls or rollers that centre a ring, at least."""
 SLACK = 0.05
 """Play that parts between two rings have beyond the section of the rings, over the radius of the outer one."""
+MAX_TAPER = np.deg2rad(35.0)
+"""Half angle of the raceway of a tapered roller bearing, at most: those of catalogues have 10 to 30 degrees, chamfers
+have 45."""
 
 
 class Bearing(NamedTuple):
@@ -58,7 +62,7 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
     `bores` are the bores and pins of each part by its name.
     """
-    rings = [ring for part in parts if (ring := _ring(part, bores[part.name])) is not None]
+    rings = [ring for part in parts if (ring := _ring(part, [*bores[part.name], *_tapered(part)])) is not None]
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
     coaxial = {ring.part.name for ring in rings}
     inside = [[part for part in parts if part not in (a.part, b.part) and _between(part, a, b)] for a, b in nested]
@@ -112,6 +116,21 @@ def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
         return None
     away, _ = _section(part, outside)
     return _Ring(part, hole, outside, about, not beside) if away.max() <= ROUND * outside.radius else None
+
+
+def _tapered(part: Part) -> list[Bore]:
+    """Find the conical raceways of a part, each as a hole of its least radius, or as a pin of its largest one."""
+    cones = [(face, face.surface) for face in part.faces if isinstance(face.surface, Cone)]
+    return [_raceway(part, face, cone) for face, cone in cones if cone.half_angle <= MAX_TAPER]
+
+
+def _raceway(part: Part, face: Face, cone: Cone) -> Bore:
+    heights = (face.triangles.reshape(-1, 3) - cone.apex) @ cone.axis
+    low, high = float(heights.min()), float(heights.max())
+    middle, half, hole = (low + high) / 2, (high - low) / 2, cone.side < 0
+    radius = (low if hole else high) * float(np.tan(cone.half_angle))
+    point = cone.apex + middle * cone.axis
+    return Bore(part.name, (face.name,), point, cone.axis, radius, hole, half, ((-half, half),))
 
 
 def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:

@@ -62,8 +62,9 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
         filled = shared_length(pair.one, pair.other) >= FILLED * 2 * pair.other.half
-        empty = any(id(bore) not in inside for bore in across)
-        if slit or (fitted and (screws or (alone and filled and empty))):
+        # what is in a hole across a round hub is its screw, unless it is a pin on which others turn
+        clamps = any(_is_clamp(known, bore, pair, inside.get(id(bore), ()), fastening) for bore in across)
+        if slit or (fitted and (screws or (alone and filled and clamps))):
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
             what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
@@ -92,6 +93,14 @@ def _is_slit(hole: Bore, pair: CommonAxis) -> bool:
     radius, apart = pair.one.radius, _from_axis(hole, pair)
     gaps = [low - high for (_, high), (low, _) in pairwise(hole.spans)]
     return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
+
+
+def _is_clamp(known: Known, hole: Bore, pair: CommonAxis, pins: Collection[str], fastening: Collection[str]) -> bool:
+    """Tell whether a hole across a shaft is that of a screw: one that is not drawn, or a fastener beside the shaft that
+    is in no other part."""
+    beside = _from_axis(hole, pair) > pair.one.radius
+    hosts = {each.other.part for each in known.axes if each.one.part in pins and not each.virtual}
+    return not pins or (beside and {*pins} <= {*fastening} and hosts <= {pair.other.part})
 
 
 def _is_released(known: Known, pins: Collection[str], others: Collection[str]) -> bool:

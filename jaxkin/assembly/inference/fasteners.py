@@ -63,7 +63,8 @@ def _without_cotters(own: Sequence[Bore]) -> list[Bore]:
 
 def _on_one_axis(own: Sequence[Bore], every: Sequence[Bore]) -> bool:
     least = MAX_CROSS * min(bore.radius for bore in own)
-    across = [bore for bore in every if bore.radius > least and bore not in own]
+    # holes along the axis, however small, are those of a flange
+    across = [bore for bore in every if bore not in own and (bore.radius > least or parallel(bore, own[0]))]
     return all(bore.on_axis_of(own[0], SAME_ANGLE, SAME_LENGTH) for bore in (*own[1:], *across))
 
 

@@ -1,14 +1,18 @@
-"""Pins that heads, nuts or rings keep on both ends, as rivets and clevis pins: they hold links, and guide nothing."""
+"""Heads of pins: on both ends, as of rivets and clevis pins, or on what a screw clamps: these hold, and guide
+nothing."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from jaxkin.assembly.inference.fasteners import Stack
+from jaxkin.assembly.inference.axes import apart, shared_length
+from jaxkin.assembly.inference.bores import Bore, merged, shared
+from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints.evidence import EvidenceKind
 
 NEAR = 1.0
 """Distance of heads from the outermost holes, over the radius of the pin, at most: with a washer that is not drawn."""
@@ -50,3 +54,38 @@ def is_headed(known: Known, stack: Stack) -> bool:
     slack = NEAR * radius
     below, above = heights[heights <= low + slack], heights[heights >= high - slack]
     return bool(len(below) and len(above) and below.max() >= low - slack and above.min() <= high + slack)
+
+
+def is_exposed(known: Known, stack: Stack) -> bool:
+    """Tell whether most of the pins of a stack is in nothing, so that something may slide on it.
+
+    What is drawn into the material of others is inside, and so is what is in a hole, however wide, of a part that the
+    head lies on: screws are drawn as thin as the root of their thread.
+    """
+    along, own = stack.axis.axis, {*stack.fasteners}
+    pairs = [pair for pair in known.axes if not pair.virtual and pair.one.part in own]
+    if not pairs:
+        return stack.guides
+    pins = [
+        bore for part in stack.fasteners for bore in known.bores[part] if not bore.hole and bore.on_axis_of(stack.axis)
+    ]
+    wide = [
+        hole
+        for part in stack.held
+        if lies_across(known, part, stack)
+        for hole in known.bores[part]
+        if hole.hole and any(goes_through(pin, hole) for pin in pins)
+    ]
+    covered = merged(span for hole in (*(pair.other for pair in pairs), *wide) for span in hole.spans_along(along))
+    lengths = merged(span for pair in pairs for span in pair.one.spans_along(along))
+    inside = max(shared(lengths, covered), 0.0)
+    for each in known.found:
+        if each.evidence.kind is EvidenceKind.ENCLOSED and own & {*each.parts}:
+            inside += dict(each.evidence.sizes).get("depth", 0.0)
+    return sum(high - low for low, high in lengths) - inside > MAX_EXPOSED * inside
+
+
+def goes_through(pin: Bore, hole: Bore) -> bool:
+    """Tell whether a pin goes through a hole that may be wider and beside it, as that of an eccentric round the pin."""
+    offset, tilt = apart(pin, hole)
+    return tilt < ACROSS and offset + pin.radius < hole.radius and shared_length(pin, hole) > hole.half

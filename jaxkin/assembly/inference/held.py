@@ -6,14 +6,14 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis, apart, engaged, shared_length
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
-from jaxkin.assembly.inference.heads import is_headed, lies_across
+from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, WIDER, nearest, play
+from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, WIDER, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
@@ -25,7 +25,8 @@ STICKS_OUT = 2.0
 
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
-    """Find the stacks with the parts that their fasteners are one body with already: these hold them, too."""
+    """Find the stacks with the parts that their fasteners are one body with already: these hold them, too; and whether
+    they guide something, now that it is known what they are drawn into."""
     body, members = known.body, {}
     for part in known.names:
         members.setdefault(body[part], []).append(part)
@@ -33,7 +34,7 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
     for stack in every:
         hosts = {part for each in stack.fasteners for part in members[body[each]]} - {*stack.fasteners}
         held = sorted({*stack.held, *hosts}, key=known.order.__getitem__)
-        result.append(Stack(stack.fasteners, tuple(held), stack.axis, stack.guides))
+        result.append(Stack(stack.fasteners, tuple(held), stack.axis, stack.guides and is_exposed(known, stack)))
     return result
 
 
@@ -181,15 +182,9 @@ def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | No
         if part not in on
         and body[part] not in bushed
         and lies_across(known, part, stack)
-        and any(_goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
+        and any(goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
     ]
     return found[0] if len({body[part] for part in found}) == 1 else None
-
-
-def _goes_through(pin: Bore, hole: Bore) -> bool:
-    """Tell whether a pin goes through a hole that may be wider and beside it, as that of an eccentric round the pin."""
-    offset, tilt = apart(pin, hole)
-    return tilt < ACROSS and offset + pin.radius < hole.radius and shared_length(pin, hole) > hole.half
 
 
 def _goes_on(known: Known, stack: Stack, low: float, high: float) -> bool:

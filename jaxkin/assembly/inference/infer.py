@@ -26,7 +26,10 @@ from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, ti
 from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
+from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
+from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
@@ -35,7 +38,7 @@ from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
-from jaxkin.assembly.inference.standing import butting_pins, caps, embedded_pins, standing_rods
+from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -85,27 +88,29 @@ def infer(
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
     known.add(screwed_in(known, fastening))
+    known.found += motor_shafts(known, fastening)
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
-    known.add(caps(known))
-    known.add(pressed_rings(known))
+    known.add([*pressed_rings(known), *retaining_rings(known)])
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
     while added := bolted_bodies(known, every):
         known.add(added)
     known.add(attached_fasteners(known, every))
     known.add(screwed_bodies(known, every))
+    known.add(clamped_by_one_screw(known, every))
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
     joined = hinges(known, fastening)
-    joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
+    guided = guided_on_faces(known)
+    joined += [*set_on_pins(known, joined), *guided]
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.found += carriages(known)
     known.add(screwed_flat(known))
-    known.add(lying_on_one(known))
+    known.add(lying_on_one(known, guided))
     known.add(sunk_in_siblings(known))
     far = far_joints(known)
     known.add([each for each in far if each.joint is None])

@@ -37,7 +37,7 @@ def loose_slides(known: Known) -> list[Inference]:
             owners = frozenset((body[part.name], owner))
             if len(owners) < 2 or owners in tied:
                 continue
-            found = _slide(part, others)
+            found = _slide(part, others) or _dovetail(part, others)
             if found is not None:
                 axis, play = found
                 parts = tuple(sorted((part.name, others[0].name), key=known.order.__getitem__))
@@ -118,3 +118,49 @@ def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
             if ahead + behind <= MAX_PLAY * width:
                 return axis, max(play, ahead + behind)
     return None
+
+
+def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
+    """Find the direction in which a part slides between faces of others that slant, and its largest play across.
+
+    The faces along that direction look outwards all round, as two flanks of a dovetail and its top do, and leave
+    little room for what is between them.
+    """
+    looking = facing(one, others)
+    held, middle = walls(looking), one.box.mean(axis=0)
+    for k, (first, _, _) in enumerate(looking):
+        for second, _, _ in looking[:k]:
+            axis = np.cross(first, second)
+            if np.linalg.norm(axis) <= MIN_SLANT:
+                continue
+            axis /= np.linalg.norm(axis)
+            if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
+                continue
+            across = np.column_stack([first, np.cross(axis, first)])
+            along = [each for each in looking if abs(each[0] @ axis) < ACROSS]
+            room = _room([(normal @ across, gap) for normal, gap, _ in along])
+            width = _room([(normal @ across, place - normal @ middle) for normal, _, place in along])
+            if room is not None and width is not None and np.all(room <= MAX_PLAY * width):
+                return axis, float(room.max())
+    return None
+
+
+def _room(faces: Sequence[tuple[Vector, float]]) -> Vector | None:
+    """Measure how far a part can move to and fro along two directions between faces in their plane, by normals and
+    gaps; None where some way is open.
+
+    The part can be where normal @ shift <= gap for each face: a polygon, whose corners are shifts that meet two faces.
+    """
+    angles = np.sort([np.arctan2(normal[1], normal[0]) for normal, _ in faces])
+    if np.diff(angles, append=angles[0] + 2 * np.pi).max() >= np.pi - MIN_SLANT:
+        return None
+    normals, gaps = np.array([normal for normal, _ in faces]), np.array([gap for _, gap in faces])
+    met = [
+        np.linalg.solve(normals[[i, j]], gaps[[i, j]])
+        for i in range(len(faces))
+        for j in range(i)
+        if abs(np.linalg.det(normals[[i, j]])) > MIN_SLANT
+    ]
+    slack = ACROSS * float(np.abs(gaps).max())
+    corners = [shift for shift in met if np.all(normals @ shift <= gaps + slack)]
+    return np.ptp(corners, axis=0) if corners else None

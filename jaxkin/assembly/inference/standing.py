@@ -6,13 +6,11 @@ from collections.abc import Collection
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER
-from jaxkin.contacts.contact import Contact
+from jaxkin.assembly.inference.sleeves import is_round_about
+from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -87,40 +85,3 @@ def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
             result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
     return result
-
-
-def caps(known: Known) -> list[Inference]:
-    """Find parts on the end of a pin, which fits their blind hole exactly and stands on its floor, that nothing else
-    holds: knobs, grips, pans and feet, which are pressed on or glued there. A hinge goes through, or has play."""
-    body, beside = known.body, dict[str, set[str]]()
-    related = (*known.touching, *known.by_hand, *(pair.parts for pair in known.axes))
-    for one, other in ((body[one], body[other]) for one, other in map(tuple, related)):
-        beside.setdefault(one, set()).add(other)
-        beside.setdefault(other, set()).add(one)
-    result = []
-    for pair in known.axes:
-        pin, cap = pair.parts
-        owners = {body[pin], body[cap]}
-        exact = frozenset(pair.parts) in known.pinned and abs(pair.clearance) <= SAME_FIT * pair.other.radius
-        if pair.virtual or not exact or beside[body[cap]] - owners or cap in known.fixed or len(owners) < 2:
-            continue
-        floors = [_on_floor(known, pair, contact) for contact in known.contacts if {*contact.parts} == {pin, cap}]
-        flat = [each for each in floors if each is not None]
-        if flat and all(flat):
-            text = f"{cap!r} is a cap on the end of {pin!r}, and nothing else holds it"
-            parts = tuple(sorted((pin, cap), key=known.order.__getitem__))
-            result.append(Inference(parts, Evidence(EvidenceKind.ENCLOSED, (), text)))
-    return result
-
-
-def _on_floor(known: Known, pair: CommonAxis, contact: Contact) -> bool | None:
-    """Tell whether a contact is that of the end of a pin with the floor of its hole; None for a contact that is not
-    flat."""
-    plane = contact.surfaces[0]
-    if not contact.contact_state.is_flat or not isinstance(plane, Plane):
-        return None
-    name = contact.faces[contact.parts.index(pair.one.part)]
-    face = next(face for face in known.solids[pair.one.part].faces if face.name == name)
-    corners = face.triangles.reshape(-1, 3) - pair.one.point
-    away = np.linalg.norm(np.cross(corners, pair.one.axis), axis=1).max()
-    return bool(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS and away <= WIDER * pair.one.radius)

@@ -1,0 +1,67 @@
+"""Shafts of motors: pins drawn into the material of a housing, amid its screw holes, with a hub clamped on them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.standing import embedded_pins
+from jaxkin.geometry.pose import Vector
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MIN_SCREWS = 2
+"""Screw holes of the flange of a motor round its shaft, at least."""
+
+
+def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Make revolute joints of pins that stand in the material of a housing and carry a hub.
+
+    The screw holes of the housing are round about the pin, and the hub is one body with the pin: clamped on a pin that
+    does not turn, it would be of no use.
+    """
+    body, result = known.body, []
+    for each in embedded_pins(known, fastening):
+        for shaft, housing in (each.parts, each.parts[::-1]):
+            if shaft not in fastening or shaft in known.fixed:
+                continue
+            pin = max((bore for bore in known.bores[shaft] if not bore.hole), key=lambda bore: bore.half)
+            hubs = [part for part in known.names if body[part] == body[shaft] and part not in fastening]
+            around = _screw_holes(known.bores[housing], pin)
+            if not hubs or body[housing] == body[shaft] or len(around) < MIN_SCREWS:
+                continue
+            text = f"{each.evidence.text}, amid {len(around)} screw holes, and carries {hubs[0]!r}: a shaft"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (*each.evidence.sizes, ("radius", pin.radius)), text)
+            parts = (housing, shaft)
+            joint = pairs.revolute("-".join(parts), *parts, point=pin.point, axis=pin.axis)
+            result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+    return result
+
+
+def _screw_holes(own: Sequence[Bore], pin: Bore) -> list[Bore]:
+    """Find the most equal holes along a pin that are as far from its axis, and whose middle is on it."""
+    along = [bore for bore in own if bore.hole and np.linalg.norm(np.cross(bore.axis, pin.axis)) <= SAME_ANGLE]
+    patterns = []
+    for first in along:
+        away = np.linalg.norm(_offset(first, pin))
+        some = [
+            bore
+            for bore in along
+            if abs(bore.radius - first.radius) <= SAME_LENGTH * first.radius
+            and abs(np.linalg.norm(_offset(bore, pin)) - away) <= NEAR_LENGTH * away
+        ]
+        middle = np.mean([_offset(bore, pin) for bore in some], axis=0)
+        if away > pin.radius + first.radius and np.linalg.norm(middle) <= NEAR_LENGTH * away:
+            patterns.append(some)
+    return max(patterns, key=len, default=[])
+
+
+def _offset(bore: Bore, pin: Bore) -> Vector:
+    """Measure how far a hole is from the axis of a pin, across it."""
+    offset = bore.point - pin.point
+    return offset - (offset @ pin.axis) * pin.axis
