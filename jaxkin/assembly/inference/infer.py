@@ -12,6 +12,7 @@ from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
+from jaxkin.assembly.inference.feathers import feathers
 from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -66,6 +67,9 @@ def infer(
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
     known.add(bearing_bodies(known, rolling))
     known.add(clamped_on_rings(known, rolling))
+    guided = feathers(known)
+    known.add([each for each in guided if each.joint is None])
+    known.found += [each for each in guided if each.joint]
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
     known.add(collets(known))
