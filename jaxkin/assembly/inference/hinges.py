@@ -75,9 +75,11 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         return [_guided(known, pair)]
     if not any(pins):
         one, other = (known.solids[part] for part in pair.parts)
-        if turns(one, other, pair.other.point, pair.one.axis) <= MIN_TURN:
+        if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
-    return _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    found = _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    stopped = any(across) or any(each.stop is Stop.FACES for each in found)
+    return found if stopped or not any(pins) else _walled(known, line) or found
 
 
 def _opens(known: Known, line: Line) -> bool:
@@ -105,9 +107,9 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
     """
     body, owners, found, pair, exact = known.body, line.owners, line.found, line.first, any(line.pins)
-    hole = pair.other
+    hole, rigid = pair.other, [part for part in known.parts if part.name not in known.springs]
     one, other = (
-        [stop for part in known.parts if body[part.name] in group for stop in known.measured.stops(part, hole)]
+        [stop for part in rigid if body[part.name] in group for stop in known.measured.stops(part, hole)]
         for group in (_kept_with(owner, line, kept) for owner in owners)
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
@@ -189,6 +191,21 @@ def _guided(known: Known, pair: CommonAxis) -> Hinge:
     text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
     evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
     return Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.NONE)
+
+
+def _walled(known: Known, line: Line) -> list[Hinge]:
+    """Make a prismatic joint along a pin that fits exactly, where walls beside the axis keep a body from turning on it,
+    such as a finger in a slot."""
+    pair, body = line.first, known.body
+    one, other = ([part for part in known.parts if body[part.name] == owner] for owner in line.owners)
+    angle = turns(one, other, pair.other.point, pair.one.axis)
+    if angle > MIN_TURN:
+        return []
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
+    text = f"the pin of radius {pair.one.radius:.4g} fits; walls beside it leave a turn of {angle:.2g} rad"
+    evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
+    return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.FACES)]
 
 
 def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:

@@ -52,6 +52,7 @@ def infer(
     joints: Sequence[Joint] = (),
     ignored: Collection[Pair] = (),
     clearance: float | None = None,
+    springs: Collection[str] = (),
 ) -> tuple[list[Inference], list[list[Inference]]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
@@ -60,8 +61,10 @@ def infer(
     Apart from these comes what would stop slides that exact contacts allow, the surest first: for those slides that are
     of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
+    What is pushed by `springs` is not stopped by them.
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
+    known.springs = {*springs}
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from jaxkin.geometry.surfaces import Cylinder, Plane
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -25,14 +25,6 @@ def test_a_lid_that_lies_on_its_box_turns_where_the_faces_meet_on_one_side_of_it
     assert owners(mechanism)["pin"] == owners(mechanism)["box"]
     assert bool(about) == turns
     assert not turns or mechanism.mobility().useful == 1
-
-
-def kind_of(mechanism, one, other):
-    """The kind of the only joint of the bodies of two parts."""
-    body = owners(mechanism)
-    pair = {body[one], body[other]}
-    (joint,) = (joint for joint in moving(mechanism) if {body[part] for part in joint.parts} == pair)
-    return str(joint.kind)
 
 
 FOOT = block((-30, -60, -50), (30, -50, 50)), block((-4, -50, -10), (4, -9, 10))
@@ -91,3 +83,14 @@ def test_a_crank_that_a_shoulder_keeps_on_the_shaft_stops_it_though_it_may_turn_
     drawn = assembly(base, shaft, crank) if hub else assembly(base, shaft)
     mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
     assert kind_of(mechanism, "base", "shaft") == ("revolute" if hub else "cylindrical")
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("play", "guided"), [(0.1, True), (2.0, False), (None, False)])
+def test_a_finger_in_a_slot_guides_a_rod_that_fits_its_bush_exactly(seed, play, guided):
+    """The finger is 6 wide, up to 35 beside the axis, with a play on each side of it; without a slot the rod turns."""
+    walls = [] if play is None else [block((3 + play, 22, -30), (9, 38, 30)), block((-9, 22, -30), (-3 - play, 38, 30))]
+    base = part("base", *FOOT, ring(5.0, 9.0, -10, 10), *walls)
+    rod = part("rod", pin(5.0, -45, 60), block((-3, 4, 20), (3, 35, 26)))
+    mechanism = anywhere(assembly(base, rod), seed).mechanism(fixed=["base"])
+    assert kind_of(mechanism, "base", "rod") == ("prismatic" if guided else "cylindrical")
