@@ -99,8 +99,10 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         if not new:
             break
         other, more, count = made(seats)
-        # seats may take nothing of use; that slides can be stopped then which were not before is no objection
-        if _not_idle(other) != _not_idle(mechanism) and not (useful_freedoms(other) and count == plainly):
+        # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
+        # more is free with them, they changed which parts others hold, and stops would hide that
+        same = _not_idle(other) == _not_idle(mechanism) and count <= plainly
+        if not same and not (useful_freedoms(other) and count == plainly):
             break
         mechanism, found, plainly = other, more, count
     for held in _choices(resting(mechanism)) if useful_freedoms(mechanism) else ():
