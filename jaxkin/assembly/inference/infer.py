@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
+from jaxkin.assembly.inference.floating import floating
 from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -111,6 +112,7 @@ def infer(
     known.found += ball_joints(known)
     joined = hinges(known, fastening)
     joined += [*set_on_pins(known, joined), *guided_on_faces(known)]
+    known.found += floating(known, joined)
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.found += carriages(known)
