@@ -27,12 +27,14 @@ def feathers(known: Known) -> list[Inference]:
     """
     result = []
     for pair in known.axes:
-        if pair.virtual or pair.threaded or _is_shouldered(known, pair) or frozenset(pair.parts) in known.by_hand:
+        if pair.virtual or pair.threaded or frozenset(pair.parts) in known.by_hand:
             continue
         shaft, hub = (known.solids[part] for part in pair.parts)
         for key in known.measured.beside(shaft):
             out = _out_of(key, pair)
             if key is hub or out < STROKE * pair.one.radius or not is_key(key, shaft, hub, pair):
+                continue
+            if _is_shouldered(known, pair):
                 continue
             sizes = (("radius", pair.one.radius), ("stroke", out))
             text = f"the feather {key.name!r} is set in a slot of {shaft.name!r}"

@@ -3,7 +3,7 @@ coupling."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -69,7 +69,7 @@ def _may_slide(known: Known, part: str, owner: str) -> bool:
     return not axes and all(each.contact_state.is_flat and isinstance(each.surfaces[0], Plane) for each in others)
 
 
-def _turns(turning: Sequence[Joint], body: dict[str, str], owner: str, axis: Vector | None = None) -> bool:
+def _turns(turning: Sequence[Joint], body: Mapping[str, str], owner: str, axis: Vector | None = None) -> bool:
     """Tell whether a body has a joint about an axis, or about any without one."""
     own = (joint for joint in turning if owner in {body[part] for part in joint.parts})
     about = (np.asarray(joint.frames_1, float)[0, :3, 2] for joint in own)

@@ -51,26 +51,31 @@ def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vec
     axis x normal, meets it after g / -t1 one way and g / t2 the other way.
     """
     room = [np.inf, np.inf]
-    for a, b, gap in _beside(ones, others, axis):
-        along = np.cross(axis, a.surface.normal)
+    for normal, a, b, gap in _beside(ones, others, axis):
+        along = np.cross(axis, normal)
         first, second = ((face.triangles.reshape(-1, 3) - point) @ along for face in (a, b))
         low, high = max(first.min(), second.min()), min(first.max(), second.max())
         room = [min(most, gap / arm) if arm > 0 else most for most, arm in zip(room, (-low, high), strict=True)]
     return float(sum(room))
 
 
-def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Face, Face, float]]:
-    """Find the plane faces along an axis of a body that look at those of another one, with the gaps between them."""
+def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:
+    """Find the plane faces along an axis of a body that look at those of another one, with their normals and gaps."""
     first, second = (
-        [face for part in parts for face in part.faces if isinstance(face.surface, Plane)] for parts in (ones, others)
+        [
+            (face.surface.normal, face)
+            for part in parts
+            for face in part.faces
+            if isinstance(face.surface, Plane) and abs(face.surface.normal @ axis) < ACROSS
+        ]
+        for parts in (ones, others)
     )
-    first, second = ([face for face in faces if abs(face.surface.normal @ axis) < ACROSS] for faces in (first, second))
     if not first or not second:
         return []
-    normals = [np.array([face.surface.normal for face in faces]) for faces in (first, second)]
-    facing = np.linalg.norm(normals[0][:, None] + normals[1], axis=-1) <= ACROSS
-    pairs = [(first[i], second[j]) for i, j in np.argwhere(facing)]
-    return [(a, b, gap) for a, b in pairs if (gap := _gap(a, b)) is not None]
+    normals, against = (np.array([normal for normal, _ in faces]) for faces in (first, second))
+    facing = np.argwhere(np.linalg.norm(normals[:, None] + against, axis=-1) <= ACROSS)
+    pairs = [(*first[i], second[j][1]) for i, j in facing]
+    return [(normal, a, b, gap) for normal, a, b in pairs if (gap := _gap(a, b)) is not None]
 
 
 def _pairs(one: Part, others: Sequence[Part]) -> list[tuple[Face, Face, float]]:
