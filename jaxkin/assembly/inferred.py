@@ -15,6 +15,7 @@ from jaxkin.assembly.ignored_contacts import without
 from jaxkin.assembly.inference.bores import NEAR_ANGLE
 from jaxkin.assembly.inference.infer import infer
 from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.springs import Spring, springs
 from jaxkin.assembly.resting import leaves_all_moving, resting
 from jaxkin.assembly.to_mechanism import Said, from_words, told_by
 from jaxkin.contacts.contact import Contact, Contacts
@@ -49,6 +50,21 @@ _TRIED = 12
 def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mechanism:
     """Make the mechanism with what solids imply beside their exact contacts.
 
+    Tubes that may be springs are taken for such where the parts at their ends move on each other then; otherwise a
+    screw clamps these, and the tube is a spacer.
+    """
+    words = [*said.rigid, *said.ignore, *(each.parts for each in said.joints)]
+    by_hand = {*said.fixed, *(part for group in words for part in group)}
+    tubes = springs(assembly._measured, contacts, said.fixed, by_hand)
+    made = _inferred(assembly, contacts, said, tubes)
+    body = {part: owner for owner, parts in made.bodies.items() for part in parts}
+    pushing = [each for each in tubes if body.get(each.seat, each.seat) != body.get(each.pushed, each.pushed)]
+    return made if pushing == tubes else _inferred(assembly, contacts, said, pushing)
+
+
+def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes: Sequence[Spring]) -> Mechanism:
+    """Make the mechanism with what solids imply, and some tubes as springs.
+
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
     mechanism has fewer freedoms but still some; where all of it leaves none, without the least sure of it. Bodies that
     seats of faces leave a slide of no use are one body, and so are those that only lie on each other, where all that
@@ -58,25 +74,35 @@ def inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said) -> Mec
     source = told_by(assembly, contacts)
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
     ignored = {frozenset(contact.parts) for contact in contacts if contact not in used.contacts}
+    if tubes:
+        ignored |= {frozenset((each.part, other)) for each in tubes for other in assembly.names if other != each.seat}
+        names = {each.part for each in tubes}
+        used, contacts = (
+            Contacts(tuple(each for each in some if not names & {*each.parts}), source.near_misses, source.notes)
+            for some in (used, contacts)
+        )
 
     def made(seats: Sequence[Inference]) -> tuple[Mechanism, list[Inference], int]:
         """Make the mechanism with its inferences; and count what is of use before slides are stopped."""
         rigid = [*said.rigid, *(each.parts for each in seats)]
-        found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance)
+        loose = {each.part for each in tubes}
+        found, levels = infer(assembly._measured, used, said.fixed, rigid, said.joints, ignored, said.clearance, loose)
         found = [*seats, *found]
         plain = from_words(assembly, contacts, said, found)
         return *_stopped(assembly, contacts, said, plain, found, levels), _not_idle(plain)
 
-    mechanism, found, plainly = made(())
-    inexact = bool(found)
-    seats: list[Inference] = []
+    seats = [each.inference for each in tubes]
+    mechanism, found, plainly = made(seats)
+    inexact = len(found) > len(seats)
     for _ in range(_ROUNDS):
         seats += (new := _seats(mechanism, inexact))
         if not new:
             break
         other, more, count = made(seats)
-        # seats may take nothing of use; that slides can be stopped then which were not before is no objection
-        if _not_idle(other) != _not_idle(mechanism) and not (useful_freedoms(other) and count == plainly):
+        # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
+        # more is free with them, they changed which parts others hold, and stops would hide that
+        same = _not_idle(other) == _not_idle(mechanism) and count <= plainly
+        if not same and not (useful_freedoms(other) and count == plainly):
             break
         mechanism, found, plainly = other, more, count
     for held in _choices(resting(mechanism)) if useful_freedoms(mechanism) else ():

@@ -86,3 +86,11 @@ def owners(mechanism: Mechanism) -> dict[str, str]:
 def moving(mechanism: Mechanism) -> list[Joint]:
     """List the joints that have freedoms."""
     return [joint for joint in mechanism.all_joints if joint.freedoms]
+
+
+def kind_of(mechanism: Mechanism, one: str, other: str) -> str:
+    """Find the kind of the only joint between the bodies of two parts."""
+    body = owners(mechanism)
+    pair = {body[one], body[other]}
+    (joint,) = (joint for joint in moving(mechanism) if {body[part] for part in joint.parts} == pair)
+    return str(joint.kind)

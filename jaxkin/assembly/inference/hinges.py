@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, engaged, shared_length
+from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lines import Line, is_across, lines
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_LIFT, MAX_PLAY, between_bores, nearest, play
+from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, between_bores, nearest, play
 from jaxkin.assembly.inference.walls import turns
-from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -40,31 +40,6 @@ class Hinge(NamedTuple):
     """What is in doubt: see `Stop`."""
 
 
-class Line(NamedTuple):
-    """What two bodies have about a common axis."""
-
-    owners: Pair
-    found: list[CommonAxis]
-    touching: list[Contact]
-    """Their exact contacts."""
-
-    @property
-    def pins(self) -> list[bool]:
-        """Whether each contact is one of a pin in a hole."""
-        return [contact.contact_state.is_pin for contact in self.touching]
-
-    @property
-    def first(self) -> CommonAxis:
-        """That with a pin, the tightest first."""
-        return min(self.found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
-
-    @property
-    def is_alone(self) -> bool:
-        """Whether exact contacts of pins, if there are some, are about the axes that were found."""
-        pins, first = self.pins, self.first
-        return not any(pins) or (all(pins) and all(each.other.on_axis_of(first.other) for each in self.found))
-
-
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
     """Infer joints of two bodies about common axes, by default all that are known; some are those of exact contacts but
     for the slide.
@@ -74,7 +49,7 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     """
     some = lines(known, axes)
     joined = {line.owners: _joined(known, line, fastening, ()) for line in some}
-    kept = [line for line in some if any(_is_kept(each) for each in joined[line.owners])]
+    kept = [line for line in some if line.is_kept or any(_is_kept(each) for each in joined[line.owners])]
     for line in some:
         if kept and not any(_is_kept(each) for each in joined[line.owners]):
             joined[line.owners] = _joined(known, line, fastening, kept)
@@ -85,22 +60,6 @@ def _is_kept(hinge: Hinge) -> bool:
     return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.REVOLUTE
 
 
-def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
-    """Find the bodies that have axes in common, but those that joints join already."""
-    axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
-    body, between = known.body, {}
-    given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
-    by_hand = {frozenset(body[part] for part in pair) for pair in given}
-    for pair in _neighbours(axes, body):
-        owners = frozenset(body[part] for part in pair.parts)
-        if len(owners) == 2 and owners not in by_hand:
-            between.setdefault(owners, []).append(pair)
-    exact: dict[Pair, list[Contact]] = {}
-    for contact in known.contacts:
-        exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
-    return [Line(owners, found, exact.get(owners, [])) for owners, found in between.items()]
-
-
 def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[Hinge]:
     """Make the joint of two bodies about their axis; `kept` are pairs of bodies that do not slide on each other."""
     pair, pins = line.first, line.pins
@@ -108,7 +67,7 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         return []
     faces = [contact.surfaces[0] for contact in line.touching if contact.contact_state.is_flat]
     planes = [face for face in faces if isinstance(face, Plane)]
-    across = [np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes]
+    across = [is_across(plane, pair) for plane in planes]
     if not all(across) and (any(across) or any(pins) or not _opens(known, line)):
         return []  # faces along the axis keep it from turning: exact contacts say what is left
     pinned = [each.one for each in line.found if not each.virtual]
@@ -116,9 +75,11 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         return [_guided(known, pair)]
     if not any(pins):
         one, other = (known.solids[part] for part in pair.parts)
-        if turns(one, other, pair.other.point, pair.one.axis) <= MIN_TURN:
+        if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
-    return _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    found = _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    stopped = any(across) or any(each.stop is Stop.FACES for each in found)
+    return found if stopped or not any(pins) else _walled(known, line) or found
 
 
 def _opens(known: Known, line: Line) -> bool:
@@ -140,39 +101,15 @@ def _opens(known: Known, line: Line) -> bool:
     return len(signs) == 1 and 0 not in signs
 
 
-def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:
-    """Find the common axes of pins, and of bores without a pin those between neighbours along one axis.
-
-    Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
-    """
-    import networkx as nx
-
-    virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
-    lines: list[tuple[Bore, nx.Graph]] = []
-    kept = {id(pair) for pair in axes if not pair.virtual}
-    for pair in virtual:
-        graph = next((graph for line, graph in lines if pair.one.on_axis_of(line)), None)
-        if graph is None:
-            graph = nx.Graph()
-            lines.append((pair.one, graph))
-        one, other = (body[part] for part in pair.parts)
-        if one != other and not (one in graph and other in graph and nx.has_path(graph, one, other)):
-            graph.add_edge(one, other)
-            kept.add(id(pair))
-        elif graph.has_edge(one, other):
-            kept.add(id(pair))
-    return [pair for pair in axes if id(pair) in kept]
-
-
 def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
     Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
     """
     body, owners, found, pair, exact = known.body, line.owners, line.found, line.first, any(line.pins)
-    hole = pair.other
+    hole, rigid = pair.other, [part for part in known.parts if part.name not in known.springs]
     one, other = (
-        [stop for part in known.parts if body[part.name] in group for stop in known.measured.stops(part, hole)]
+        [stop for part in rigid if body[part.name] in group for stop in known.measured.stops(part, hole)]
         for group in (_kept_with(owner, line, kept) for owner in owners)
     )
     room, stop = play(one, other, hole.radius), Stop.FACES
@@ -254,6 +191,21 @@ def _guided(known: Known, pair: CommonAxis) -> Hinge:
     text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
     evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
     return Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.NONE)
+
+
+def _walled(known: Known, line: Line) -> list[Hinge]:
+    """Make a prismatic joint along a pin that fits exactly, where walls beside the axis keep a body from turning on it,
+    such as a finger in a slot."""
+    pair, body = line.first, known.body
+    one, other = ([part for part in known.parts if body[part.name] == owner] for owner in line.owners)
+    angle = turns(one, other, pair.other.point, pair.one.axis)
+    if angle > MIN_TURN:
+        return []
+    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
+    text = f"the pin of radius {pair.one.radius:.4g} fits; walls beside it leave a turn of {angle:.2g} rad"
+    evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
+    return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.FACES)]
 
 
 def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:

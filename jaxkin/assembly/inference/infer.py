@@ -12,6 +12,8 @@ from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked
 from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
+from jaxkin.assembly.inference.feathers import feathers
+from jaxkin.assembly.inference.floating import floating
 from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
     attached_fasteners,
@@ -52,6 +54,7 @@ def infer(
     joints: Sequence[Joint] = (),
     ignored: Collection[Pair] = (),
     clearance: float | None = None,
+    springs: Collection[str] = (),
 ) -> tuple[list[Inference], list[list[Inference]]]:
     """Infer bodies and joints from solids, in the order in which they are the surest.
 
@@ -60,13 +63,18 @@ def infer(
     Apart from these comes what would stop slides that exact contacts allow, the surest first: for those slides that are
     of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
+    What is pushed by `springs` is not stopped by them.
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
+    known.springs = {*springs}
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
     known.add(bearing_bodies(known, rolling))
     known.add(clamped_on_rings(known, rolling))
+    keyed = feathers(known)
+    known.add([each for each in keyed if each.joint is None])
+    known.found += [each for each in keyed if each.joint]
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
     known.add(collets(known))
@@ -106,6 +114,7 @@ def infer(
     joined = hinges(known, fastening)
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
+    known.found += floating(known, joined)
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.found += carriages(known)

@@ -64,7 +64,7 @@ def keyed_hubs(known: Known) -> list[Inference]:
             continue
         shaft, hub = (known.solids[part] for part in pair.parts)
         for key in known.measured.beside(shaft):
-            if key is not hub and key.name not in known.fixed and _is_key(key, shaft, hub, pair):
+            if key is not hub and key.name not in known.fixed and is_key(key, shaft, hub, pair):
                 text = f"the key {key.name!r} is in a slot of {shaft.name!r} and in one of {hub.name!r}"
                 parts = tuple(sorted((*pair.parts, key.name), key=known.order.__getitem__))
                 sizes = (("radius", pair.one.radius),)
@@ -72,7 +72,7 @@ def keyed_hubs(known: Known) -> list[Inference]:
     return result
 
 
-def _is_key(part: Part, shaft: Part, hub: Part, pair: CommonAxis) -> bool:
+def is_key(part: Part, shaft: Part, hub: Part, pair: CommonAxis) -> bool:
     """Tell whether a part is between two walls along the axis of a shaft, in the same direction, in both others."""
     corners = part.outermost - pair.one.point
     away = corners - np.outer(corners @ pair.one.axis, pair.one.axis)

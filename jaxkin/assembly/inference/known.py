@@ -46,6 +46,8 @@ class Known:
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         self.sleeves: set[str] = set()
+        self.springs: set[str] = set()
+        """Springs, which stop nothing."""
         self.rings: set[Pair] = set()
         """The outer and the inner ring of each bearing, which are never one body."""
         self.bores, found = measured.bores, measured.axes(clearance)

@@ -8,9 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge, Line, lines
+from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS

@@ -44,20 +44,38 @@ def walls(found: Sequence[tuple[Vector, float, float]]) -> list[tuple[Vector, fl
     return held
 
 
-def turns(one: Part, other: Part, point: Vector, axis: Vector) -> float:
-    """Measure the angle by which a part can turn about an axis in all, to and fro, until faces along the axis meet.
+def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vector) -> float:
+    """Measure the angle by which a body can turn about an axis in all, to and fro, until faces along the axis meet.
 
-    A face of the part that looks at one of the other at a gap g, and reaches from t1 to t2 beside the axis, along
+    A face of the body that looks at one of the other body at a gap g, and reaches from t1 to t2 beside the axis, along
     axis x normal, meets it after g / -t1 one way and g / t2 the other way.
     """
     room = [np.inf, np.inf]
-    for a, b, gap in _pairs(one, [other]):
-        if isinstance(a.surface, Plane) and abs(float(a.surface.normal @ axis)) < ACROSS:
-            along = np.cross(axis, a.surface.normal)
-            first, second = ((face.triangles.reshape(-1, 3) - point) @ along for face in (a, b))
-            low, high = max(first.min(), second.min()), min(first.max(), second.max())
-            room = [min(most, gap / arm) if arm > 0 else most for most, arm in zip(room, (-low, high), strict=True)]
+    for normal, a, b, gap in _beside(ones, others, axis):
+        along = np.cross(axis, normal)
+        first, second = ((face.triangles.reshape(-1, 3) - point) @ along for face in (a, b))
+        low, high = max(first.min(), second.min()), min(first.max(), second.max())
+        room = [min(most, gap / arm) if arm > 0 else most for most, arm in zip(room, (-low, high), strict=True)]
     return float(sum(room))
+
+
+def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:
+    """Find the plane faces along an axis of a body that look at those of another one, with their normals and gaps."""
+    first, second = (
+        [
+            (face.surface.normal, face)
+            for part in parts
+            for face in part.faces
+            if isinstance(face.surface, Plane) and abs(face.surface.normal @ axis) < ACROSS
+        ]
+        for parts in (ones, others)
+    )
+    if not first or not second:
+        return []
+    normals, against = (np.array([normal for normal, _ in faces]) for faces in (first, second))
+    facing = np.argwhere(np.linalg.norm(normals[:, None] + against, axis=-1) <= ACROSS)
+    pairs = [(*first[i], second[j][1]) for i, j in facing]
+    return [(normal, a, b, gap) for normal, a, b in pairs if (gap := _gap(a, b)) is not None]
 
 
 def _pairs(one: Part, others: Sequence[Part]) -> list[tuple[Face, Face, float]]:

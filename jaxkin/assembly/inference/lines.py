@@ -1,0 +1,122 @@
+"""What two bodies have about a common axis: pins in holes, equal bores, and all exact contacts between the bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.bores import NEAR_ANGLE, NEAR_LENGTH, Bore
+from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.surfaces import Cylinder, Plane
+
+
+class Line(NamedTuple):
+    """What two bodies have about a common axis."""
+
+    owners: Pair
+    found: list[CommonAxis]
+    touching: list[Contact]
+    """Their exact contacts."""
+
+    @property
+    def pins(self) -> list[bool]:
+        """Whether each contact is one of a pin in a hole."""
+        return [contact.contact_state.is_pin for contact in self.touching]
+
+    @property
+    def first(self) -> CommonAxis:
+        """That with a pin, the tightest first."""
+        return min(self.found, key=lambda pair: (pair.virtual, abs(pair.clearance)))
+
+    @property
+    def is_alone(self) -> bool:
+        """Whether exact contacts of pins, if there are some, are about the axes that were found, as are all others."""
+        first, alike = self.first.other, all(each.other.on_axis_of(self.first.other) for each in self.found)
+        return not any(self.pins) or (alike and all(pin or _rolls(each, first) for each, pin in self._contacts))
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether exact contacts say that the bodies turn about the axis without a slide: pins, and faces across it."""
+        pair = self.first
+        flat = [contact.surfaces[0] for contact, pin in self._contacts if not pin and contact.contact_state.is_flat]
+        across = [isinstance(each, Plane) and is_across(each, pair) for each in flat]
+        return any(self.pins) and any(across) and all(across) and len(flat) + sum(self.pins) == len(self.touching)
+
+    @property
+    def _contacts(self) -> list[tuple[Contact, bool]]:
+        return list(zip(self.touching, self.pins, strict=True))
+
+
+def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
+    """Find the bodies that have axes in common, but those that joints join already."""
+    axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
+    body, between = known.body, {}
+    given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
+    by_hand = {frozenset(body[part] for part in pair) for pair in given}
+    for pair in _neighbours(axes, body):
+        owners = frozenset(body[part] for part in pair.parts)
+        if len(owners) == 2 and owners not in by_hand:
+            between.setdefault(owners, []).append(pair)
+    exact: dict[Pair, list[Contact]] = {}
+    for contact in known.contacts:
+        exact.setdefault(frozenset(body[part] for part in contact.parts), []).append(contact)
+    return [_line_of(owners, found, exact.get(owners, [])) for owners, found in between.items()]
+
+
+def _line_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> Line:
+    """Make the line of two bodies.
+
+    Where a pin fits exactly, equal bores without a pin on another axis hold nothing, such as those of two tubes that
+    are drawn in line; parallel ones that bolts go through have made one body.
+    """
+    line = Line(owners, found, touching)
+    if line.first.virtual or not any(line.pins):
+        return line
+    return line._replace(found=[each for each in found if not each.virtual or each.other.on_axis_of(line.first.other)])
+
+
+def is_across(plane: Plane, pair: CommonAxis) -> bool:
+    """Tell whether a plane stands across a common axis."""
+    return bool(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS)
+
+
+def _rolls(contact: Contact, axis: Bore) -> bool:
+    """Tell whether a round face about an axis touches a plane along it, as a flywheel that grazes its base: whatever
+    turns about the axis, or slides along it, still does."""
+    planes = [each for each in contact.surfaces if isinstance(each, Plane)]
+    rounds = [each for each in contact.surfaces if isinstance(each, Cylinder)]
+    if len(planes) != 1 or len(rounds) != 1 or abs(float(planes[0].normal @ axis.axis)) > ACROSS:
+        return False
+    offset = rounds[0].point - axis.point
+    apart = np.linalg.norm(np.cross(offset, axis.axis))
+    tilt = np.linalg.norm(np.cross(rounds[0].axis, axis.axis))
+    return bool(tilt <= NEAR_ANGLE and apart <= NEAR_LENGTH * axis.radius)
+
+
+def _neighbours(axes: Sequence[CommonAxis], body: Mapping[str, str]) -> list[CommonAxis]:
+    """Find the common axes of pins, and of bores without a pin those between neighbours along one axis.
+
+    Five levers on one axis have four hinges: the others follow from these, and would lock nothing but say more.
+    """
+    import networkx as nx
+
+    virtual = sorted((pair for pair in axes if pair.virtual), key=lambda pair: -engaged(pair))
+    lines: list[tuple[Bore, nx.Graph]] = []
+    kept = {id(pair) for pair in axes if not pair.virtual}
+    for pair in virtual:
+        graph = next((graph for line, graph in lines if pair.one.on_axis_of(line)), None)
+        if graph is None:
+            graph = nx.Graph()
+            lines.append((pair.one, graph))
+        one, other = (body[part] for part in pair.parts)
+        if one != other and not (one in graph and other in graph and nx.has_path(graph, one, other)):
+            graph.add_edge(one, other)
+            kept.add(id(pair))
+        elif graph.has_edge(one, other):
+            kept.add(id(pair))
+    return [pair for pair in axes if id(pair) in kept]

@@ -1,0 +1,103 @@
+"""Springs that are drawn as tubes: they push two parts from each other, and stop neither of them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.contacts.contact import Contact
+from jaxkin.geometry.part import Part
+from jaxkin.geometry.surfaces import Cylinder, Plane
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+LOOSE = 0.08
+"""Radial clearance of a spring about its rod, over the radius of the rod, at least: tubes that are springs have 0.10 to
+0.15 in 4 kinds of machines, spacers, bushes and sleeves up to 0.056 in 16."""
+THIN = 0.45
+"""Thickness of the wall over the outer radius, at most: that of a spring is its wire. Springs have 0.20 to 0.43,
+spacers 0.40 to 0.56."""
+SLENDER = 1.0
+"""Length over the outer diameter, at least: washers and rings are shorter."""
+
+
+class Spring(NamedTuple):
+    """A tube of the form of a compressed spring, and what it is between."""
+
+    part: str
+    seat: str
+    """The part that it lies on with one end, and stays on."""
+    pushed: str
+    """The part that it lies on with the other end."""
+    inference: Inference
+
+    @property
+    def apart(self) -> frozenset[str]:
+        """The spring and what it pushes: their contact holds nothing."""
+        return frozenset((self.part, self.pushed))
+
+
+def springs(
+    measured: Measured, contacts: Sequence[Contact], fixed: Collection[str], by_hand: Collection[str]
+) -> list[Spring]:
+    """Find the tubes with thin walls that are loose about a rod and lie with both ends on different parts, and on
+    nothing else; those of which a user says something `by_hand` are left to that.
+
+    Form alone does not tell a spring from a spacer that is loose on its screw: whether the parts at its ends move on
+    each other without it does.
+    """
+    pins = [pair for pair in measured.axes(None) if not pair.virtual]
+    outside = {id(pair.one) for pair in pins}
+    touching: dict[str, list[Contact]] = {}
+    for contact in contacts:
+        for part in contact.parts:
+            touching.setdefault(part, []).append(contact)
+    result = []
+    for part in measured.parts:
+        tube = _tube(part, measured.bores[part.name])
+        if tube is None or part.name in by_hand or id(tube[1]) in outside:
+            continue
+        rods = [pair for pair in pins if pair.other is tube[0]]
+        ends = _ends(part.name, tube[0], touching.get(part.name, []))
+        if not rods or ends is None or any(pair.clearance < LOOSE * pair.one.radius for pair in rods):
+            continue
+        seat, pushed = sorted(ends, key=lambda end: end not in fixed)
+        clearance = min(pair.clearance for pair in rods)
+        text = f"{part.name!r} is taken for a spring, a tube with a clearance of {clearance:.2g} about its rod, which "
+        text += f"pushes {pushed!r} from {seat!r}; say rigid=[[{part.name!r}, {pushed!r}]] if it is a spacer"
+        evidence = Evidence(EvidenceKind.ENCLOSED, (("radius", tube[1].radius), ("clearance", clearance)), text)
+        result.append(Spring(part.name, seat, pushed, Inference((seat, part.name), evidence)))
+    return result
+
+
+def _tube(part: Part, own: Sequence[Bore]) -> tuple[Bore, Bore] | None:
+    """Find the bore and the outside of a part that is a tube of thin walls with two plane ends, and nothing else."""
+    holes, pins = [each for each in own if each.hole], [each for each in own if not each.hole]
+    planes = [face.surface for face in part.faces if isinstance(face.surface, Plane)]
+    round_faces = [face for face in part.faces if isinstance(face.surface, Cylinder)]
+    if len(holes) != 1 or len(pins) != 1 or len(planes) != 2 or len(planes) + len(round_faces) != len(part.faces):
+        return None
+    hole, pin = holes[0], pins[0]
+    thin = pin.radius - hole.radius <= THIN * pin.radius and pin.half >= SLENDER * pin.radius
+    return (hole, pin) if thin and hole.on_axis_of(pin) else None
+
+
+def _ends(name: str, axis: Bore, touching: Sequence[Contact]) -> tuple[str, str] | None:
+    """Find the two parts that a tube lies on with its ends; None where it touches others, or one part twice."""
+    ends: dict[bool, set[str]] = {True: set(), False: set()}
+    for contact in touching:
+        plane = contact.surfaces[contact.parts.index(name)]
+        if not contact.contact_state.is_flat or not isinstance(plane, Plane):
+            return None
+        along = float(plane.normal @ axis.axis)
+        if abs(along) < np.cos(ACROSS):
+            return None
+        ends[along > 0] |= {*contact.parts} - {name}
+    if len(ends[True]) != 1 or len(ends[False]) != 1 or ends[True] == ends[False]:
+        return None
+    return next(iter(ends[True])), next(iter(ends[False]))
