@@ -98,8 +98,10 @@ def inspect(
             if study.assembly and not study.held:
                 study, tried = run.proposed(study, study.assembly)
             report.print_mechanism(study.mechanism, contacts, verbose)
+            report.print_near_misses(contacts, study.mechanism, verbose)
             report.print_gears(study.mechanism, verbose)
         except ValueError as refusal:
+            report.print_near_misses(contacts, None, verbose)
             if page and study.assembly:
                 written.write_refusal(study.assembly, contacts, page, refusal)
             raise

@@ -13,14 +13,16 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from jaxkin._grouped import first_of_each
+from jaxkin._grouped import first_of_each, grouped, kind_of
 from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
+from jaxkin.contacts.contact import counted
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.evidence import EvidenceKind
 
 if TYPE_CHECKING:
     from jaxkin.assembly.assembly import Assembly
-    from jaxkin.contacts.contact import Contacts
+    from jaxkin.contacts.contact import Contacts, NearMiss
     from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
 
@@ -36,13 +38,41 @@ def say(text: str = "") -> None:
 
 
 def print_assembly(assembly: Assembly, contacts: Contacts | None, verbose: bool) -> None:
-    """Print parts and their faces, contacts, near misses and refusals; what is said with a part is not said again."""
+    """Print parts and their faces, contacts and refusals; what is said with a part is not said again."""
     if contacts is None:
         say(f"{assembly.describe(verbose)}\n")
         return
     said = {f"{part.name}: {note}" for part in assembly.parts for note in part.notes}
     notes = tuple(note for note in contacts.notes if note not in said)
-    say(f"{assembly.describe(verbose)}\n\n{replace(contacts, notes=notes).describe(verbose)}\n")
+    say(f"{assembly.describe(verbose)}\n\n{replace(contacts, near_misses=(), notes=notes).describe(verbose)}\n")
+
+
+def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: bool) -> None:
+    """Print pairs of faces that are nearly in contact; by their number only those that a mechanism accounts for.
+
+    These are pairs within one body, and of two bodies with a joint that does not rest on contacts: pins with play,
+    screws in their holes.
+    """
+    every = contacts.near_misses
+    left = every if mechanism is None else [miss for miss in every if not _is_accounted_for(miss, mechanism)]
+    if not every:
+        return
+    known = f", {len(every) - len(left)} of them of bodies and joints that are known otherwise"
+    known = f"{known}{'' if verbose else ' (all: --verbose)'}" if len(left) < len(every) else ""
+    say(f"\n{counted(len(every), 'near miss')}{known}")
+    shown = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in (every if verbose else left)]
+    for line in grouped(shown, verbose):
+        say(f"  {line}")
+
+
+def _is_accounted_for(miss: NearMiss, mechanism: Mechanism) -> bool:
+    body = {part: name for name, parts in mechanism.bodies.items() for part in parts}
+    of_two = {body.get(part, part) for part in miss.parts}
+    return len(of_two) == 1 or any(
+        {body[part] for part in joint.parts} == of_two
+        for joint in mechanism.all_joints
+        if joint.evidence is not None and joint.evidence.kind is not EvidenceKind.CONTACT
+    )
 
 
 def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:

@@ -106,13 +106,13 @@ class Contacts(Sequence[Contact]):
 
     def describe(self, verbose: bool = False) -> str:
         """Write contacts, near misses and notes as text; many of one kind are summarised, unless `verbose`."""
-        lines = [_count(len(self), "contact")]
+        lines = [counted(len(self), "contact")]
         lines += [f"  {line}" for line in (self._table() if verbose or len(self) <= SCREEN else self._counts())]
         nearly = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in self.near_misses]
         notes = [(kind_of(note.rpartition(": ")[2]), note) for note in self.notes]
         for noun, entries in (("near miss", nearly), ("note", notes)):
             if entries:
-                lines += [_count(len(entries), noun), *(f"  {line}" for line in grouped(entries, verbose))]
+                lines += [counted(len(entries), noun), *(f"  {line}" for line in grouped(entries, verbose))]
         return "\n".join(lines)
 
     def _table(self) -> list[str]:
@@ -141,7 +141,7 @@ def _counted(found: Counter[str]) -> list[str]:
     return [f"{count} {name}" for name, count in found.most_common()]
 
 
-def _count(number: int, noun: str) -> str:
+def counted(number: int, noun: str) -> str:
     """Write a number with a noun in singular or plural, "no" for zero."""
     plural = noun + ("es" if noun.endswith("s") else "s")
     return f"{number or 'no'} {noun if number == 1 else plural}"

@@ -1,0 +1,39 @@
+"""What of an assembly is printed once its mechanism is known."""
+
+import pytest
+
+from jaxkin.cli import report
+from reference.round_parts import assembly, block, part, pin, ring
+
+BASE = part("base", block((-40, -40, -10), (40, 40, 0)), pin(4.0, 0, 20))
+LEVER = part("lever", ring(4.2, 9.0, 0, 19.5), block((8, -4, 0), (40, 4, 6)))
+
+
+@pytest.mark.parametrize("verbose", [False, True])
+def test_near_misses_that_a_joint_accounts_for_are_counted(capsys, verbose):
+    """A pin with play is a hinge of the mechanism: how nearly it touches its hole is told where it is not."""
+    drawn = assembly(BASE, LEVER)
+    contacts, mechanism = drawn.contacts(), drawn.mechanism(fixed=["base"])
+    (miss,) = contacts.near_misses
+    assert [joint.kind for joint in mechanism.all_joints] == ["revolute"]
+    report.print_near_misses(contacts, mechanism, verbose)
+    said = capsys.readouterr().out
+    assert "1 near miss, 1 of them of bodies and joints that are known otherwise" in said
+    assert (str(miss) in said) == verbose
+    report.print_near_misses(contacts, None, False)
+    assert str(miss) in capsys.readouterr().out
+
+
+def test_near_misses_of_contacts_alone_are_listed(capsys):
+    drawn = assembly(BASE, LEVER)
+    contacts = drawn.contacts()
+    exact = drawn.mechanism(fixed=["base"], infer=False)
+    report.print_near_misses(contacts, exact, False)
+    said = capsys.readouterr().out
+    assert "known otherwise" not in said and str(contacts.near_misses[0]) in said
+
+
+def test_nothing_is_said_where_nothing_is_nearly_in_contact(capsys):
+    drawn = assembly(BASE)
+    report.print_near_misses(drawn.contacts(), None, True)
+    assert not capsys.readouterr().out
