@@ -74,14 +74,15 @@ def loop_geometry(
     pitch: tuple[Given, ...],
     couplings: tuple[CouplingNumbers, ...] = (),
     curves: tuple[tuple[Followed | None, ...], ...] = (),
+    constant: bool = True,
 ) -> tuple[Geometry, Float[Array, ""]]:
     """Compute the constants of a loop system from the frames of the joints, and the characteristic length.
 
     Frames, pitches and curves have one entry a joint, in the unit of the mechanism; the constants are those of
-    `scaled_frames`.
+    `scaled_frames`, and so is `constant`.
     """
     frames_1, frames_2, pitch = jax.tree.map(lambda leaf: jnp.asarray(leaf, float), (frames_1, frames_2, pitch))
-    frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2))
+    frames, length = map(jnp.asarray, scaled_frames(frames_1, frames_2, constant=constant))
     splines = tuple(
         jax.tree.map(lambda leaf: jnp.asarray(leaf, float), curve).over(length).spline(jnp)
         for curve in (curve for own in curves for curve in own)
@@ -92,12 +93,14 @@ def loop_geometry(
     return Geometry(loops, scaled_couplings(system, couplings, length)), length
 
 
-def scaled_geometry(system: LoopSystem, joints: Joints) -> tuple[Geometry, Float[Array, "columns 1"]]:
+def scaled_geometry(
+    system: LoopSystem, joints: Joints, constant: bool = True
+) -> tuple[Geometry, Float[Array, "columns 1"]]:
     """Compute the scaled geometry, and for each column the factor from its scaled coordinate to that of the mechanism.
 
-    The factor is 1 for angles and the characteristic length for lengths.
+    The factor is 1 for angles and the characteristic length for lengths; see `scaled_frames` for `constant`.
     """
-    geometry, length = loop_geometry(system, *joints)
+    geometry, length = loop_geometry(system, *joints, constant=constant)
     return geometry, jnp.where(jnp.array(system.is_length, bool), length, 1.0)[:, None]
 
 

@@ -30,7 +30,7 @@ def smallest_singular_value(
     and lengths over the characteristic length.
     """
     system = system.uncut
-    geometry, lengths = scaled_geometry(system, joints)
+    geometry, lengths = scaled_geometry(system, joints, constant=False)  # it does not cancel
     state = as_state(system, joints.frames_1, joints.frames_2, displacements)
     state = state._replace(x=state.x / lengths)
     jacobian = free_jacobian(system, closure(system, geometry, state))

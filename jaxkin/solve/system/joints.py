@@ -35,18 +35,18 @@ class Joints(NamedTuple):
 
 
 def scaled_frames(
-    frames_1: Sequence[Frames], frames_2: Sequence[Frames], xp: Any = jnp
+    frames_1: Sequence[Frames], frames_2: Sequence[Frames], xp: Any = jnp, constant: bool = True
 ) -> tuple[Frames, Float[Array | np.ndarray, ""]]:
     """Compute all frames without unit and origin, and the characteristic length; by `xp`, jax.numpy or numpy.
 
     All frames on parts 1 come first, then those on parts 2, then the identity. The origin is moved to the centroid of
     the frames on part 1, and lengths are divided by the root-mean-square distance of these frames from the centroid
-    (the characteristic length), so that no result depends on unit or origin. Centroid and characteristic length are
-    constants in derivatives, in which they cancel.
+    (the characteristic length), so that no result depends on unit or origin. Where `constant`, centroid and
+    characteristic length are constants in derivatives: in those of displacements they cancel.
     """
     frames = xp.concatenate([*(xp.asarray(each, float) for each in (*frames_1, *frames_2)), np.eye(4)[None]])
     origins = frames[: len(frames) // 2, :3, 3]
-    origins = lax.stop_gradient(origins) if xp is jnp else origins
+    origins = lax.stop_gradient(origins) if xp is jnp and constant else origins
     centre = xp.mean(origins, axis=0)
     radius = xp.sqrt(xp.mean(xp.sum((origins - centre) ** 2, axis=1)))
     length = xp.where(radius > 0, radius, 1.0)
