@@ -1,7 +1,9 @@
 """Kinds of assemblies that designers draw, each with the joints that it is meant to have: those imported here."""
 
+from drawings import articulated as articulated
 from drawings import balanced as balanced
 from drawings import bodywork as bodywork
+from drawings import desktop as desktop
 from drawings import devices as devices
 from drawings import driveline as driveline
 from drawings import drives as drives
