@@ -16,6 +16,7 @@ from drawings import handheld as handheld
 from drawings import household as household
 from drawings import linkages as linkages
 from drawings import machines as machines
+from drawings import mounted as mounted
 from drawings import powered as powered
 from drawings import reciprocating as reciprocating
 from drawings import road as road

@@ -1,4 +1,4 @@
-"""What stands on desks and benches: a fan, a monitor's arm, a can crusher, a printer's carriage on two rods."""
+"""What stands on desks: a fan, a monitor's arm, a printer's carriage on two rods."""
 
 from __future__ import annotations
 
@@ -104,15 +104,21 @@ def monitor_arm(random):
         strips = [bar(one, other, 9, s * 10.4 - 1.5, s * 10.4 + 1.5) for s in (-1, 1)]
         web = one + webs * long * along
         link = union(*strips, box(web - at(5, 4, 10), web + at(5, 4, 10)))
-        drawing.add(f"{name} link", cut(link, *(bore(p, Z, 4 + play, 30) for p in (one, other)),
-                                        *(bore(p, Z, 3, 30) for p in more)))  # fmt: skip
+        drawing.add(
+            f"{name} link",
+            cut(link, *(bore(p, Z, 4 + play, 30) for p in (one, other)), *(bore(p, Z, 3, 30) for p in more)),
+        )
     for name, p in (("a", a), ("b", b), ("c", c), ("d", d)):
         drawing.add(f"pin {name}", headed(p - 17 * Z, Z, 4, 41))
         drawing.add(f"pin nut {name}", hexagon(p + 17 * Z, Z, 6.5, 6.5, 4))
     way, reach = (mid - a) / np.linalg.norm(mid - a), float(np.linalg.norm(mid - a))
     cylinder = union(cyl(a - 8 * Z, Z, 8, 16), cyl(a + 4 * way, way, 7, 0.55 * reach))
-    cylinder = cut(cylinder, bore(a, Z, 4 + play, 20), cyl(a + 14 * way, way, 5.5, 0.55 * reach - 18),
-                   cyl(a + 30 * way, way, 3 + play, 200))  # fmt: skip
+    cylinder = cut(
+        cylinder,
+        bore(a, Z, 4 + play, 20),
+        cyl(a + 14 * way, way, 5.5, 0.55 * reach - 18),
+        cyl(a + 30 * way, way, 3 + play, 200),
+    )
     drawing.add("gas cylinder", cylinder)
     rod = union(cyl(a + 40 * way, way, 3, reach - 44), cyl(a + 38 * way, way, 5.4, 5), cyl(mid - 8 * Z, Z, 7, 16))
     drawing.add("gas rod", cut(rod, bore(mid, Z, 3 + play, 20)))
@@ -122,8 +128,12 @@ def monitor_arm(random):
     knuckle = union(*cheeks, box((c[0] + 12, low, -17), (c[0] + 48, high, 17)))
     drawing.add("knuckle", cut(knuckle, *(bore(p, Z, 4, 30) for p in (c, d)), bore((stem, low, 0), Y, 8 + play)))
     head = at(stem, high + 25, 0)
-    turn = union(cyl((stem, low - 4, 0), Y, 8, high - low + 6), cyl((stem, high, 0), Y, 13, 5),
-                 box((stem - 8, high + 4, -6), (stem + 8, high + 25, 6)), cyl(head - 6 * Z, Z, 8, 12))  # fmt: skip
+    turn = union(
+        cyl((stem, low - 4, 0), Y, 8, high - low + 6),
+        cyl((stem, high, 0), Y, 13, 5),
+        box((stem - 8, high + 4, -6), (stem + 8, high + 25, 6)),
+        cyl(head - 6 * Z, Z, 8, 12),
+    )
     drawing.add("stem", cut(turn, bore(head, Z, 3, 20), tube((stem, low - 1.55, 0), Y, 7, 9, 1.5)))
     drawing.add("circlip", tube((stem, low - 1.5, 0), Y, 7, 11, 1.4).cut(box((stem, low - 9, -2), (stem + 12, low, 2))))
     ears = [box(head + at(0, -9, s * 6.1), head + at(21, 9, s * 10)) for s in (-1, 1)]
@@ -151,59 +161,6 @@ def monitor_arm(random):
     drawing.joint("Revolute", "stem", "knuckle", head, Y)
     drawing.joint("Revolute", "plate", "stem", head, Z)
     drawing.joint("Weld", "monitor", "plate")
-    return drawing
-
-
-@kind
-def can_crusher(random):
-    """A ram under the lips of two rails on a board, two links, a lever on a bush between the ears of a bracket."""
-    drawing, play = Drawing(["board"]), random.choice([0.1, 0.3])
-    lean = random.uniform(0.1, 0.5)
-    pivot = at(285, 60, 0)
-    way = at(-np.sin(lean), np.cos(lean), 0)
-    top = pivot + 55 * way
-    eye = at(top[0] - np.sqrt(110**2 - (top[1] - 40) ** 2), 40, 0)
-    board, low = box((-40, -18, -60), (330, 0, 60)), eye[0] - 30
-    for name, s in (("near", 1), ("far", -1)):
-        rail = union(box((20, 0, s * 35), (250, 20, s * 45)), box((20, 14, s * 30), (250, 20, s * 45)))
-        spots = [at(x, 20, s * 40) for x in (40, 135, 230)]
-        drawing.add(f"{name} rail", cut(rail, *(bore(p, Y, 2.7, 30) for p in spots)))
-        board = cut(board, *(cyl(at(p[0], 0, p[2]), -Y, 2.5, 12) for p in spots))
-        for k, p in enumerate(spots):
-            drawing.add(f"{name} rail screw {k}", screw(p, -Y, 2.5, 30))
-        drawing.joint("Weld", f"{name} rail", "board")
-    spots = [at(5, -12, z) for z in (-18, 18)]
-    drawing.add("anvil", cut(box((0, 0, -34), (10, 80, 34)), *(cyl(p, Y, 2.5, 36) for p in spots)))
-    board = cut(board, *(bore(p, Y, 2.7, 30) for p in spots), *(cyl(p, -Y, 5, 10) for p in spots))
-    for k, p in enumerate(spots):
-        drawing.add(f"anvil screw {k}", screw(p, Y, 2.5, 32))
-    corners = [at(x, 6, z) for x in (268, 302) for z in (-23, 23)]
-    ears = [box((275, 5, s * 10), (295, 60, s * 16)).union(cyl(pivot + s * 10 * Z, s * Z, 10, 6)) for s in (-1, 1)]
-    bracket = cut(union(box((260, 0, -30), (310, 6, 30)), *ears), bore(pivot, Z, 4, 30))
-    drawing.add("bracket", cut(bracket, *(bore(p, Y, 2.2, 10) for p in corners)))
-    drawing.add("board", cut(board, *(cyl(at(p[0], 0, p[2]), -Y, 2, 14) for p in corners)))
-    for k, p in enumerate(corners):
-        drawing.add(f"bracket screw {k}", screw(p, -Y, 2, 18))
-    ram = union(box((low, 0, play - 35), (low + 45, 14 - play, 35 - play)), box((low, 10, -20), (low + 45, 24, 20)),
-                box((low, 20.5, -30), (low + 8, 80, 30)), bar(eye - 20 * Y, eye, 10, -9.9, 9.9))  # fmt: skip
-    drawing.add("ram", cut(ram, bore(eye, Z, 4, 30)))
-    for name, s in (("near", 1), ("far", -1)):
-        drawing.add(f"{name} link", bar(top, eye, 9, s * 11.5 - 1.5, s * 11.5 + 1.5, (top, eye), 4 + play / 2))
-        drawing.joint("Revolute", f"{name} link", "lever", top, Z)
-        drawing.joint("Revolute", f"{name} link", "ram", eye, Z)
-    lever = union(bar(pivot, pivot + 150 * way, 10, -9.9, 9.9), cyl(pivot + 150 * way, way, 8, 105))
-    drawing.add("lever", cut(lever, bore(pivot, Z, 6, 30), bore(top, Z, 4, 30)))
-    drawing.add("lever bush", tube(pivot - 9.9 * Z, Z, 4.05, 6.02, 19.8))
-    drawing.add("grip", cut(cyl(pivot + 162 * way, way, 12, 96), cyl(pivot + 150 * way, way, 8, 105)))
-    for name, p, half in (("pivot", pivot, 16), ("top", top, 13), ("eye", eye, 13)):
-        drawing.add(f"{name} bolt", cyl(p - half * Z, Z, 4, 2 * half + 12).union(hexagon(p - (half + 5) * Z, Z, 6.5, 5)))
-        drawing.add(f"{name} washer", tube(p + half * Z, Z, 4.2, 8, 1.6))
-        drawing.add(f"{name} nut", hexagon(p + (half + 1.6) * Z, Z, 6.5, 8, 4))
-    drawing.joint("Weld", "anvil", "board")
-    drawing.joint("Weld", "bracket", "board")
-    drawing.joint("Prismatic", "ram", "board", eye, X)
-    drawing.joint("Weld", "lever bush", "lever")
-    drawing.joint("Revolute", "lever", "bracket", pivot, Z)
     return drawing
 
 
@@ -246,7 +203,9 @@ def printer_carriage(random):
     for k, p in enumerate(spots):
         drawing.add(f"cover screw {k}", screw(p + 12 * Y, -Y, 1.5, 23))
         drawing.add(f"cover nut {k}", hexagon(p - 9.5 * Y, -Y, 2.75, 2.4, 1.5))
-    clip = cut(box((start + 9, 26, -6), (start + 49, 34, 0)), bore(hot, Z, 6, 30), *(bore(p, Y, 1.6, 30) for p in clips))
+    clip = cut(
+        box((start + 9, 26, -6), (start + 49, 34, 0)), bore(hot, Z, 6, 30), *(bore(p, Y, 1.6, 30) for p in clips)
+    )
     drawing.add("clip", clip)
     for k, p in enumerate(clips):
         drawing.add(f"clip screw {k}", screw(p + 8 * Y, -Y, 1.25, 18))
