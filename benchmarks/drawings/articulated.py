@@ -75,7 +75,7 @@ def robot_finger(random):
 
 @kind
 def scara_arm(random):
-    """A shoulder shaft in two solid bearings with spacers, an elbow on ball bearings, a quill in two bushes, a motor."""
+    """A shoulder shaft in two solid bearings with spacers, an elbow on ball bearings, a quill in bushes, a motor."""
     drawing, play = Drawing(["base"], unit="INCH"), random.choice([0.02, 0.1])
     o, elbow, turn = at(0, 0, 0), at(140, 0, 0), random.uniform(0.5, 1.2)
     way = at(np.cos(turn), np.sin(turn), 0)

@@ -10,7 +10,7 @@ from drawings.shapes import X, Y, Z, at, bar, bore, box, cut, cyl, headed, hexag
 
 @kind
 def suspension_fork(random):
-    """A steerer in a headset with a stem, stanchions in the bushes of the lowers, a damper, an axle with hub and disc."""
+    """A steerer in a headset with a stem, stanchions in bushed lowers, a damper, an axle with hub and disc."""
     drawing, play = Drawing(["head tube"]), random.choice([0.05, 0.15])
     sag = random.uniform(0, 30)
     legs = {"left": at(-60, 0, 0), "right": at(60, 0, 0)}
