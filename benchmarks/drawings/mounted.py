@@ -16,7 +16,11 @@ def suspension_fork(random):
     legs = {"left": at(-60, 0, 0), "right": at(60, 0, 0)}
     drawing.add(
         "crown",
-        cut(bar(legs["left"], legs["right"], 22, 0, 28), *(bore(p, Z, 15) for p in legs.values()), bore(0 * X, Z, 14)),
+        cut(
+            bar(legs["left"], legs["right"], 22, 0, 28),
+            *(bore(p, Z, 14.98) for p in legs.values()),
+            bore(0 * X, Z, 13.98),
+        ),
     )
     drawing.add("steerer", tube((0, 0, 0), Z, 11, 14, 194))
     drawing.add("crown race", tube((0, 0, 28), Z, 14, 18, 4))
@@ -131,7 +135,7 @@ def throttle_linkage(random):
     pad = cut(box((-20, -105, 12), (20, -75, 16)), *(bore((0, -90 + y, 0), Z, 1.7, 40) for y in (-4, 10)))
     drawing.add("foot pad", pad)
     for k, y in enumerate((-4, 10)):
-        drawing.add(f"pad screw {k}", screw((0, -90 + y, 16), -Z, 1.5, 16))
+        drawing.add(f"pad screw {k}", screw((0, -90 + y, 16), -Z, 1.5, 15))
         drawing.add(f"pad nut {k}", hexagon((0, -90 + y, 4), -Z, 2.75, 2.4, 1.5))
     bell = union(*(bar(crank, tips[n], 9, 4, 12) for n in ("crank in", "crank out")), cyl(crank + 2 * Z, Z, 14, 12))
     bell = cut(bell, bore(crank, Z, 7.5, 40), *(bore(tips[n], Z, 2.5, 40) for n in ("crank in", "crank out")))
@@ -142,10 +146,15 @@ def throttle_linkage(random):
     drawing.add("crank spacer", tube(crank + 6 * Z, Z, 3.1, 5, 4))
     drawing.add("crank screw", screw(crank + 14 * Z, -Z, 3, 23))
     block = union(box((184, -102, 0), (236, -78, 6)), cyl(shaft, Z, 11, 14))
-    drawing.add("bearing block", cut(block, bore(shaft, Z, 4 + play), *(bore(p, Z, 2.2, 9) for p in blocks)))
+    drawing.add(
+        "bearing block",
+        cut(block, bore(shaft, Z, 4 + play), cyl(shaft, Z, 7, 3), *(bore(p, Z, 2.2, 9) for p in blocks)),
+    )
     for k, p in enumerate(blocks):
         drawing.add(f"block screw {k}", screw(p + 6 * Z, -Z, 2, 14))
-    drawing.add("shaft", union(cyl(shaft + Z, Z, 4, 32), cyl(shaft + 14.1 * Z, Z, 6, 1.9)))
+    ring = tube(shaft + 1.9 * Z, Z, 3.4, 6, 1)
+    drawing.add("shaft", cut(union(cyl(shaft + Z, Z, 4, 32), cyl(shaft + 14.1 * Z, Z, 6, 1.9)), ring))
+    drawing.add("retaining ring", ring.cut(box(shaft + at(0, -2, 1), shaft + at(9, 2, 4))))
     lever = cut(union(bar(shaft, tips["lever"], 8, 16, 24), cyl(shaft + 16 * Z, Z, 10, 8)), bore(shaft, Z, 4))
     drawing.add("throttle lever", cut(lever, bore(tips["lever"], Z, 2.5), cyl(shaft + 20 * Z, -X, 1.5, 20)))
     drawing.add("lever grub screw", cyl(shaft + 20 * Z - 4 * X, -X, 1.5, 5))
