@@ -23,6 +23,8 @@ FLUSH = 0.05
 """Ends of two rings that are flush, over the width of the wider one: what a bearing without its balls is known by."""
 ROLLING = 3
 """Balls or rollers that centre a ring, at least."""
+MAX_GAP = 0.15
+"""Play of a ball or roller beside each ring, over the room between both, at most: what leaves more centres no ring."""
 SLACK = 0.05
 """Play that parts between two rings have beyond the section of the rings, over the radius of the outer one."""
 MAX_TAPER = np.deg2rad(35.0)
@@ -66,7 +68,10 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
     coaxial = {ring.part.name for ring in rings}
     inside = [[part for part in parts if part not in (a.part, b.part) and _between(part, a, b)] for a, b in nested]
-    rolling = [sum(_pieces(part) for part in some if part.name not in coaxial) for some in inside]
+    rolling = [
+        sum(_pieces(part) for part in some if part.name not in coaxial and _rolls(part, *rings))
+        for some, rings in zip(inside, nested, strict=True)
+    ]
     some = [each for each in zip(nested, inside, rolling, strict=True) if each[2] >= ROLLING or _flush(*each[0])]
     sure = [pair for pair, *_ in some]
     some = [each for each in some if not _hides_a_bearing(*each[0], sure)]
@@ -78,6 +83,13 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
             taken |= {outer.part.name, inner.part.name, *members}
             found.append(Bearing(outer.part.name, inner.part.name, members, inner.outside, count))
     return found
+
+
+def _rolls(part: Part, outer: _Ring, inner: _Ring) -> bool:
+    """Tell whether what is between two rings reaches from one to the other: a screw through a flange does not."""
+    away, _ = _section(part, outer.hole)
+    gap = MAX_GAP * _room(outer, inner)
+    return bool(away.min() <= inner.outside.radius + gap and away.max() >= outer.hole.radius - gap)
 
 
 def _pieces(part: Part) -> int:

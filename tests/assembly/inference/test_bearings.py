@@ -63,6 +63,19 @@ def test_rings_of_different_width_without_balls_are_no_bearing():
     assert EvidenceKind.BEARING not in kinds
 
 
+@pytest.mark.parametrize(("radius", "rolls"), [(1.55, True), (1.0, False)])
+def test_what_does_not_reach_both_rings_is_no_roller(radius, rolls):
+    """Screws through a flange lie between its bore and a cap, too, with room on both sides."""
+    outer, inner = bearing("A", 0, inner_width=WIDTH / 2)
+    at = [(9.0 * np.cos(angle), 9.0 * np.sin(angle)) for angle in np.arange(4) * np.pi / 2]
+    screws = [part(f"screw {k}", pin(radius, -3.0, -1.0, place)) for k, place in enumerate(at)]
+    kinds = {
+        each.evidence.kind
+        for each in assembly(HOUSING, SHAFT, outer, inner, *screws).mechanism(fixed=["housing"]).all_joints
+    }
+    assert (EvidenceKind.BEARING in kinds) == rolls
+
+
 def test_outer_rings_of_two_housings_have_no_hinge_about_their_raceways():
     housings = [part(f"housing {k}", ring(OUTSIDE, 25.0, low, low + 8)) for k, low in enumerate((-14.0, 6.0))]
     drawn = assembly(*housings, SHAFT, *bearing("A", -10), *bearing("B", 10))
