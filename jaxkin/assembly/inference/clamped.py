@@ -153,10 +153,11 @@ def _is_bush(known: Known, pin: Bore) -> bool:
 
 
 def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies flat on the
-    other part, and nothing but the thread pulls it there.
+    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies on the other
+    part, flat or on its round side, and nothing but the thread pulls it there.
 
-    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp.
+    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp; a washer that is loose
+    on the pin and away from the other part is pressed on something else.
     """
     result = []
     for on_nut in known.axes:
@@ -170,7 +171,7 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             if host == nut or not fits or not _lies_on(known, nut, host, pin):
                 continue
             after = float((on_nut.other.point - pair.other.point) @ pin.axis)
-            others = [each.other for each in threads if each.other.part not in (nut, host)]
+            others = [each.other for each in threads if each.other.part not in (nut, host) and _presses(known, each, host)]
             beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
             own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
             ahead = after * float(pin.axis @ pair.other.axis) > 0
@@ -182,6 +183,12 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
                 sizes = (("radius", pin.radius), ("clearance", pair.clearance))
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
+
+
+def _presses(known: Known, on_pin: CommonAxis, host: str) -> bool:
+    """Tell whether what is on a pin may press on a part there: it is tight on the pin, or touches the part."""
+    tight = on_pin.clearance <= FITTED * on_pin.other.radius
+    return tight or frozenset((on_pin.other.part, host)) in known.touching
 
 
 def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
