@@ -156,8 +156,8 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies on the other
     part, flat or on its round side, and nothing but the thread pulls it there.
 
-    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp; a washer that is loose
-    on the pin and away from the other part is pressed on something else.
+    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp. A washer there, loose
+    on the pin and away from the other part, is pressed on something else.
     """
     result = []
     for on_nut in known.axes:
@@ -171,7 +171,9 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             if host == nut or not fits or not _lies_on(known, nut, host, pin):
                 continue
             after = float((on_nut.other.point - pair.other.point) @ pin.axis)
-            others = [each.other for each in threads if each.other.part not in (nut, host) and _presses(known, each, host)]
+            others = [
+                each.other for each in threads if each.other.part not in (nut, host) and _presses(known, each, host)
+            ]
             beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
             own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
             ahead = after * float(pin.axis @ pair.other.axis) > 0
