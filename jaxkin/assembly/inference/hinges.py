@@ -10,7 +10,8 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore, merged
-from jaxkin.assembly.inference.fasteners import beside
+from jaxkin.assembly.inference.fasteners import Stack, beside
+from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, is_across, lines
@@ -77,7 +78,9 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         one, other = (known.solids[part] for part in pair.parts)
         if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
-    found = _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    rod = Stack((pair.one.part,), pair.parts[1:], pair.one, guides=True)
+    fastened = pair.one.part in fastening and not is_exposed(known, rod)  # mostly in nothing, it is one to slide
+    found = _hinge(known, line, any(across), fastened, kept)
     stopped = any(across) or any(each.stop is Stop.FACES for each in found)
     return found if stopped or not any(pins) else _walled(known, line) or found
 

@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
+from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
 from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
@@ -41,6 +42,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
+from jaxkin.assembly.inference.tight_ends import riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -100,6 +102,7 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
+    known.add([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.add([*pressed_rings(known), *retaining_rings(known)])
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
