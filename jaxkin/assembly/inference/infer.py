@@ -35,6 +35,7 @@ from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
+from jaxkin.assembly.inference.shoes import shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slide_stops import Stop
@@ -114,6 +115,7 @@ def infer(
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
+    known.found += shoes(known)
     joined = hinges(known, fastening)
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
