@@ -156,14 +156,24 @@ def test_a_hollow_thread_with_a_hexagon_down_on_a_face_is_screwed_in(seed, wrenc
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("walls", [5.1, 9.0])
 def test_a_block_on_a_stud_between_walls_is_a_shoe_that_turns_and_slides(seed, walls):
-    """The collar of the stud lies on the edges of the channel; walls far off guide nothing."""
-    sides = [block((-80, min(s * walls, s * 14), 0), (80, max(s * walls, s * 14), 7)) for s in (-1, 1)]
-    base = part("base", *sides, block((-80, -14, 7), (80, 14, 9)))
-    stud = part("arm", pin(12.0, -2, 0), pin(3.0, 0, 6), block((-3, 12, -2), (3, 70, -0.5)))
-    shoe = part(
-        "shoe", ring(3.2, 4.5, 0.3, 6.8), block((4.5, -5, 0.3), (20, 5, 6.8)), block((-20, -5, 0.3), (-4.5, 5, 6.8))
-    )
-    _, mechanism = of(seed, base, stud, shoe)
+    """A crank swings a lever by the shoe on its stud. Its collar lies on the edges of the channel of the lever; walls
+    far off guide nothing."""
+    pins = [piece for at, low in (((100.0, 0.0), 0), ((0.0, -40.0), -2)) for piece in _stepped(at, low)]
+    base = part("base", block((-60, -60, -30), (120, 60, -20)), *pins)
+    sides = [block((-40, min(s * walls, s * 14), 0), (60, max(s * walls, s * 14), 7)) for s in (-1, 1)]
+    lever = part("lever", *sides, block((-40, -14, 7), (95, 14, 9)), ring(4.0, 9.0, 0, 7, (100.0, 0.0)))
+    web = block((-3, -31, -2), (3, -12, -0.5))
+    crank = part("crank", ring(4.0, 9.0, -2, 0, (0.0, -40.0)), web, pin(12.0, -2, 0), pin(3.0, 0, 6))
+    sides = [block((min(s * 4.5, s * 20), -5, 0.3), (max(s * 4.5, s * 20), 5, 6.8)) for s in (-1, 1)]
+    shoe = part("shoe", ring(3.2, 4.5, 0.3, 6.8), *sides)
+    _, mechanism = of(seed, base, lever, crank, shoe)
     assert any("'shoe' is a shoe in a channel" in note for note in mechanism.history) == (walls < 6)
     if walls < 6:
-        assert kind_of(mechanism, "shoe", "base") == "prismatic" and kind_of(mechanism, "shoe", "arm") == "revolute"
+        assert kind_of(mechanism, "shoe", "lever") == "prismatic"
+        assert kind_of(mechanism, "shoe", "crank") == "revolute"
+        assert mechanism.mobility().useful == 1
+
+
+def _stepped(at, low):
+    """A post of the base with a thinner end, on which something lies at a height."""
+    return pin(9.0, -20, low, at), pin(4.0, low, 12, at)
