@@ -78,11 +78,19 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         one, other = (known.solids[part] for part in pair.parts)
         if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
-    rod = Stack((pair.one.part,), pair.parts[1:], pair.one, guides=True)
-    fastened = pair.one.part in fastening and not is_exposed(known, rod)  # mostly in nothing, it is one to slide
+    fastened = pair.one.part in fastening and not _is_rod(known, line)
     found = _hinge(known, line, any(across), fastened, kept)
     stopped = any(across) or any(each.stop is Stop.FACES for each in found)
     return found if stopped or not any(pins) else _walled(known, line) or found
+
+
+def _is_rod(known: Known, line: Line) -> bool:
+    """Tell whether most of a pin is in no hole, as the stem of a roller is: no thread or ring stops its slide.
+
+    A shaft in bushes is one to turn, however long it is.
+    """
+    pin, other = line.first.parts
+    return other not in known.sleeves and is_exposed(known, Stack((pin,), (other,), line.first.one, guides=True))
 
 
 def _opens(known: Known, line: Line) -> bool:
