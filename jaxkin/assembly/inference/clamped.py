@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
-from jaxkin.assembly.inference.sleeves import is_hollow, is_round, is_round_about
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
 from jaxkin.contacts.contact import Contact
@@ -25,6 +25,8 @@ DRAWN_TOGETHER = 0.05
 """The same of a shaft in a hub with a slit, which a screw draws together."""
 MAX_ACROSS = 0.6
 """Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
+MAX_TIP = 1.5
+"""The same of a screw that is drawn and ends at the shaft: M2 to M3 on motor shafts, needles and wires of 1 to 2 mm."""
 MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
@@ -52,10 +54,11 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     for pair in pins:
         shaft, hub = pair.parts
         own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
-        across = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
-        if not across or not is_round(known, shaft, own):
+        crossing = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
+        if not crossing or not is_round(known, shaft, own):
             continue
-        screws = [screw for bore in across if (screw := _screw(known, bore, pair)) is not None]
+        screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]
+        across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
         slits = [bore for bore in across if _is_slit(bore, pair)]
         slit = any(not _is_released(known, inside.get(id(bore), ()), {*pair.parts, *fastening}) for bore in slits)
@@ -76,7 +79,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 def _is_across(hole: Bore, pair: CommonAxis) -> bool:
     """Tell whether a hole of a hub stands across its shaft, where the shaft is: radial, or beside it."""
-    if abs(float(hole.axis @ pair.one.axis)) > ACROSS or hole.radius > MAX_ACROSS * pair.one.radius:
+    if abs(float(hole.axis @ pair.one.axis)) > ACROSS or hole.radius > MAX_TIP * pair.one.radius:
         return False
     height = float(hole.point @ pair.one.axis)
     (low, high), (first, last) = pair.one.reach(pair.one.axis), pair.other.reach(pair.one.axis)
@@ -114,17 +117,34 @@ def _is_released(known: Known, pins: Collection[str], others: Collection[str]) -
     )
 
 
-def _screw(known: Known, hole: Bore, pair: CommonAxis) -> str | None:
-    """Find the screw or pin in a radial hole whose end is at the shaft, or in it."""
+def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str]) -> str | None:
+    """Find the screw or pin in a radial hole whose end is at the shaft, or in it.
+
+    One that is wider than the hole of a set screw ends before the axis of the shaft: its tip presses on the shaft.
+    """
     if _from_axis(hole, pair) > FITTED * pair.one.radius:
         return None
     for each in known.axes:
         if each.other is hole and each.one.part not in pair.parts and not _is_bush(known, each.one):
             places = [float((each.one.point - pair.one.point) @ hole.axis) + side * each.one.half for side in (-1, 1)]
             nearest = 0.0 if places[0] * places[1] < 0 else min(map(abs, places))
-            if nearest - pair.one.radius <= MAX_SHORTFALL * hole.radius:
+            short = nearest - pair.one.radius
+            is_tip = hole.radius <= MAX_ACROSS * pair.one.radius or nearest > 0
+            if is_tip and short <= MAX_SHORTFALL * hole.radius and not _passes(known, each, pair, short, fastening):
                 return each.one.part
     return None
+
+
+def _passes(known: Known, screw: CommonAxis, pair: CommonAxis, short: float, fastening: Collection[str]) -> bool:
+    """Tell whether a pin in the hole of a hub belongs to a third part, which is no nut: it fits that part more tightly,
+    as a stem does its disc, or ends `short` of the shaft, as a pivot in the wall of a cylinder does."""
+    others = [
+        each
+        for each in known.axes
+        if not each.virtual and each.one.part == screw.one.part and each.other.part not in (*pair.parts, *fastening)
+    ]
+    tighter = any(each.clearance < screw.clearance - SAME_FIT * screw.other.radius for each in others)
+    return tighter or (bool(others) and short > FITTED * pair.one.radius)
 
 
 def _is_bush(known: Known, pin: Bore) -> bool:
@@ -133,10 +153,11 @@ def _is_bush(known: Known, pin: Bore) -> bool:
 
 
 def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies flat on the
-    other part, and nothing but the thread pulls it there.
+    """Join parts of which one is screwed into the other, as a rod end or an adjusting screw is: a nut lies on the other
+    part, flat or on its round side, and nothing but the thread pulls it there.
 
-    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp.
+    A pin whose head or second nut stands beyond the other part is that of a hinge, or of a clamp. A washer there, loose
+    on the pin and away from the other part, is pressed on something else.
     """
     result = []
     for on_nut in known.axes:
@@ -150,7 +171,9 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             if host == nut or not fits or not _lies_on(known, nut, host, pin):
                 continue
             after = float((on_nut.other.point - pair.other.point) @ pin.axis)
-            others = [each.other for each in threads if each.other.part not in (nut, host)]
+            others = [
+                each.other for each in threads if each.other.part not in (nut, host) and _presses(known, each, host)
+            ]
             beyond = any(float((each.point - pair.other.point) @ pin.axis) * after < 0 for each in others)
             own, theirs = (known.measured.stops(known.solids[part], pair.other) for part in (pin.part, host))
             ahead = after * float(pin.axis @ pair.other.axis) > 0
@@ -164,10 +187,21 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
     return result
 
 
+def _presses(known: Known, on_pin: CommonAxis, host: str) -> bool:
+    """Tell whether what is on a pin may press on a part there: it is tight on the pin, or touches the part."""
+    tight = on_pin.clearance <= FITTED * on_pin.other.radius
+    return tight or frozenset((on_pin.other.part, host)) in known.touching
+
+
 def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
-    """Tell whether two parts have plane faces across an axis in contact."""
+    """Tell whether two parts touch with a plane face across an axis: on a plane one, or on a round side."""
     pair = frozenset((one, other))
-    return any(_is_across_face(each, axis) for each in known.contacts if frozenset(each.parts) == pair)
+    return any(
+        isinstance(face, Plane) and np.linalg.norm(np.cross(face.normal, axis.axis)) < ACROSS
+        for each in known.contacts
+        if frozenset(each.parts) == pair
+        for face in each.surfaces
+    )
 
 
 def _is_across_face(contact: Contact, axis: Bore) -> bool:

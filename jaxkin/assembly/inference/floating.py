@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, facing, walls
+from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -21,9 +21,6 @@ from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
-
-Looking = tuple[Vector, float, float]
-"""A face of a part that looks at another body: see `facing`."""
 
 
 def floating(known: Known, joined: Sequence[Hinge]) -> list[Inference]:
@@ -52,7 +49,7 @@ def floating(known: Known, joined: Sequence[Hinge]) -> list[Inference]:
             axis = _between(looking[one], looking[other])
             if axis is None or not all(_turns(turning, body, owner, axis) for owner in (one, other)):
                 continue
-            found = {owner: _wall(looking[owner], axis) for owner in (one, other)}
+            found = {owner: wall_across(looking[owner], axis) for owner in (one, other)}
             slots = {owner: wall for owner, wall in found.items() if wall is not None}
             for owner, (normal, play) in slots.items() if len(slots) == 2 else ():
                 result.append(_slide(known, part, around[owner][0], np.cross(normal, axis), play))
@@ -86,7 +83,7 @@ def _between(one: Sequence[Looking], other: Sequence[Looking]) -> Vector | None:
     return None
 
 
-def _wall(looking: Sequence[Looking], axis: Vector) -> tuple[Vector, float] | None:
+def wall_across(looking: Sequence[Looking], axis: Vector) -> tuple[Vector, float] | None:
     """Find the walls of a body on both sides of a part, across an axis: their normal, and the play; None where walls
     hold the part in two directions across the axis, or in none."""
     held = [(normal, play) for normal, play, _ in walls(looking) if abs(normal @ axis) < ACROSS]

@@ -10,7 +10,8 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore, merged
-from jaxkin.assembly.inference.fasteners import beside
+from jaxkin.assembly.inference.fasteners import Stack, beside
+from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, is_across, lines
@@ -77,9 +78,19 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         one, other = (known.solids[part] for part in pair.parts)
         if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
             return []  # as a bolt with a knob in its slot, which slides between walls
-    found = _hinge(known, line, any(across), pair.one.part in fastening, kept)
+    fastened = pair.one.part in fastening and not _is_rod(known, line)
+    found = _hinge(known, line, any(across), fastened, kept)
     stopped = any(across) or any(each.stop is Stop.FACES for each in found)
     return found if stopped or not any(pins) else _walled(known, line) or found
+
+
+def _is_rod(known: Known, line: Line) -> bool:
+    """Tell whether most of a pin is in no hole, as the stem of a roller is: no thread or ring stops its slide.
+
+    A shaft in bushes is one to turn, however long it is.
+    """
+    pin, other = line.first.parts
+    return other not in known.sleeves and is_exposed(known, Stack((pin,), (other,), line.first.one, guides=True))
 
 
 def _opens(known: Known, line: Line) -> bool:

@@ -13,6 +13,7 @@ from jaxkin.assembly.inference.collets import collets
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
+from jaxkin.assembly.inference.fittings import screwed_fittings
 from jaxkin.assembly.inference.floating import floating
 from jaxkin.assembly.inference.heads import is_head_on_tube
 from jaxkin.assembly.inference.held import (
@@ -34,6 +35,7 @@ from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
+from jaxkin.assembly.inference.shoes import shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
 from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
 from jaxkin.assembly.inference.slide_stops import Stop
@@ -41,6 +43,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
+from jaxkin.assembly.inference.tight_ends import riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -100,6 +103,7 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
+    known.add([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.add([*pressed_rings(known), *retaining_rings(known)])
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
@@ -111,6 +115,7 @@ def infer(
     known.add(clamped_on_slots(known, every))
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
+    known.found += shoes(known)
     joined = hinges(known, fastening)
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]

@@ -1,4 +1,4 @@
-"""Shafts of motors: pins drawn into the material of a housing, amid its screw holes, with a hub clamped on them."""
+"""Shafts of motors: pins drawn into a housing, or loose in its blind hole, amid its screw holes, with a hub on them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ import numpy as np
 from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.standing import embedded_pins
+from jaxkin.assembly.inference.sleeves import SAME_FIT
+from jaxkin.assembly.inference.standing import embedded_pins, on_floors
 from jaxkin.geometry.pose import Vector
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -20,13 +21,14 @@ MIN_SCREWS = 2
 
 
 def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Make revolute joints of pins that stand in the material of a housing and carry a hub.
+    """Make revolute joints of pins that stand in the material of a housing, or with play on the floor of its hole, and
+    carry a hub.
 
     The screw holes of the housing are round about the pin, and the hub is one body with the pin: clamped on a pin that
-    does not turn, it would be of no use.
+    does not turn, it would be of no use. A post is set into its hole without play.
     """
     body, result = known.body, []
-    for each in embedded_pins(known, fastening):
+    for each in (*embedded_pins(known, fastening), *_in_blind_holes(known, fastening)):
         for shaft, housing in (each.parts, each.parts[::-1]):
             if shaft not in fastening or shaft in known.fixed:
                 continue
@@ -40,6 +42,19 @@ def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
             parts = (housing, shaft)
             joint = pairs.revolute("-".join(parts), *parts, point=pin.point, axis=pin.axis)
             result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+    return result
+
+
+def _in_blind_holes(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Find the pins that stand on the floor of a hole in which they have play."""
+    on, result = on_floors(known), []
+    for pair in known.axes:
+        pin, host = pair.parts
+        loose = not pair.virtual and pair.clearance > SAME_FIT * pair.other.radius
+        if loose and pin in fastening and host in on.get(pin, ()):
+            text = f"{pin!r} stands on the floor of its hole in {host!r}, with a clearance of {pair.clearance:.2g}"
+            evidence = Evidence(EvidenceKind.ENCLOSED, (("clearance", pair.clearance),), text)
+            result.append(Inference((pin, host), evidence))
     return result
 
 

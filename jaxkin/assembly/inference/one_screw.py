@@ -1,13 +1,14 @@
-"""What one screw alone clamps: a part under its head, flat on the part that the screw is tight in."""
+"""What one screw alone clamps: a part under its head, on the part that the screw is tight in, or on that of its nut."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.fasteners import Stack
+from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -21,43 +22,97 @@ THROUGH = 0.08
 hinges on screws less."""
 
 
+class _Clamped(NamedTuple):
+    """A part that the head of a screw lies on, and the part that it is clamped to."""
+
+    part: str
+    host: str
+    through: CommonAxis
+    """The screw and the hole of the part."""
+    inner: CommonAxis
+    """The screw and the hole of the host."""
+    turning: tuple[str, ...]
+    """Which of the two turn on the screw if they are links: the one with the wider hole, or both."""
+    why: str
+
+
 def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Join two parts that one screw holds to each other.
 
     The head, or a washer, lies on the one, through which the screw goes with the clearance of a screw and not of a
-    hinge; the other one, on which that lies flat, has the hole that the screw is tight in. A bar with such screws into
-    several bodies is a link, which turns on them.
+    hinge. The other one, on which that lies flat, has the hole that the screw is tight in, or lies on the nut, with a
+    hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
+    faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off.
+    A bar with such screws into several bodies is a link, which turns on them.
     """
-    body, found = known.body, []
-    for stack in every:
-        pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and not pair.virtual]
-        tightest: dict[str, CommonAxis] = {}
-        for pair in sorted(pairs, key=lambda each: -each.clearance):
-            tightest[pair.other.part] = pair
-        for inner in (pair for pair in pairs if pair.other.part in stack.held and _is_tight(pair)):
-            host = inner.other.part
-            for part, pair in tightest.items():
-                apart = part in stack.held and body[part] != body[host] and pair.one.part == inner.one.part
-                through = pair.clearance >= THROUGH * pair.other.radius
-                if apart and through and lies_across(known, part, stack) and _lie_flat(known, part, host, inner):
-                    found.append((part, inner, pair))
-    partners: dict[str, set[str]] = {}
-    for part, inner, _ in found:
-        partners.setdefault(body[part], set()).add(body[inner.other.part])
-    result = []
-    for part, inner, pair in found:
-        if len(partners[body[part]]) == 1:
-            screw, host = inner.parts
-            text = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes with a"
-            text += f" clearance of {pair.clearance:.2g}: it clamps them (if they turn on it, give that joint by hand)"
-            sizes = (("radius", inner.one.radius), ("clearance", pair.clearance))
-            parts = tuple(sorted((part, host), key=known.order.__getitem__))
+    body = known.body
+    found = [each for stack in every for each in (*_under_head(known, stack, body), *_on_bolt(known, stack, body))]
+    ground, partners = {body[part] for part in known.fixed}, {}
+    for each in found:
+        owners = {body[each.part], body[each.host]}
+        for owner in {body[part] for part in each.turning} - ground:
+            partners.setdefault(owner, set()).update(owners - {owner})
+    links, result = {owner for owner, others in partners.items() if len(others) > 1}, []
+    for each in found:
+        if not links & {body[part] for part in each.turning}:
+            text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them (if they turn on it,"
+            text += " give that joint by hand)"
+            sizes = (("radius", each.inner.one.radius), ("clearance", each.through.clearance))
+            parts = tuple(sorted((each.part, each.host), key=known.order.__getitem__))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 
-def _is_tight(pair: CommonAxis) -> bool:
-    return pair.clearance <= SAME_FIT * pair.other.radius
+def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Clamped]:
+    """Find what lies on the head of a screw, and the part that the screw is tight in."""
+    holes, result = _holes(known, stack), []
+    tight = [pair for pair in _pairs(known, stack) if pair.clearance <= SAME_FIT * pair.other.radius]
+    for inner in (pair for pair in tight if pair.other.part in stack.held):
+        screw, host = inner.parts
+        for part, pair in holes.items():
+            apart = body[part] != body[host] and pair.one.part == screw
+            if apart and lies_across(known, part, stack):
+                flat = _is_wide(pair) and _lie_flat(known, part, host, inner)
+                if flat or _beside(known, part, host, inner, body):
+                    why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
+                    result.append(_Clamped(part, host, pair, inner, (part,), why))
+    return result
+
+
+def _on_bolt(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Clamped]:
+    """Find two parts, flat on each other, between the head of a bolt and its nut."""
+    with_hole = [all(bore.hole for bore in known.bores[part]) for part in stack.fasteners]
+    holes = {part: pair for part, pair in _holes(known, stack).items() if lies_across(known, part, stack)}
+    if not any(with_hole) or all(with_hole) or len(holes) != 2 or not all(map(_is_wide, holes.values())):
+        return []
+    (part, through), (host, inner) = holes.items()
+    if body[part] == body[host] or through.one is not inner.one or not _lie_flat(known, part, host, inner):
+        return []
+    why = f"{inner.one.part!r} and its nut hold {part!r} on {host!r}, through both of which it goes"
+    return [_Clamped(part, host, through, inner, (part, host), why)]
+
+
+def _pairs(known: Known, stack: Stack) -> list[CommonAxis]:
+    return [pair for pair in known.axes if pair.one.part in stack.fasteners and not pair.virtual]
+
+
+def _holes(known: Known, stack: Stack) -> dict[str, CommonAxis]:
+    """Map each part that is held to the tightest of its holes that a screw is in."""
+    pairs = sorted(_pairs(known, stack), key=lambda each: -each.clearance)
+    tightest = {pair.other.part: pair for pair in pairs if pair.other.part in stack.held}
+    return dict(sorted(tightest.items(), key=lambda item: known.order[item[0]]))
+
+
+def _is_wide(pair: CommonAxis) -> bool:
+    return pair.clearance >= THROUGH * pair.other.radius
+
+
+def _beside(known: Known, one: str, other: str, inner: CommonAxis, body: Mapping[str, str]) -> bool:
+    """Tell whether the bodies of two parts have a second pin in a hole, beside a screw in a hole drilled for its
+    thread."""
+    owners = {body[one], body[other]}
+    pins = (pair for pair in known.axes if not pair.virtual and {body[part] for part in pair.parts} == owners)
+    return inner.threaded and any(beside(pair.one, inner.one) for pair in pins)
 
 
 def _lie_flat(known: Known, one: str, other: str, axis: CommonAxis) -> bool:

@@ -199,14 +199,11 @@ def _is_piston(known: Known, sleeve: Sleeve, found: list[Sleeve]) -> bool:
     hole, pin = sleeve.housing.other, sleeve.pin
     if pin is None or _is_flush(sleeve.housing):
         return False
+    glands = {each.part for each in found if each.housing.other is hole and _is_flush(each.housing)} - {sleeve.part}
     return any(
-        each.pin is not None
-        and each.part != sleeve.part
-        and each.housing.other is hole
-        and each.pin.one.part == pin.one.part
-        and each.pin.one.radius > pin.one.radius
-        and _is_flush(each.housing)
-        for each in found
+        each.other.part in glands and each.one.part == pin.one.part and each.one.radius > pin.one.radius
+        for each in known.axes
+        if not each.virtual  # the gland's packing may fit it more tightly than the rod does
     )
 
 

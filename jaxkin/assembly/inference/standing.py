@@ -55,17 +55,23 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     return result
 
 
+def on_floors(known: Known) -> dict[str, set[str]]:
+    """Map each part to the parts of which it has a bore in contact, and a plane face beside that: its floor."""
+    on: dict[str, set[str]] = {}
+    for contact in known.contacts:
+        if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
+            for part, other in (contact.parts, contact.parts[::-1]):
+                on.setdefault(part, set()).add(other)
+    return on
+
+
 def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Find plain rods that fit a hole exactly and stand on its floor: posts and dowels, which are set into it, and rods
     with caps that touch nothing else on both ends.
 
     A rod with a round hub that does not turn on it is the shaft of a motor.
     """
-    on: dict[str, set[str]] = {}
-    for contact in known.contacts:
-        if contact.contact_state.is_flat and frozenset(contact.parts) in known.pinned:
-            for part, other in (contact.parts, contact.parts[::-1]):
-                on.setdefault(part, set()).add(other)
+    on = on_floors(known)
     neighbours: dict[str, set[str]] = {}
     for pair in known.touching:
         for part in pair:

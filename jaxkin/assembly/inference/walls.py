@@ -18,13 +18,17 @@ TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
 
+Looking = tuple[Vector, float, float]
+"""A face of a part that looks at another body: see `facing`."""
+
+
 def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
     """Find the directions in which a part is between two faces of another one, or of several that are one body: unit
     normals, and the play along them."""
     return [(normal, play) for normal, play, _ in walls(facing(one, others))]
 
 
-def facing(one: Part, others: Sequence[Part]) -> list[tuple[Vector, float, float]]:
+def facing(one: Part, others: Sequence[Part]) -> list[Looking]:
     """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
     return [
         (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
@@ -33,7 +37,7 @@ def facing(one: Part, others: Sequence[Part]) -> list[tuple[Vector, float, float
     ]
 
 
-def walls(found: Sequence[tuple[Vector, float, float]]) -> list[tuple[Vector, float, float]]:
+def walls(found: Sequence[Looking]) -> list[tuple[Vector, float, float]]:
     """Find the walls on both sides among faces that look at each other: normals, plays, and widths between."""
     held: list[tuple[Vector, float, float]] = []
     for k, (normal, gap, place) in enumerate(found):
