@@ -8,6 +8,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from jaxkin.assembly.inference.hinges import hinges
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.measured import Measured
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Plane
 from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
@@ -177,3 +181,14 @@ def test_a_block_on_a_stud_between_walls_is_a_shoe_that_turns_and_slides(seed, w
 def _stepped(at, low):
     """A post of the base with a thinner end, on which something lies at a height."""
     return pin(9.0, -20, low, at), pin(4.0, low, 12, at)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("length", "stops"), [(30.0, [Stop.ONE_FACE]), (260.0, [])])
+def test_a_collar_on_one_side_stops_a_fastener_but_no_stem_that_is_mostly_in_nothing(seed, length, stops):
+    """On the other side of a short pin is a ring or a thread that is not drawn."""
+    base = part("base", BASE, ring(5.0, 12.0, -24, 24), block((11, -3, -130), (14, 3, 24)))
+    stem = part("stem", pin(5.0, -26, length), pin(8.0, -28, -26))
+    drawn = anywhere(assembly(base, stem), seed)
+    known = Known(Measured(drawn.parts), drawn.contacts(), ["base"], (), ())
+    assert [each.stop for each in hinges(known, {"stem"})] == stops
