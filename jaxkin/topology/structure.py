@@ -236,7 +236,8 @@ def structure(
     chain of joints connects to a fixed one, chords that do not leave a spanning tree, and chords whose loops no
     reversal gives common directions.
     """
-    parts, fixed = several(parts, "parts", "part names"), several(fixed, "fixed", "part names")
+    parts = tuple(parts) if isinstance(parts, str) else several(parts, "parts", "part names")  # "ABCD": four letters
+    fixed = several(fixed, "fixed", "part names")
     joints = several(joints, "joints", "joints (name, part 1, part 2)", "[('A', 'base', 'crank')]")
     if wrong := [joint for joint in joints if not isinstance(joint, tuple | list) or len(joint) != 3]:
         raise ValueError(f"a joint is given as (name, part 1, part 2), got {wrong[0]!r}")
