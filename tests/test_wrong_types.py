@@ -233,7 +233,7 @@ def test_what_is_made_of_numbers_and_names(call, wrong):
         ("fixed", (NOTHING, *NO_NAMES)),
         ("exclude", (NOTHING, *NO_NAMES)),
         ("rigid", (NOTHING, *NO_NAMES)),
-        ("ignore", (*NO_LIST, [1])),
+        ("ignore", (NOTHING, *NO_LIST, [1], [(1, 2)])),
         ("joints", (NOTHING, *NO_LIST, ["weld"])),
     ],
 )

@@ -18,12 +18,7 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
     A side is a part, "stop", for all of its contacts with the other side, or one of its faces as reports print it,
     "stop face 7". Raises ValueError for an entry that is no pair, or that no contact is between.
     """
-    ignore = several(ignore, "ignore", "pairs of parts or of their faces", '[["slider", "stop"]]')
-    if any(not isinstance(pair, tuple | list) or len(pair) != 2 for pair in ignore):
-        raise ValueError(
-            'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
-            f'[["slider face 3", "stop face 7"]], got {ignore!r}'
-        )
+    check_pairs(ignore)
     sides = [_sides(contact) for contact in contacts]
     left_out = set()
     for one, other in ignore:
@@ -34,6 +29,16 @@ def without(contacts: Sequence[Contact], ignore: Sequence[Sequence[str]]) -> tup
             )
         left_out.update(between)
     return tuple(contact for k, contact in enumerate(contacts) if k not in left_out)
+
+
+def check_pairs(ignore: Sequence[Sequence[str]]) -> None:
+    """Raise ValueError for what is no list of pairs of names."""
+    for pair in several(ignore, "ignore", "pairs of parts or of their faces", '[["slider", "stop"]]'):
+        if not isinstance(pair, tuple | list) or len(pair) != 2 or not all(isinstance(name, str) for name in pair):
+            raise ValueError(
+                'ignore must be a list of pairs of parts or of their faces, such as [["slider", "stop"]] or '
+                f'[["slider face 3", "stop face 7"]], got {ignore!r}'
+            )
 
 
 def _sides(contact: Contact) -> Sides:

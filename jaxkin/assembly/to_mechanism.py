@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from jaxkin.assembly.at_rest import left_at_rest
-from jaxkin.assembly.ignored_contacts import without
+from jaxkin.assembly.ignored_contacts import check_pairs, without
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.needless import with_spinning
 from jaxkin.contacts.contact import Contact, Contacts
@@ -66,6 +66,7 @@ class Said(NamedTuple):
 def check_said(names: Sequence[str], said: Said) -> None:
     """Refuse words that name no parts, or that are no such groups: ValueError."""
     check_joints(said.joints)
+    check_pairs(said.ignore)
     check_names(names, [(given.name, *given.parts) for given in said.joints], said.fixed)
     bodies(names, said.fixed, said.rigid)
     clearance = said.clearance
