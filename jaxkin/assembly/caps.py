@@ -62,7 +62,7 @@ def _is_on_floor(contact: Contact, pin: Contact, solids: Mapping[str, Part]) -> 
         face = next(face for face in solids[part].faces if face.name == name)
         corners = face.triangles.reshape(-1, 3) - axis.point
         away.append(np.linalg.norm(np.cross(corners, axis.axis), axis=1).max())
-    return min(away) <= WIDER * axis.radius
+    return bool(min(away) <= WIDER * axis.radius)
 
 
 def _is_last(mechanism: Mechanism, owner: Mapping[str, str], body: str) -> bool:

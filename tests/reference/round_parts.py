@@ -50,7 +50,7 @@ def _faces(mesh: trimesh.Trimesh, axis: np.ndarray, walls: list[tuple[float, int
     outwards = np.sum(mesh.face_normals[:, :2] * middle[:, :2], axis=1) > 0
     for radius, side in walls:
         of_wall = (np.abs(up) < 0.1) & (outwards == (side > 0))
-        faces.append((Cylinder(axis, Z, radius, side), mesh.triangles[of_wall]))
+        faces.append((Cylinder(axis, Z, float(radius), side), mesh.triangles[of_wall]))
     return faces
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
@@ -145,7 +146,7 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     return None
 
 
-def _room(faces: Sequence[tuple[Vector, float]]) -> Vector | None:
+def _room(faces: Sequence[tuple[Float[np.ndarray, "2"], float]]) -> Float[np.ndarray, "2"] | None:
     """Measure how far a part can move to and fro along two directions between faces in their plane, by normals and
     gaps; None where some way is open.
 
