@@ -188,7 +188,7 @@ def test_what_makes_no_sense_is_refused(motion, masses):
         jk.drive_forces(motion, applied=jk.torque("crank", np.ones((3, 3))))
     with pytest.raises(ValueError, match="forces are those of a motion"):
         jk.drive_forces(motion.mechanism, masses)
-    with pytest.raises(ValueError, match="gravity must be three numbers"):
+    with pytest.raises(ValueError, match="gravity must be three finite numbers"):
         jk.drive_forces(motion, masses, gravity=-9.81)
     with pytest.raises(ValueError, match="the force on 'crank' must be three numbers"):
         jk.force("crank", (0, 0, 0), 5.0)
