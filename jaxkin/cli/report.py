@@ -54,9 +54,9 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
     screws in their holes.
     """
     every = contacts.near_misses
-    left = every if mechanism is None else [miss for miss in every if not _is_accounted_for(miss, mechanism)]
     if not every:
         return
+    left = every if mechanism is None else _not_accounted_for(every, mechanism)
     known = f", {len(every) - len(left)} of them of bodies and joints that are known otherwise"
     known = f"{known}{'' if verbose else ' (all: --verbose)'}" if len(left) < len(every) else ""
     say(f"\n{counted(len(every), 'near miss')}{known}")
@@ -65,14 +65,16 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
         say(f"  {line}")
 
 
-def _is_accounted_for(miss: NearMiss, mechanism: Mechanism) -> bool:
+def _not_accounted_for(every: Iterable[NearMiss], mechanism: Mechanism) -> list[NearMiss]:
+    """Keep the near misses of two bodies that no joint ties, or joints of contacts alone."""
     body = {part: name for name, parts in mechanism.bodies.items() for part in parts}
-    of_two = {body.get(part, part) for part in miss.parts}
-    return len(of_two) == 1 or any(
-        {body[part] for part in joint.parts} == of_two
+    tied = {
+        frozenset(body[part] for part in joint.parts)
         for joint in mechanism.all_joints
         if joint.evidence is not None and joint.evidence.kind is not EvidenceKind.CONTACT
-    )
+    }
+    owners = [(miss, frozenset(body.get(part, part) for part in miss.parts)) for miss in every]
+    return [miss for miss, of_two in owners if len(of_two) == 2 and of_two not in tied]
 
 
 def print_mechanism(mechanism: Mechanism, contacts: Contacts, verbose: bool) -> None:
