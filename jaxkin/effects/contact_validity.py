@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool, Float
 
+from jaxkin._arguments import check_motion
 from jaxkin._traced import traced
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.separation import Displacements, Gaps
@@ -118,8 +119,7 @@ def contact_validity(motion: Motion) -> ContactValidity:
     Contacts are those that the joints of a mechanism were read from: raises ValueError where it has none, and inside
     `jit`, `vmap` and `grad`.
     """
-    if not isinstance(motion, Motion):
-        raise ValueError(f"contacts are those of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "contacts")
     if traced(motion):
         raise ValueError("contacts are checked on the host: call contact_validity outside of jit, vmap and grad")
     mechanism = motion.mechanism

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Array, Bool, Float
 
+from jaxkin._arguments import check_motion
 from jaxkin._files import save_figure
 from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
@@ -125,8 +126,7 @@ def coupler_curve(motion: Motion, part: str, point: Sequence[float | int] | np.n
     Raises ValueError for motions with several drives, with fewer than four closed poses, for a part that is not there,
     and inside `jit`, `vmap` and `grad`.
     """
-    if not isinstance(motion, Motion):
-        raise ValueError(f"a curve is that of a motion, mechanism.sweep(drive), got {type(motion).__name__}")
+    check_motion(motion, "coupler curves")
     if traced(motion, point):
         raise ValueError("cusps and crossings are found on the host: call coupler_curve outside of jit, vmap and grad")
     if len(motion.inputs) != 1:

@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._arguments import by_name
+from jaxkin._arguments import by_name, check_mechanism
 from jaxkin._names import closest, match_parts, nearest
 from jaxkin._traced import traced
 from jaxkin.geometry.part import Part
@@ -115,8 +115,7 @@ def masses(
     Works inside `jit` and `grad` with respect to densities and given masses. Raises ValueError for parts of which no
     mass can be found, with what to write; for solids that are open, and for unknown parts and materials.
     """
-    if not isinstance(mechanism, Mechanism):
-        raise ValueError(f"masses are those of a mechanism, got {type(mechanism).__name__}")
+    check_mechanism(mechanism, "masses")
     known = dict(by_name(given or {}, "given masses", "{'rod': jk.Mass(0.3, centre=(10, 0, 0))}"))
     for name in known:
         if name not in mechanism.parts:
