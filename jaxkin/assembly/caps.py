@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER
+from jaxkin.assembly.inference.trapped import WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.surfaces import Cylinder, Plane
+from jaxkin.geometry.surfaces import Cylinder
 from jaxkin.joints.joint import Joint
 from jaxkin.joints.kinds import JointKind
 
@@ -54,8 +54,7 @@ def _cap(joint: Joint, contacts: Sequence[Contact], solids: Mapping[str, Part]) 
 def _is_on_floor(contact: Contact, pin: Contact, solids: Mapping[str, Part]) -> bool:
     """Tell whether a contact is that of the end of a pin with the floor of its hole."""
     axis = next(surface for surface in pin.surfaces if isinstance(surface, Cylinder))
-    plane = contact.surfaces[0]
-    if not isinstance(plane, Plane) or np.linalg.norm(np.cross(plane.normal, axis.axis)) >= ACROSS:
+    if not stands_across(contact.surfaces[0], axis.axis):
         return False
     away = []
     for part, name in zip(contact.parts, contact.faces, strict=True):

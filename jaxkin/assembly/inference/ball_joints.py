@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.joints import pairs
@@ -13,18 +11,17 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 def ball_joints(known: Known) -> list[Inference]:
     """Infer ball joints of bodies that touch nowhere, with a ball of one in a socket of the other."""
     body, result = known.body, []
-    tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
-    tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    tied = known.jointed | {frozenset(body[part] for part in pair) for pair in known.touching}
     for each in known.sockets:
         owners = frozenset(body[part] for part in each.parts)
         if len(owners) < 2 or owners in tied:
             continue
         tied.add(owners)
-        parts = tuple(sorted(each.parts, key=known.order.__getitem__))
+        parts = known.in_order(each.parts)
         how = "clearance" if each.clearance >= 0 else "interference"
         text = f"the ball of radius {each.ball.radius:.4g} has a {how} of {abs(each.clearance):.2g} in its socket"
         sizes = (("radius", each.hole.radius), ("clearance", each.clearance), ("offset", each.offset))
         evidence = Evidence(EvidenceKind.CLEARANCE, sizes, f"{text} and is {each.offset:.1g} off")
         joint = pairs.spherical("-".join(parts), *parts, point=each.ball.centre)
-        result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+        result.append(Inference.of(joint, evidence))
     return result

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from jaxkin.assembly.inference.axes import MAX_CLEARANCE, MAX_INTERFERENCE, MAX_TILT, CommonAxis, apart, engaged
 from jaxkin.assembly.inference.bearings import Bearing
@@ -28,7 +27,7 @@ def bearing_bodies(known: Known, found: Sequence[Bearing]) -> list[Inference]:
         for seats, ring in ((shafts, each.inner), (housings, each.outer)):
             if seats:
                 seat = max(seats, key=engaged)
-                parts = tuple(sorted(seat.parts, key=known.order.__getitem__))
+                parts = known.in_order(seat.parts)
                 result.append(Inference(parts, _evidence(each, f"{ring!r} sits on the other one")))
     return result
 
@@ -68,7 +67,7 @@ def bearing_joints(known: Known, found: Sequence[Bearing]) -> list[Inference]:
         parts = (each.outer, each.inner)
         joint = pairs.revolute("-".join(parts), *parts, point=axis.point, axis=axis.axis)
         evidence = _evidence(each, "turns in the outer ring")
-        result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+        result.append(Inference.of(joint, evidence))
     return result
 
 

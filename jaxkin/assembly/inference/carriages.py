@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -51,8 +50,7 @@ def carriages(known: Known) -> list[Inference]:
     rail exactly are left to the contacts that they have there.
     """
     body, result = known.body, []
-    tied = {frozenset(body[part] for part in each) for each in (*known.touching, *known.by_hand)}
-    tied |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
+    tied = known.jointed | {frozenset(body[part] for part in pair) for pair in known.touching}
     runs: dict[tuple[str, str], list[_Run]] = {}
     for owners, point, axis in _hinges(known):
         for turning, carrier in (owners, owners[::-1]):
@@ -71,13 +69,13 @@ def carriages(known: Known) -> list[Inference]:
             largest = [
                 _largest([part for part in known.parts if body[part.name] == owner]) for owner in (carrier, rail)
             ]
-            parts = tuple(sorted(largest, key=known.order.__getitem__))
+            parts = known.in_order(largest)
             text = f"{len(wheels)} wheels of {largest[0]!r}, such as {wheels[0]!r}, run on faces of {largest[1]!r}"
             text += f", with {how} of up to {abs(gap):.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", gap),), text)
             middle = np.mean([run.wheel.point for run in found], axis=0)
             joint = pairs.prismatic("-".join(parts), *parts, point=middle, axis=axis)
-            result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+            result.append(Inference.of(joint, evidence))
             tied.add(pair)
     return result
 

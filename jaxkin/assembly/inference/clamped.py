@@ -14,9 +14,8 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.sockets import Socket
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap
+from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap, stands_across
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
@@ -71,7 +70,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
             what = f"the screw {screws[0]!r}" if screws else "a screw that is not drawn, in a hole across it,"
             what = "a screw across its slit" if slit and not screws else what
             text = f"{what} holds {hub!r} to {shaft!r}"
-            parts = tuple(sorted({*pair.parts, *screws[:1]}, key=known.order.__getitem__))
+            parts = known.in_order({*pair.parts, *screws[:1]})
             sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
@@ -181,7 +180,7 @@ def locked_threads(known: Known, fastening: Collection[str]) -> list[Inference]:
             one, other = (own, theirs) if ahead else (theirs, own)
             if not beyond and gap(one, other, pair.other.radius) is None:
                 text = f"{pin.part!r} is screwed into {host!r} and locked by {nut!r}"
-                parts = tuple(sorted((pin.part, host, nut), key=known.order.__getitem__))
+                parts = known.in_order((pin.part, host, nut))
                 sizes = (("radius", pin.radius), ("clearance", pair.clearance))
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
@@ -197,7 +196,7 @@ def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
     """Tell whether two parts touch with a plane face across an axis: on a plane one, or on a round side."""
     pair = frozenset((one, other))
     return any(
-        isinstance(face, Plane) and np.linalg.norm(np.cross(face.normal, axis.axis)) < ACROSS
+        stands_across(face, axis.axis)
         for each in known.contacts
         if frozenset(each.parts) == pair
         for face in each.surfaces
@@ -205,9 +204,7 @@ def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
 
 
 def _is_across_face(contact: Contact, axis: Bore) -> bool:
-    plane = contact.surfaces[0]
-    flat = contact.contact_state.is_flat and isinstance(plane, Plane)
-    return bool(flat and isinstance(plane, Plane) and np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS)
+    return contact.contact_state.is_flat and stands_across(contact.surfaces[0], axis.axis)
 
 
 def bolted_balls(known: Known) -> list[Inference]:
@@ -226,7 +223,7 @@ def bolted_balls(known: Known) -> list[Inference]:
             parts = {part for each in on for part in each.parts} - {race}
             if len(held := _stacked(known, ball, parts, bolt)) > 1:
                 text = f"{bolt.part!r} holds the ball {ball!r} of the rod end {race!r}"
-                names = tuple(sorted({*held, bolt.part}, key=known.order.__getitem__))
+                names = known.in_order({*held, bolt.part})
                 sizes = (("radius", bolt.radius),)
                 result.append(Inference(names, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result

@@ -41,7 +41,7 @@ def collets(known: Known) -> list[Inference]:
         # what also holds other pieces comes first; the hole that the shaft itself is in, too, is no closing ring
         for ring in rings[:1]:
             text = f"the split ring {piece.part!r} is in a groove of {shaft.part!r}, and {ring.part!r} closes it"
-            parts = tuple(sorted((piece.part, shaft.part, ring.part), key=known.order.__getitem__))
+            parts = known.in_order((piece.part, shaft.part, ring.part))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", piece.radius),), text)))
     return result
 

@@ -41,7 +41,7 @@ def _ends_in(pair: CommonAxis) -> bool:
 
 
 def _set_in(known: Known, pair: CommonAxis) -> Inference:
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     text = (
         f"{pair.one.part!r} ends in a hole of {pair.other.part!r}, {pair.clearance:.2g} wider, and is tied to nothing"
     )

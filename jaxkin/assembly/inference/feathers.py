@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import is_key
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.lines import is_across
+from jaxkin.assembly.inference.trapped import stands_across
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -39,11 +36,11 @@ def feathers(known: Known) -> list[Inference]:
             sizes = (("radius", pair.one.radius), ("stroke", out))
             text = f"the feather {key.name!r} is set in a slot of {shaft.name!r}"
             result.append(Inference((shaft.name, key.name), Evidence(EvidenceKind.FASTENER, sizes, text)))
-            parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+            parts = known.in_order(pair.parts)
             text = f"the feather {key.name!r} guides {hub.name!r} along {shaft.name!r}, and is out of it by {out:.3g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
             joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
-            result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+            result.append(Inference.of(joint, evidence))
     return result
 
 
@@ -57,5 +54,4 @@ def _out_of(key: Part, pair: CommonAxis) -> float:
 def _is_shouldered(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a hub lies on a face of its shaft across the axis."""
     flat = (each for each in known.contacts if each.contact_state.is_flat and {*each.parts} == {*pair.parts})
-    faces = [each.surfaces[0] for each in flat]
-    return any(isinstance(face, Plane) and is_across(face, pair) for face in faces)
+    return any(stands_across(each.surfaces[0], pair.one.axis) for each in flat)

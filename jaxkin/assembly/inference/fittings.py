@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import is_hollow
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.trapped import ACROSS, stands_across
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -32,7 +32,7 @@ def screwed_fittings(known: Known) -> list[Inference]:
             continue
         text = f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"
         sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-        parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+        parts = known.in_order(pair.parts)
         result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
@@ -62,6 +62,4 @@ def _is_down(known: Known, pair: CommonAxis) -> bool:
         for contact in known.contacts
         if {*contact.parts} == {*pair.parts} and not contact.contact_state.is_pin
     ]
-    return bool(planes) and all(
-        isinstance(face, Plane) and np.linalg.norm(np.cross(face.normal, pair.one.axis)) < ACROSS for face in planes
-    )
+    return bool(planes) and all(stands_across(plane, pair.one.axis) for plane in planes)

@@ -4,7 +4,6 @@ coupling."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -30,18 +29,13 @@ def floating(known: Known, joined: Sequence[Hinge]) -> list[Inference]:
     or hinges `joined`, and so stay where they are along it.
     """
     body, result = known.body, []
-    tied = {frozenset(body[each] for each in pair) for pair in known.by_hand}
-    tied |= {frozenset(body[each] for each in found.parts) for found in known.found if found.joint}
-    tied |= {frozenset(body[each] for each in hinge.inference.parts) for hinge in joined}
+    tied = known.jointed | {frozenset(body[each] for each in hinge.inference.parts) for hinge in joined}
     turning = [each.joint for each in (*known.found, *(each.inference for each in joined)) if each.joint]
     turning = [joint for joint in turning if joint.kind is JointKind.REVOLUTE]
     if len(turning) < 2:
         return []
     for part in known.parts:
-        around: dict[str, list[Part]] = {}
-        for other in known.measured.beside(part):
-            if body[other.name] != body[part.name]:
-                around.setdefault(body[other.name], []).append(other)
+        around = known.around(part, body)
         free = (owner for owner in around if frozenset((body[part.name], owner)) not in tied)
         free = (owner for owner in free if _may_slide(known, part.name, owner) and _turns(turning, body, owner))
         looking = {owner: facing(part, around[owner]) for owner in free}
@@ -94,8 +88,8 @@ def wall_across(looking: Sequence[Looking], axis: Vector) -> tuple[Vector, float
 
 def _slide(known: Known, part: Part, other: Part, along: Vector, play: float) -> Inference:
     """Make the prismatic joint of a floating part and a body whose slot it is in."""
-    parts = tuple(sorted((part.name, other.name), key=known.order.__getitem__))
+    parts = known.in_order((part.name, other.name))
     text = f"{part.name!r} floats between two bodies that turn, with a play of {play:.2g} in a slot of {other.name!r}"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
     joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=along)
-    return Inference(parts, evidence, replace(joint, evidence=evidence))
+    return Inference.of(joint, evidence)

@@ -9,9 +9,8 @@ from jaxkin.assembly.inference.axes import apart, shared_length
 from jaxkin.assembly.inference.bores import Bore, merged, shared
 from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER
+from jaxkin.assembly.inference.trapped import ACROSS, WIDER, stands_across
 from jaxkin.contacts.contact import Contact
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import EvidenceKind
 
 NEAR = 1.0
@@ -22,8 +21,7 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
     """Tell whether a contact is that of the flat head of a pin with the outside of the tube that the pin goes
     through."""
     pairs = [pair for pair in known.axes if {*pair.parts} == {*contact.parts} and not pair.virtual]
-    planes = [surface for surface in contact.surfaces if isinstance(surface, Plane)]
-    return any(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS for plane in planes for pair in pairs)
+    return any(stands_across(surface, pair.one.axis) for surface in contact.surfaces for pair in pairs)
 
 
 def lies_across(known: Known, part: str, stack: Stack) -> bool:
@@ -31,7 +29,7 @@ def lies_across(known: Known, part: str, stack: Stack) -> bool:
     for contact in known.contacts:
         if part in contact.parts and {*contact.parts} & {*stack.fasteners}:
             plane = contact.surfaces[0]
-            if isinstance(plane, Plane) and np.linalg.norm(np.cross(plane.normal, stack.axis.axis)) < ACROSS:
+            if stands_across(plane, stack.axis.axis):
                 return True
     return False
 

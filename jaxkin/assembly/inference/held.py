@@ -273,6 +273,6 @@ def pressed_rings(known: Known) -> list[Inference]:
         if not _is_trapped(known, pin, hole):
             sizes = (("radius", hole.radius), ("clearance", min(pair.clearance for pair in pairs)))
             text = f"{name!r} is tight on {pin!r}, with an interference of {-sizes[1][1]:.2g}"
-            parts = tuple(sorted((name, pin), key=known.order.__getitem__))
+            parts = known.in_order((name, pin))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result

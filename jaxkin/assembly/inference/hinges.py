@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,9 +13,9 @@ from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.lines import Line, is_across, lines
+from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
-from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, between_bores, nearest, play
+from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
@@ -68,7 +67,7 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
         return []
     faces = [contact.surfaces[0] for contact in line.touching if contact.contact_state.is_flat]
     planes = [face for face in faces if isinstance(face, Plane)]
-    across = [is_across(plane, pair) for plane in planes]
+    across = [stands_across(plane, pair.one.axis) for plane in planes]
     if not all(across) and (any(across) or any(pins) or not _opens(known, line)):
         return []  # faces along the axis keep it from turning: exact contacts say what is left
     pinned = [each.one for each in line.found if not each.virtual]
@@ -146,7 +145,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
             free, stop = 0.0, Stop.SHORT
         else:
             return []
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     make = pairs.cylindrical if free is None else pairs.revolute
     axis = _line(known, pair, owners)
     middle = axis.point + ((hole.point - axis.point) @ axis.axis) * axis.axis
@@ -168,7 +167,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}", doubt)
-    return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), stop if exact else Stop.NONE)]
+    return [Hinge(Inference.of(joint, evidence), stop if exact else Stop.NONE)]
 
 
 def _kept_with(owner: str, line: Line, kept: Sequence[Line]) -> set[str]:
@@ -196,12 +195,12 @@ def _between(known: Known, pair: CommonAxis, found: Sequence[CommonAxis]) -> flo
 
 def _guided(known: Known, pair: CommonAxis) -> Hinge:
     """Make a prismatic joint along two or more parallel pins with play, such as guide rods."""
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
     sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
     text = f"parallel pins, one of radius {pair.one.radius:.4g} with a clearance of {pair.clearance:.2g}, guide it"
     evidence = Evidence(EvidenceKind.CLEARANCE, sizes, text)
-    return Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.NONE)
+    return Hinge(Inference.of(joint, evidence), Stop.NONE)
 
 
 def _walled(known: Known, line: Line) -> list[Hinge]:
@@ -212,11 +211,11 @@ def _walled(known: Known, line: Line) -> list[Hinge]:
     angle = turns(one, other, pair.other.point, pair.one.axis)
     if angle > MIN_TURN:
         return []
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
     text = f"the pin of radius {pair.one.radius:.4g} fits; walls beside it leave a turn of {angle:.2g} rad"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
-    return [Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.FACES)]
+    return [Hinge(Inference.of(joint, evidence), Stop.FACES)]
 
 
 def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:

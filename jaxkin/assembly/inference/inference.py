@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from jaxkin._names import listed
 from jaxkin.joints.evidence import Evidence
@@ -20,6 +20,11 @@ class Inference:
     evidence: Evidence
     joint: Joint | None = None
     """None where the parts are one body."""
+
+    @classmethod
+    def of(cls, joint: Joint, evidence: Evidence) -> Inference:
+        """Infer a joint, which carries its evidence, too."""
+        return cls(joint.parts, evidence, replace(joint, evidence=evidence))
 
     def __str__(self) -> str:
         parts = listed([repr(part) for part in self.parts])

@@ -66,7 +66,7 @@ def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
             (other,) = mates
             text = f"{one!r} only lies on others, of which {other!r} is in its sub-assembly"
             evidence = Evidence(EvidenceKind.SUBASSEMBLY, (), text)
-        result.append(Inference(tuple(sorted((one, other), key=known.order.__getitem__)), evidence))
+        result.append(Inference(known.in_order((one, other)), evidence))
     return result
 
 
@@ -95,7 +95,7 @@ def sunk_in_siblings(known: Known) -> list[Inference]:
         if share > MIN_SUNK and known.group[part.name] != ():
             text = f"{share:.0%} of {part.name!r} is drawn into {host!r}, which is in its sub-assembly"
             evidence = Evidence(EvidenceKind.ENCLOSED, (("share", share),), text)
-            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
+            result.append(Inference(known.in_order((host, part.name)), evidence))
     return result
 
 

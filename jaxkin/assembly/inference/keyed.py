@@ -45,7 +45,7 @@ def flatted_hubs(known: Known) -> list[Inference]:
         along = [normal for normal in flats if abs(normal @ pair.one.axis) < ACROSS]
         if along and all(np.linalg.norm(np.cross(normal, along[0])) < ACROSS for normal in along):
             shaft, hub = pair.parts
-            parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+            parts = known.in_order(pair.parts)
             sizes = (("radius", pair.one.radius),)
             text = f"a flat of {shaft!r} keeps {hub!r} from turning on it"
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
@@ -66,7 +66,7 @@ def keyed_hubs(known: Known) -> list[Inference]:
         for key in known.measured.beside(shaft):
             if key is not hub and key.name not in known.fixed and is_key(key, shaft, hub, pair):
                 text = f"the key {key.name!r} is in a slot of {shaft.name!r} and in one of {hub.name!r}"
-                parts = tuple(sorted((*pair.parts, key.name), key=known.order.__getitem__))
+                parts = known.in_order((*pair.parts, key.name))
                 sizes = (("radius", pair.one.radius),)
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result

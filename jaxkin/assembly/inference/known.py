@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -62,6 +62,25 @@ class Known:
         """The first part of the body that each part belongs to."""
         groups = [each.parts for each in self.found if each.joint is None]
         return bodies(self.names, self.fixed, [*self.rigid, *groups])
+
+    @property
+    def jointed(self) -> set[Pair]:
+        """The pairs of bodies that joints by hand or inferred joints join."""
+        body = self.body
+        pairs = (*self.by_hand, *(each.parts for each in self.found if each.joint))
+        return {frozenset(body[part] for part in pair) for pair in pairs}
+
+    def in_order(self, names: Iterable[str]) -> tuple[str, ...]:
+        """Sort names of parts as the assembly has them."""
+        return tuple(sorted(names, key=self.order.__getitem__))
+
+    def around(self, part: Part, body: Mapping[str, str]) -> dict[str, list[Part]]:
+        """Find the parts of other bodies beside a part, by their bodies; `body` is that of now, found once for many."""
+        found: dict[str, list[Part]] = {}
+        for other in self.measured.beside(part):
+            if body[other.name] != body[part.name]:
+                found.setdefault(body[other.name], []).append(other)
+        return found
 
     @property
     def far(self) -> list[CommonAxis]:

@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import NEAR_ANGLE, NEAR_LENGTH, Bore
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.trapped import ACROSS, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Cylinder, Plane
 
@@ -44,7 +44,7 @@ class Line(NamedTuple):
         """Whether exact contacts say that the bodies turn about the axis without a slide: pins, and faces across it."""
         pair = self.first
         flat = [contact.surfaces[0] for contact, pin in self._contacts if not pin and contact.contact_state.is_flat]
-        across = [isinstance(each, Plane) and is_across(each, pair) for each in flat]
+        across = [stands_across(each, pair.one.axis) for each in flat]
         return any(self.pins) and any(across) and all(across) and len(flat) + sum(self.pins) == len(self.touching)
 
     @property
@@ -55,12 +55,10 @@ class Line(NamedTuple):
 def lines(known: Known, axes: Sequence[CommonAxis] | None = None) -> list[Line]:
     """Find the bodies that have axes in common, but those that joints join already."""
     axes = [pair for pair in known.axes if not pair.threaded] if axes is None else axes
-    body, between = known.body, {}
-    given = [*known.by_hand, *(each.parts for each in known.found if each.joint)]
-    by_hand = {frozenset(body[part] for part in pair) for pair in given}
+    body, between, jointed = known.body, {}, known.jointed
     for pair in _neighbours(axes, body):
         owners = frozenset(body[part] for part in pair.parts)
-        if len(owners) == 2 and owners not in by_hand:
+        if len(owners) == 2 and owners not in jointed:
             between.setdefault(owners, []).append(pair)
     exact: dict[Pair, list[Contact]] = {}
     for contact in known.contacts:
@@ -78,11 +76,6 @@ def _line_of(owners: Pair, found: list[CommonAxis], touching: list[Contact]) -> 
     if line.first.virtual or not any(line.pins):
         return line
     return line._replace(found=[each for each in found if not each.virtual or each.other.on_axis_of(line.first.other)])
-
-
-def is_across(plane: Plane, pair: CommonAxis) -> bool:
-    """Tell whether a plane stands across a common axis."""
-    return bool(np.linalg.norm(np.cross(plane.normal, pair.one.axis)) < ACROSS)
 
 
 def _rolls(contact: Contact, axis: Bore) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -41,7 +40,7 @@ def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
             evidence = Evidence(EvidenceKind.ENCLOSED, (*each.evidence.sizes, ("radius", pin.radius)), text)
             parts = (housing, shaft)
             joint = pairs.revolute("-".join(parts), *parts, point=pin.point, axis=pin.axis)
-            result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+            result.append(Inference.of(joint, evidence))
     return result
 
 

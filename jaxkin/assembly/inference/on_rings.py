@@ -11,8 +11,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import MAX_NUT
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.assembly.inference.trapped import ACROSS, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
@@ -29,7 +28,7 @@ def clamped_on_rings(known: Known, found: Sequence[Bearing]) -> list[Inference]:
             shut_out = {each.inner, each.outer, *each.between, *on[other]}
             stack = _stack(known, ring, each.axis, shut_out)
             if stack:
-                parts = tuple(sorted((ring, *stack), key=known.order.__getitem__))
+                parts = known.in_order((ring, *stack))
                 text = f"{', '.join(map(repr, stack))} clamped to the ring {ring!r} of a bearing, and not to {other!r}"
                 evidence = Evidence(EvidenceKind.BEARING, (("radius", each.axis.radius),), text)
                 result.append(Inference(parts, evidence))
@@ -50,10 +49,9 @@ def _flat_on(known: Known, part: str, axis: Bore) -> list[str]:
     through."""
     result = []
     for contact in known.contacts:
-        plane = contact.surfaces[0]
-        if part in contact.parts and contact.contact_state.is_flat and isinstance(plane, Plane):
+        if part in contact.parts and contact.contact_state.is_flat:
             other = next(each for each in contact.parts if each != part)
-            flat = np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS
+            flat = stands_across(contact.surfaces[0], axis.axis)
             if flat and other not in result and any(_is_around(bore, axis) for bore in known.bores[other]):
                 result.append(other)
     return result

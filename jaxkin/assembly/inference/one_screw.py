@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-import numpy as np
-
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.trapped import ACROSS
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.assembly.inference.trapped import stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 THROUGH = 0.08
@@ -58,7 +55,7 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
             text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them (if they turn on it,"
             text += " give that joint by hand)"
             sizes = (("radius", each.inner.one.radius), ("clearance", each.through.clearance))
-            parts = tuple(sorted((each.part, each.host), key=known.order.__getitem__))
+            parts = known.in_order((each.part, each.host))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
@@ -118,6 +115,4 @@ def _beside(known: Known, one: str, other: str, inner: CommonAxis, body: Mapping
 def _lie_flat(known: Known, one: str, other: str, axis: CommonAxis) -> bool:
     """Tell whether two parts lie flat on each other across an axis, and nowhere else."""
     planes = [each.surfaces[0] for each in known.contacts if {*each.parts} == {one, other}]
-    return bool(planes) and all(
-        isinstance(plane, Plane) and np.linalg.norm(np.cross(plane.normal, axis.one.axis)) < ACROSS for plane in planes
-    )
+    return bool(planes) and all(stands_across(plane, axis.one.axis) for plane in planes)

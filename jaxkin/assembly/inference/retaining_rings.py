@@ -26,7 +26,7 @@ def retaining_rings(known: Known) -> list[Inference]:
             if ring not in known.fixed and _is_in_groove(known, pair, ring, host):
                 sizes = (("radius", pair.other.radius), ("clearance", pair.clearance))
                 text = f"the ring {ring!r} springs into a groove of {host!r}"
-                parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+                parts = known.in_order(pair.parts)
                 result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 

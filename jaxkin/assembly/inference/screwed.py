@@ -27,7 +27,7 @@ def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
             radii = f"{pair.one.radius:.4g} is screwed into a hole of {pair.other.radius:.4g}"
             text = f"{screw!r} of radius {radii} of {host!r}"
             sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-            parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+            parts = known.in_order(pair.parts)
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
@@ -48,7 +48,7 @@ def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
         aligned = [each for each in found if parallel(each[0].axis, found[0][0].axis)]
         if len(aligned) > 1:
             gap = max(distance for _, distance in aligned)
-            one, other = parts = tuple(sorted(pair, key=known.order.__getitem__))
+            one, other = parts = known.in_order(pair)
             text = f"{len(aligned)} parallel screws of {one!r} or {other!r} point at the other one, which has no holes"
             sizes = (("screws", float(len(aligned))), ("gap", gap))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))

@@ -50,7 +50,7 @@ def set_on_pins(known: Known, joined: Sequence[Hinge]) -> list[Hinge]:
 
 
 def _held(known: Known, pair: CommonAxis, text: str, length: tuple[str, float], stop: Stop) -> Hinge:
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     evidence = Evidence(EvidenceKind.FASTENER, (("radius", pair.other.radius), length), f"{pair.other.part!r}: {text}")
     return Hinge(Inference(parts, evidence), stop)
 

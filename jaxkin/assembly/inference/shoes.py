@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -11,14 +10,12 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.floating import wall_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY
+from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, stands_across
 from jaxkin.assembly.inference.walls import Looking, facing
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
-from jaxkin.joints.joint import Joint
 
 
 def shoes(known: Known) -> list[Inference]:
@@ -27,18 +24,13 @@ def shoes(known: Known) -> list[Inference]:
     The floor of the channel stops it one way along the pin, a collar of the pin the other way; both stay where they are
     since the two bodies lie on each other. Where the pin fits exactly, its contact says that the shoe turns.
     """
-    body, result = known.body, []
-    tied = {frozenset(body[each] for each in pair) for pair in known.by_hand}
-    tied |= {frozenset(body[each] for each in found.parts) for found in known.found if found.joint}
+    body, tied, result = known.body, known.jointed, []
     for pair in known.axes:
         shoe, axis = known.solids[pair.other.part], pair.one.axis
         carrier = body[pair.one.part]
         if pair.virtual or pair.threaded or frozenset((body[shoe.name], carrier)) in tied:
             continue
-        around: dict[str, list[Part]] = {}
-        for other in known.measured.beside(shoe):
-            if body[other.name] != body[shoe.name]:
-                around.setdefault(body[other.name], []).append(other)
+        around = known.around(shoe, body)
         for owner in around.keys() - {carrier}:
             if frozenset((body[shoe.name], owner)) in tied or not _lie_on_each_other(known, carrier, owner, axis):
                 continue
@@ -58,9 +50,7 @@ def _lie_on_each_other(known: Known, one: str, other: str, axis: Vector) -> bool
     """Tell whether faces across an axis are in contact between two bodies, and nothing else of them is."""
     body = known.body
     planes = [each.surfaces[0] for each in known.contacts if {body[part] for part in each.parts} == {one, other}]
-    return bool(planes) and all(
-        isinstance(face, Plane) and np.linalg.norm(np.cross(face.normal, axis)) < ACROSS for face in planes
-    )
+    return bool(planes) and all(stands_across(plane, axis) for plane in planes)
 
 
 def _room(one: Sequence[Looking], other: Sequence[Looking], axis: Vector) -> float | None:
@@ -76,23 +66,15 @@ def _room(one: Sequence[Looking], other: Sequence[Looking], axis: Vector) -> flo
 def _slide(known: Known, shoe: Part, channel: Part, along: Vector, play: float) -> Inference:
     text = f"{shoe.name!r} is a shoe in a channel of {channel.name!r}, with a play of {play:.2g} between its walls"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
-    parts = _sorted(known, shoe.name, channel.name)
+    parts = known.in_order((shoe.name, channel.name))
     joint = pairs.prismatic("-".join(parts), *parts, point=shoe.box.mean(axis=0), axis=along)
-    return _inference(parts, evidence, joint)
+    return Inference.of(joint, evidence)
 
 
 def _turn(known: Known, pair: CommonAxis, room: float) -> Inference:
     pin, shoe = pair.parts
     text = f"the shoe {shoe!r} turns on {pin!r}, with a play of {room:.2g} along it between collar and channel"
     sizes = (("radius", pair.other.radius), ("clearance", pair.clearance), ("play", room))
-    parts = _sorted(known, *pair.parts)
+    parts = known.in_order(pair.parts)
     joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
-    return _inference(parts, Evidence(EvidenceKind.CLEARANCE, sizes, text), joint)
-
-
-def _sorted(known: Known, one: str, other: str) -> tuple[str, str]:
-    return (one, other) if known.order[one] < known.order[other] else (other, one)
-
-
-def _inference(parts: tuple[str, str], evidence: Evidence, joint: Joint) -> Inference:
-    return Inference(parts, evidence, replace(joint, evidence=evidence))
+    return Inference.of(joint, Evidence(EvidenceKind.CLEARANCE, sizes, text))

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-import numpy as np
-
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.assembly.inference.trapped import WIDER, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
@@ -37,7 +34,7 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
         if seats - between - {shaft}:
             pressed = sorted(between - {nut}, key=known.order.__getitem__)
             text = f"{nut!r} presses {', '.join(map(repr, pressed))} against a shoulder of {shaft!r}"
-            parts = tuple(sorted({shaft, *between}, key=known.order.__getitem__))
+            parts = known.in_order({shaft, *between})
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", thread.radius),), text)))
     return result
 
@@ -47,10 +44,9 @@ def _pressed(known: Known, nut: str, shaft: str, on: Collection[str], axis: Bore
     found, shouldered = [nut], False
     for part in found:  # grows while it is read
         for contact in known.contacts:
-            plane = contact.surfaces[0]
-            if part not in contact.parts or not contact.contact_state.is_flat or not isinstance(plane, Plane):
+            if part not in contact.parts or not contact.contact_state.is_flat:
                 continue
-            if np.linalg.norm(np.cross(plane.normal, axis.axis)) < ACROSS:
+            if stands_across(contact.surfaces[0], axis.axis):
                 (other,) = {*contact.parts} - {part}
                 shouldered |= other == shaft
                 found += [other] if other in on and other not in found else []

@@ -102,7 +102,7 @@ def seated_sleeves(known: Known, found: list[Sleeve]) -> list[Inference]:
             (("radius", seat.one.radius), ("clearance", seat.clearance)),
             f"the sleeve {each.part!r} is {why} {host!r}, with a clearance of {seat.clearance:.2g}",
         )
-        result.append(Inference(tuple(sorted((each.part, host), key=known.order.__getitem__)), evidence))
+        result.append(Inference(known.in_order((each.part, host)), evidence))
     return result
 
 

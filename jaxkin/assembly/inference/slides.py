@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Float
@@ -41,11 +40,11 @@ def loose_slides(known: Known) -> list[Inference]:
             found = _slide(part, others) or _dovetail(part, others)
             if found is not None:
                 axis, play = found
-                parts = tuple(sorted((part.name, others[0].name), key=known.order.__getitem__))
+                parts = known.in_order((part.name, others[0].name))
                 text = f"faces on both sides in two directions, with a play of {play:.2g}"
                 evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
                 joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-                result.append(Inference(parts, evidence, replace(joint, evidence=evidence)))
+                result.append(Inference.of(joint, evidence))
                 tied.add(owners)
     return result
 
@@ -81,11 +80,11 @@ def guided_on_faces(known: Known) -> list[Hinge]:
         if walls and not any(_are_across(wall, walls[0][1]) for _, wall, _ in walls):
             part, wall, play = min(walls, key=lambda each: each[2])
             axis = np.cross(wall, normals[0])
-            parts = tuple(sorted(owners, key=known.order.__getitem__))
+            parts = known.in_order(owners)
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-            result.append(Hinge(Inference(parts, evidence, replace(joint, evidence=evidence)), Stop.FACES))
+            result.append(Hinge(Inference.of(joint, evidence), Stop.FACES))
     return result
 
 

@@ -52,7 +52,7 @@ def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
                 screw = stack.fasteners[0]
                 text = f"the screw {screw!r} ends in a slot of {part.name!r}, on the edges of which {owner!r} lies"
                 evidence = Evidence(EvidenceKind.FASTENER, (("radius", axis.radius),), text)
-                parts = tuple(sorted((owner, part.name), key=known.order.__getitem__))
+                parts = known.in_order((owner, part.name))
                 result.append(Inference(parts, evidence))
     return result
 

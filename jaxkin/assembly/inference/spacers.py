@@ -30,7 +30,7 @@ def spacers(known: Known, fastening: Collection[str]) -> list[Stack]:
         beyond = {part for pair in pairs for part in pair.parts} - {name}
         ends = {ahead: _touching(known, name, holes[0], ahead) & beyond for ahead in (True, False)}
         if all(ends.values()):
-            held = tuple(sorted(ends[True] | ends[False], key=known.order.__getitem__))
+            held = known.in_order(ends[True] | ends[False])
             result.append(Stack((name,), held, holes[0], guides=False))
     return result
 

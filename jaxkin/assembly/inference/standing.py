@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import is_round_about
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.trapped import stands_across
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -27,7 +27,7 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
         for depth, host in sorted(found, reverse=True)[:1]:
             text = f"{part.name!r} stands in the material of {host!r}, {depth:.3g} deep"
             evidence = Evidence(EvidenceKind.ENCLOSED, (("depth", depth),), text)
-            result.append(Inference(tuple(sorted((host, part.name), key=known.order.__getitem__)), evidence))
+            result.append(Inference(known.in_order((host, part.name)), evidence))
     return result
 
 
@@ -41,7 +41,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
             surface = contact.surfaces[contact.parts.index(pin)]
             if not contact.contact_state.is_flat or pin not in axis_of or frozenset(contact.parts) in known.pinned:
                 continue
-            if isinstance(surface, Plane) and np.linalg.norm(np.cross(surface.normal, axis_of[pin].axis)) < ACROSS:
+            if isinstance(surface, Plane) and stands_across(surface, axis_of[pin].axis):
                 directions.setdefault((pin, other), set()).add(bool(surface.normal @ axis_of[pin].axis > 0))
     result = []
     for (pin, other), ways in directions.items():
@@ -51,7 +51,7 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
         if between or coaxial:
             where = "between two faces" if between else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")
-            result.append(Inference(tuple(sorted((pin, other), key=known.order.__getitem__)), evidence))
+            result.append(Inference(known.in_order((pin, other)), evidence))
     return result
 
 
@@ -89,5 +89,5 @@ def standing_rods(known: Known, fastening: Collection[str]) -> list[Inference]:
         caps = [host for host in on.get(rod, ()) if neighbours[host] == {rod}]
         for host in on[rod] if len(on.get(rod, ())) == 1 else caps:
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{rod!r} stands on the floor of its hole in {host!r}")
-            result.append(Inference(tuple(sorted((rod, host), key=known.order.__getitem__)), evidence))
+            result.append(Inference(known.in_order((rod, host)), evidence))
     return result

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-import numpy as np
-
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.trapped import ACROSS, play
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.assembly.inference.trapped import play, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
@@ -75,13 +72,11 @@ def _is_tight_end(known: Known, pair: CommonAxis) -> bool:
 def _lies_across(known: Known, screw: str, hub: str, pair: CommonAxis) -> bool:
     """Tell whether the head of a screw lies flat on a hub, across the axis of its shaft."""
     planes = [each.surfaces[0] for each in known.contacts if {*each.parts} == {screw, hub}]
-    return any(
-        isinstance(face, Plane) and np.linalg.norm(np.cross(face.normal, pair.one.axis)) < ACROSS for face in planes
-    )
+    return any(stands_across(plane, pair.one.axis) for plane in planes)
 
 
 def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
     sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
     text = f"{text}: what has play on that pin turns"
-    parts = tuple(sorted(pair.parts, key=known.order.__getitem__))
+    parts = known.in_order(pair.parts)
     return Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text))

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
-from jaxkin.geometry.surfaces import Plane
+from jaxkin.geometry.surfaces import Plane, Surface
 
 ACROSS = 1e-3
 """Radians between an axis and the normal of a face that stands across it."""
@@ -31,6 +31,11 @@ begins where the piston ends."""
 
 WIDER = 1.05
 """Distance from the axis over the radius of a pin from which on it is shoulders that are met, not the pin itself."""
+
+
+def stands_across(surface: Surface, axis: Vector) -> bool:
+    """Tell whether a surface is a plane across an axis."""
+    return isinstance(surface, Plane) and bool(np.linalg.norm(np.cross(surface.normal, axis)) < ACROSS)
 
 
 class Stop(NamedTuple):

@@ -44,7 +44,7 @@ def screwed_flat(known: Known) -> list[Inference]:
             if len(ends) > 1:
                 where = f"end on the face of {other!r} that it lies on"
                 text = f"{len(ends)} empty holes of {part!r} {where}, as for screws that are not drawn"
-                parts = tuple(sorted((part, other), key=known.order.__getitem__))
+                parts = known.in_order((part, other))
                 evidence = Evidence(EvidenceKind.BOLT_PATTERN, (("axes", float(len(ends))),), text)
                 result.append(Inference(parts, evidence))
     return result

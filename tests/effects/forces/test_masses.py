@@ -92,7 +92,7 @@ def test_what_is_missing_is_named():
         jk.masses(solid, [1.0, 2.0])
     with pytest.raises(ValueError, match="density names 'leg', which no part matches"):
         jk.masses(solid, {"leg": 1.0})
-    with pytest.raises(ValueError, match="masses are those of a mechanism, .*got Part"):
+    with pytest.raises(ValueError, match=r"masses are those of a mechanism, .*got Part"):
         jk.masses(box())
 
 
