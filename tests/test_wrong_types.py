@@ -122,6 +122,7 @@ OF_MECHANISMS = {
         (lambda m, x: m.sweep({"ground-crank": x}), NO_NUMBER),
         (lambda m, x: m.plan(x), (NOTHING, *NO_LIST)),
         (lambda m, x: m.close(hold=x), (NOTHING, *NO_LIST)),
+        (lambda m, x: m.with_couplings(x), (NOTHING, *NO_LIST)),
     ),
 }
 OF_MOTIONS = {

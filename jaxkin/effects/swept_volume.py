@@ -255,8 +255,7 @@ def _sagitta(moved: Float[np.ndarray, "poses corners 3"]) -> float:
 
 
 def _off_between(places: np.ndarray, moved: np.ndarray, corners: np.ndarray) -> float:
-    """How far screw motions between poses are off: each pose against the middle of its neighbours, over four, as
-    errors grow with the square of the step."""
+    """How far screw motions between poses are off: a quarter of what a pose is off the middle of its neighbours."""
     off = 0.0
     for before, here, after in zip(places[:-2], moved[1:-1], places[2:], strict=True):
         middle = displacement_along(screw_between(before, after), 0.5) @ before

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from jaxkin._arguments import several
 from jaxkin.joints.coupling import Coupling, check_couplings, shifted_coupling
 from jaxkin.joints.joint import Joint
 from jaxkin.linkage.linkage import Linkage
@@ -14,7 +15,8 @@ from jaxkin.linkage.linkage import Linkage
 
 def coupled(linkage: Linkage, couplings: Sequence[Coupling]) -> Linkage:
     """Tie coordinates of a linkage by further couplings; ValueError as in `check_couplings`."""
-    every = check_couplings([*linkage.couplings, *couplings], linkage.joints)
+    more = several(couplings, "couplings", "couplings", "[jk.gear(...)]")
+    every = check_couplings([*linkage.couplings, *more], linkage.joints)
     ties = tuple(tuple(name.rpartition(".")[0] for name in each.coordinates) for each in every)
     found = replace(linkage.structure, coupled=ties)
     made = Linkage.of(linkage.solved_joints, found, every)

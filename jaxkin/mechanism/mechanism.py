@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import jax
 
-from jaxkin._arguments import several, text
+from jaxkin._arguments import text
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.contacts.contact import Contact
@@ -79,14 +79,12 @@ class Mechanism:
         most `align`, in radians and over the size of the mechanism, so that they close throughout, and `notes` say by
         how much. By default that covers six digits; 0 moves nothing. Loops that move are left alone.
 
-        Raises ValueError where names repeat, a fixed part is in no joint, a part hangs on nothing, a coupling ties what
-        is not there, or `align` is wrong.
+        Raises ValueError for names that repeat or are not there, parts that hang on nothing, and a wrong `align`.
         """
         check_joints(joints)
-        couplings, unit = several(couplings, "couplings", "couplings", "[jk.gear(...)]"), text(unit, "unit")
         parts = list(dict.fromkeys(part for joint in joints for part in joint.parts))
         found = structure(parts, [(joint.name, *joint.parts) for joint in joints], fixed)
-        linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), unit)
+        linkage, notes = aligned(coupled(Linkage.of(joints, found), couplings), asked_noise(align), text(unit, "unit"))
         return Mechanism(linkage, unit, alignment=notes)
 
     @property
