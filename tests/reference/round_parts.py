@@ -16,6 +16,8 @@ from jaxkin.mechanism.mechanism import Mechanism
 
 Z = np.array([0.0, 0.0, 1.0])
 SECTIONS = 48
+TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
+"""The pose that turns the axis z into x."""
 
 
 def ring(inner: float, outer: float, low: float, high: float, at=(0.0, 0.0)) -> list[tuple]:
@@ -59,6 +61,11 @@ def part(name: str, *pieces: list[tuple]) -> Part:
     faces = [face for piece in pieces for face in piece]
     triangles = np.concatenate([triangles for _, triangles in faces])
     return Part(name, tuple(Face(f"face {k}", *face) for k, face in enumerate(faces, 1)), triangles)
+
+
+def across(*pieces: list[tuple]) -> list[tuple]:
+    """Pieces about the axis x in place of z."""
+    return [(face.surface, face.triangles) for face in moved(part("turned", *pieces), TO_X).faces]
 
 
 def assembly(*parts: Part) -> Assembly:

@@ -7,21 +7,12 @@ import numpy as np
 import pytest
 import trimesh
 
-from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Sphere
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -140), (60, 60, -130))
-TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
-"""The pose that turns the axis z into x."""
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 0.0)), block((68, -3, 5), (100, 3, 15)))
 """Something that moves: where nothing can, inferences are left out until something does."""
-
-
-def across(*pieces):
-    """Pieces about the axis x in place of z."""
-    turned = moved(part("turned", *pieces), TO_X)
-    return [(face.surface, face.triangles) for face in turned.faces]
 
 
 def of(drawn, seed):

@@ -3,20 +3,11 @@
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
 
-import numpy as np
 import pytest
 
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
 
 BASE = block((-60, -60, -140), (60, 60, -130))
-
-
-def across(*pieces):
-    """Pieces about the axis x in place of z."""
-    from jaxkin.geometry.part import moved
-
-    turned = moved(part("turned", *pieces), np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]]))
-    return [(face.surface, face.triangles) for face in turned.faces]
 
 
 def of(seed, *parts):

@@ -3,26 +3,16 @@
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
 
-import numpy as np
 import pytest
 
 from jaxkin.assembly.inference.axes import common_axes
 from jaxkin.assembly.inference.bores import bores
 from jaxkin.assembly.inference.fasteners import fasteners
-from jaxkin.geometry.part import moved
-from reference.round_parts import anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
 
-TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
-"""The pose that turns the axis z into x."""
 PIVOT = pin(4.0, 0, 20, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
-
-
-def across(*pieces):
-    """Pieces about the axis x in place of z."""
-    turned = moved(part("turned", *pieces), TO_X)
-    return [(face.surface, face.triangles) for face in turned.faces]
 
 
 def of(drawn, seed):

@@ -12,22 +12,13 @@ from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Plane
-from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
+from reference.round_parts import across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
-TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
-"""The pose that turns the axis z into x."""
 BASE = block((-60, -60, -140), (60, 60, -130))
 PIVOT = pin(4.0, 0, 20, (100.0, 60.0))
 LEVER = part("pivot lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
-
-
-def across(*pieces):
-    """Pieces about the axis x in place of z."""
-    turned = moved(part("turned", *pieces), TO_X)
-    return [(face.surface, face.triangles) for face in turned.faces]
 
 
 def of(seed, *parts):

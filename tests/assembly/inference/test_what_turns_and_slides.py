@@ -9,10 +9,8 @@ import pytest
 from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Cone, Plane
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import SECTIONS, anywhere, assembly, block, moving, owners, part, pin, ring
+from reference.round_parts import SECTIONS, TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
 
-TO_X = np.array([[0.0, 0, 1, 0], [0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 0, 1]])
-"""The pose that turns the axis z into x."""
 PIVOT = pin(4.0, 0, 20, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
