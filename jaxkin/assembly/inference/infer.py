@@ -43,7 +43,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
-from jaxkin.assembly.inference.tight_ends import riveted_studs, screwed_on_ends
+from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -103,6 +103,7 @@ def infer(
     known.add(embedded_pins(known, fastening))
     known.add(butting_pins(known, fastening))
     known.add(standing_rods(known, fastening))
+    known.add([*pressed_pins(known), *bolted_ends(known)])
     known.add([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.add([*pressed_rings(known), *retaining_rings(known)])
     drawn = stacks(known.axes, fastening, known.touching, known.order)

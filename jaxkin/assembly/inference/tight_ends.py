@@ -1,18 +1,66 @@
-"""Pins that fit one part exactly, and have play in another one, which turns on them: the tight end holds."""
+"""Pins that are tight in one part and have play, or fit exactly, in another one, which turns on them or slides along
+them: the tight end holds."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
-from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import SAME_FIT
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.assembly.inference.trapped import play, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
+MIN_LOOSE = 0.045
+"""Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
+0.048 to 0.057 in the fine series of ISO 273."""
+MIN_PRESS = 2e-4
+"""Interference of a press fit over the radius, at least: less is rounding, of the file or of inches."""
+MAX_PRESS = 5e-3
+"""The same at most: H7/p6 to H8/x8 of 10 to 80 mm have up to 0.004 by ISO 286. What is thicker by more is a pin that was
+drawn without a look at its hole, or a thread."""
+MIN_PRESSED = 0.5
+"""Length of a pin in a hole that it is pressed into, over its radius, at least: press fits of discs and crowns have 0.6
+and more."""
+
+
+def pressed_pins(known: Known) -> list[Inference]:
+    """Join pins with the part that they are pressed into, where they are in another part without interference.
+
+    An interference over a length is friction that nothing turns against; who draws one part tight and the other one
+    not means the difference. Where pin and hole are unlike by a standard of inches or by a slip, all parts on the pin
+    are tight, or none is.
+    """
+    result = []
+    for pair in known.axes:
+        pin, host = pair.parts
+        if _is_pressed(known, pair) and _is_free_elsewhere(known, pair):
+            text = f"{pin!r} is pressed into {host!r} with an interference of {-pair.clearance:.2g}"
+            result.append(_held(known, pair, text))
+    return result
+
+
+def _is_pressed(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether a pin has the interference of a press fit in a hole, over a length, and no exact contact there."""
+    radius = pair.other.radius
+    fit = not pair.virtual and MIN_PRESS * radius <= -pair.clearance <= MAX_PRESS * radius
+    return fit and engaged(pair) >= MIN_PRESSED * radius and frozenset(pair.parts) not in known.pinned
+
+
+def _is_free_elsewhere(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether a pin is in a hole of a third body, on the same axis, without interference, and pressed into none
+    but the part of its pair."""
+    body = known.body
+    on = [
+        each
+        for each in known.axes
+        if each.one.part == pair.one.part and not each.virtual and each.one.on_axis_of(pair.one)
+        if body[each.other.part] not in {body[part] for part in pair.parts}
+    ]
+    return bool(on) and all(each.clearance > -MIN_PRESS * each.other.radius for each in on)
 
 
 def riveted_studs(known: Known, fastening: Collection[str]) -> list[Inference]:
@@ -50,6 +98,32 @@ def screwed_on_ends(known: Known) -> list[Inference]:
             if _lies_across(known, screw, hub, pair):
                 text = f"{screw!r} in the end of {shaft!r} holds {hub!r}, which fits the shaft exactly"
                 result.append(_held(known, pair, text))
+    return result
+
+
+def bolted_ends(known: Known) -> list[Inference]:
+    """Join rods with the part that they end on, where a screw through that part is tight in the end of the rod.
+
+    Head and rod grip the part on both sides, however loose the screw is in it. What is round about the rod, as a roller
+    between the end of its post and a washer, is left to turn, and so is what fits the screw more closely.
+    """
+    result = []
+    for end in known.axes:
+        screw, rod = end.parts
+        tight = not end.virtual and abs(end.clearance) <= SAME_FIT * end.other.radius
+        if not tight or not any(not bore.hole and bore.on_axis_of(end.one) for bore in known.bores[rod]):
+            continue
+        for through in known.axes:
+            part = through.other.part
+            if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
+                continue
+            loose = through.clearance >= MIN_LOOSE * through.other.radius
+            gripped = all(_lies_across(known, each, part, through) for each in (screw, rod))
+            if loose and gripped and not is_round_about(known, part, through.other):
+                text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
+                sizes = (("radius", through.one.radius), ("clearance", through.clearance))
+                parts = known.in_order((rod, part))
+                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 
