@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, shared_length
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
@@ -59,7 +59,7 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]
         across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
-        slits = [bore for bore in across if _is_slit(bore, pair)]
+        slits = [bore for bore in across if _is_slit(known, bore, pair)]
         slit = any(not _is_released(known, inside.get(id(bore), ()), {*pair.parts, *fastening}) for bore in slits)
         fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)
@@ -90,10 +90,15 @@ def _from_axis(hole: Bore, pair: CommonAxis) -> float:
     return abs(float((hole.point - pair.one.point) @ np.cross(hole.axis, pair.one.axis)))
 
 
-def _is_slit(hole: Bore, pair: CommonAxis) -> bool:
-    """Tell whether the hole of a screw beside a shaft goes across a slit of the hub, which the screw draws together."""
+def _is_slit(known: Known, hole: Bore, pair: CommonAxis) -> bool:
+    """Tell whether the hole of a screw beside a shaft goes across a slit of the hub, which the screw draws together.
+
+    On the far side of the slit it may be as narrow as its thread.
+    """
     radius, apart = pair.one.radius, _from_axis(hole, pair)
-    gaps = [low - high for (_, high), (low, _) in pairwise(hole.spans)]
+    along = [each for each in known.bores[hole.part] if each.hole and each.on_axis_of(hole)]
+    spans = merged((span for each in along for span in each.spans_along(hole.axis)), SAME_LENGTH * hole.radius)
+    gaps = [low - high for (_, high), (low, _) in pairwise(spans)]
     return radius < apart <= MAX_BESIDE * radius and len(gaps) == 1 and gaps[0] <= MAX_SLIT * radius
 
 
