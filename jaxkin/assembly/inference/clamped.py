@@ -11,9 +11,11 @@ from jaxkin.assembly.inference.axes import CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.motors import screw_holes
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.sockets import Socket
+from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -40,9 +42,10 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     in any hub; those of round hubs also where only their holes are drawn, radial ones and those of clamps beside the
     shaft. A pin of a slit that is in a lever, too, is that of a quick release, which clamps nothing for good.
 
-    Only with shafts that are round: where shaft and motor are one solid, it is the hub that turns on it.
+    Only with shafts that are round, and with posts under a set screw: where shaft and motor are one solid, it is the
+    hub that turns on it. A post has no screw holes round about it as a motor has, and stands on the floor of its hole.
     """
-    result = []
+    result, on = [], on_floors(known)
     near = DRAWN_TOGETHER
     pins = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= near * pair.other.radius]
     housed = {pair.one.part for pair in known.axes if not pair.virtual}
@@ -54,9 +57,12 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         shaft, hub = pair.parts
         own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
         crossing = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
-        if not crossing or not is_round(known, shaft, own):
+        turned = is_round(known, shaft, own)
+        if not crossing or not (turned or (hub in on.get(shaft, ()) and not screw_holes(known.bores[shaft], pair.one))):
             continue
         screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]
+        if not turned and not screws:
+            continue
         across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
         slits = [bore for bore in across if _is_slit(known, bore, pair)]

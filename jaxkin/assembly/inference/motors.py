@@ -33,8 +33,8 @@ def motor_shafts(known: Known, fastening: Collection[str]) -> list[Inference]:
                 continue
             pin = max((bore for bore in known.bores[shaft] if not bore.hole), key=lambda bore: bore.half)
             hubs = [part for part in known.names if body[part] == body[shaft] and part not in fastening]
-            around = _screw_holes(known.bores[housing], pin)
-            if not hubs or body[housing] == body[shaft] or len(around) < MIN_SCREWS:
+            around = screw_holes(known.bores[housing], pin)
+            if not hubs or body[housing] == body[shaft] or not around:
                 continue
             text = f"{each.evidence.text}, amid {len(around)} screw holes, and carries {hubs[0]!r}: a shaft"
             evidence = Evidence(EvidenceKind.ENCLOSED, (*each.evidence.sizes, ("radius", pin.radius)), text)
@@ -57,8 +57,9 @@ def _in_blind_holes(known: Known, fastening: Collection[str]) -> list[Inference]
     return result
 
 
-def _screw_holes(own: Sequence[Bore], pin: Bore) -> list[Bore]:
-    """Find the most equal holes along a pin that are as far from its axis, and whose middle is on it."""
+def screw_holes(own: Sequence[Bore], pin: Bore) -> list[Bore]:
+    """Find the most equal holes along a pin that are as far from its axis, and whose middle is on it; none of fewer than
+    MIN_SCREWS."""
     along = [bore for bore in own if bore.hole and np.linalg.norm(np.cross(bore.axis, pin.axis)) <= SAME_ANGLE]
     patterns = []
     for first in along:
@@ -72,7 +73,8 @@ def _screw_holes(own: Sequence[Bore], pin: Bore) -> list[Bore]:
         middle = np.mean([_offset(bore, pin) for bore in some], axis=0)
         if away > pin.radius + first.radius and np.linalg.norm(middle) <= NEAR_LENGTH * away:
             patterns.append(some)
-    return max(patterns, key=len, default=[])
+    most = max(patterns, key=len, default=[])
+    return most if len(most) >= MIN_SCREWS else []
 
 
 def _offset(bore: Bore, pin: Bore) -> Vector:
