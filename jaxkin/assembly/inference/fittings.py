@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -20,21 +21,35 @@ ALIKE = 0.01
 
 
 def screwed_fittings(known: Known) -> list[Inference]:
-    """Join hollow parts whose thread, drawn as a plain cylinder, fits a hole, with a hexagon down on the face there.
+    """Join hollow parts whose thread, drawn as a plain cylinder, fits a hole, with a hexagon down on the face there, and
+    tubes that meet the end of such a thread inside of the hole.
 
-    A hexagon is for a wrench: what has one is tightened, and does not turn by itself.
+    A hexagon is for a wrench: what has one is tightened, and does not turn by itself. A tube that it is tightened
+    against would be pushed out of the hole, if it were not screwed into that from the other side.
     """
     result = []
     for pair in known.axes:
         fitting, host = pair.parts
-        fits = pair.threaded or abs(pair.clearance) <= FITTED * pair.other.radius
-        if pair.virtual or not fits or not _is_fitting(known, pair) or not _is_down(known, pair):
+        if not _fits(pair) or not _is_fitting(known, pair) or not _meet(known, fitting, host, pair.one):
             continue
-        text = f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"
-        sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
-        parts = known.in_order(pair.parts)
-        result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+        result.append(_held(known, pair, f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"))
+        for other in known.axes:
+            tube = other.one.part
+            if other.other is pair.other and tube != fitting and _fits(other) and _meet(known, fitting, tube, pair.one):
+                text = f"{fitting!r} is tightened against the end of {tube!r} in their hole of {host!r}: both are"
+                result.append(_held(known, other, f"{text} screwed in"))
     return result
+
+
+def _fits(pair: CommonAxis) -> bool:
+    """Tell whether a pin is in its hole as a thread is, drawn as such or as a plain cylinder."""
+    return not pair.virtual and (pair.threaded or abs(pair.clearance) <= FITTED * pair.other.radius)
+
+
+def _held(known: Known, pair: CommonAxis, text: str) -> Inference:
+    sizes = (("radius", pair.one.radius), ("clearance", pair.clearance))
+    parts = known.in_order(pair.parts)
+    return Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text))
 
 
 def _is_fitting(known: Known, pair: CommonAxis) -> bool:
@@ -55,11 +70,11 @@ def _is_fitting(known: Known, pair: CommonAxis) -> bool:
     return bool(np.all(steps <= ALIKE))
 
 
-def _is_down(known: Known, pair: CommonAxis) -> bool:
-    """Tell whether all that two parts have in contact beside the thread are faces across it."""
-    planes = [
+def _meet(known: Known, one: str, other: str, axis: Bore) -> bool:
+    """Tell whether all that two parts have in contact beside a thread are faces across its axis."""
+    surfaces = [
         contact.surfaces[0]
         for contact in known.contacts
-        if {*contact.parts} == {*pair.parts} and not contact.contact_state.is_pin
+        if {*contact.parts} == {one, other} and not contact.contact_state.is_pin
     ]
-    return bool(planes) and all(stands_across(plane, pair.one.axis) for plane in planes)
+    return bool(surfaces) and all(stands_across(each, axis.axis) for each in surfaces)

@@ -7,10 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
 from jaxkin.geometry.part import Part
@@ -49,9 +47,9 @@ def loose_slides(known: Known) -> list[Inference]:
     return result
 
 
-def guided_on_faces(known: Known) -> list[Hinge]:
+def guided_on_faces(known: Known) -> list[Inference]:
     """Infer prismatic joints of bodies that lie flat on each other, with walls of one on both sides of the other, which
-    leave it a play: a jaw on its ways. Exact contacts let it slide both ways and turn.
+    leave it a play: a jaw on its ways. What touches exactly, the faces alone, would let it slide both ways and turn.
 
     Bodies that have an axis in common are left to that: a plate that turns on a pin is also between its cheeks.
     """
@@ -84,7 +82,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-            result.append(Hinge(Inference.of(joint, evidence), Stop.FACES))
+            result.append(Inference.of(joint, evidence))
     return result
 
 
