@@ -21,8 +21,8 @@ ALIKE = 0.01
 
 
 def screwed_fittings(known: Known) -> list[Inference]:
-    """Join hollow parts whose thread, drawn as a plain cylinder, fits a hole, with a hexagon down on the face there, and
-    tubes that meet the end of such a thread inside of the hole.
+    """Join hollow parts whose thread, drawn as a plain cylinder, fits a hole, with a hexagon down on the face there,
+    and tubes that meet the end of such a thread inside of the hole.
 
     A hexagon is for a wrench: what has one is tightened, and does not turn by itself. A tube that it is tightened
     against would be pushed out of the hole, if it were not screwed into that from the other side.

@@ -58,8 +58,8 @@ def _in_blind_holes(known: Known, fastening: Collection[str]) -> list[Inference]
 
 
 def screw_holes(own: Sequence[Bore], pin: Bore) -> list[Bore]:
-    """Find the most equal holes along a pin that are as far from its axis, and whose middle is on it; none of fewer than
-    MIN_SCREWS."""
+    """Find the most equal holes along a pin that are as far from its axis, and whose middle is on it; none if these are
+    fewer than MIN_SCREWS."""
     along = [bore for bore in own if bore.hole and np.linalg.norm(np.cross(bore.axis, pin.axis)) <= SAME_ANGLE]
     patterns = []
     for first in along:

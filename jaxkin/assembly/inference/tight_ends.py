@@ -20,8 +20,8 @@ MIN_LOOSE = 0.045
 MIN_PRESS = 2e-4
 """Interference of a press fit over the radius, at least: less is rounding, of the file or of inches."""
 MAX_PRESS = 5e-3
-"""The same at most: H7/p6 to H8/x8 of 10 to 80 mm have up to 0.004 by ISO 286. What is thicker by more is a pin that was
-drawn without a look at its hole, or a thread."""
+"""The same at most: H7/p6 to H8/x8 of 10 to 80 mm have up to 0.004 by ISO 286. What is thicker by more is a thread, or
+a pin that was drawn without a look at its hole."""
 MIN_PRESSED = 0.5
 """Length of a pin in a hole that it is pressed into, over its radius, at least: press fits of discs and crowns have 0.6
 and more."""
