@@ -20,7 +20,7 @@ def of(seed, *parts):
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("crown", "runner", "held"), [(0.02, -0.1, True), (0.02, 0.02, False), (0.6, -0.1, False)])
 def test_a_pin_is_pressed_into_the_crown_where_it_has_play_in_the_runner(seed, crown, runner, held):
-    """Interferences on the radius: a pin that is tight in both parts, or by a twenty-fifth, was drawn without a look."""
+    """Interferences on the radius: a pin that is tight in both parts, or by a twenty-fifth, was drawn so by a slip."""
     base = part("base", ring(15 - crown, 30, 0, 28), block((30, -10, 0), (60, 10, 28)))
     tube = part("tube", pin(15, -150, 28), block((-30, -5, -170), (30, 5, -150)))
     slider = part("runner", ring(15 - runner, 22, -120, -60), block((22, -3, -100), (60, 3, -80)))
