@@ -118,13 +118,14 @@ def infer(
     known.found += ball_joints(known)
     known.found += shoes(known)
     joined = hinges(known, fastening)
-    joined += set_on_pins(known, joined)
+    guided = guided_on_faces(known)
+    joined += [*set_on_pins(known, joined), *guided]
     known.found += floating(known, joined)
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
-    known.found += [*guided_on_faces(known), *loose_slides(known)]
+    known.found += loose_slides(known)
     known.found += carriages(known)
     known.add(screwed_flat(known))
-    known.add(lying_on_one(known))
+    known.add(lying_on_one(known, guided))
     known.add(sunk_in_siblings(known))
     far = far_joints(known)
     known.add([each for each in far if each.joint is None])

@@ -8,6 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from jaxkin.assembly.inference.embedded import inside
+from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.trapped import ACROSS
@@ -27,10 +28,14 @@ NEAR = 0.02
 """Distance to the nearest part, over the size of the assembly, up to which a part that touches nothing goes with it."""
 
 
-def lying_on_one(known: Known) -> list[Inference]:
+def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
     """Find bodies that only touch others with their plane faces, which look one way: another one, or one of their
-    sub-assembly."""
+    sub-assembly.
+
+    What is `guided` by walls on both sides of it, with a play, slides between them.
+    """
     body = known.body
+    slides = {frozenset(body[part] for part in each.inference.parts) for each in guided}
     around: dict[str, dict[str, list[Vector]]] = {}
     # in the order of the file: the first of several bodies that could be added decides what the others touch
     contacts = sorted(known.contacts, key=lambda each: sorted(known.order[part] for part in each.parts))
@@ -51,6 +56,8 @@ def lying_on_one(known: Known) -> list[Inference]:
             continue
         if len(others.keys() - {one}) == 1:
             (other,) = others.keys() - {one}
+            if {one, other} in slides:
+                continue
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{one!r} touches {other!r} only, and that on one plane")
         else:
             mates = [other for other in others if other != one and _together(known, body, one, other)]

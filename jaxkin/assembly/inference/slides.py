@@ -7,8 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
+from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
 from jaxkin.geometry.part import Part
@@ -47,9 +49,10 @@ def loose_slides(known: Known) -> list[Inference]:
     return result
 
 
-def guided_on_faces(known: Known) -> list[Inference]:
+def guided_on_faces(known: Known) -> list[Hinge]:
     """Infer prismatic joints of bodies that lie flat on each other, with walls of one on both sides of the other, which
-    leave it a play: a jaw on its ways. What touches exactly, the faces alone, would let it slide both ways and turn.
+    leave it a play: a jaw on its ways. Exact contacts let it slide both ways and turn; the walls stop that where it is
+    of use, and wherever a pin drives the body, whose links may keep it in line as well.
 
     Bodies that have an axis in common are left to that: a plate that turns on a pin is also between its cheeks.
     """
@@ -82,8 +85,15 @@ def guided_on_faces(known: Known) -> list[Inference]:
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-            result.append(Inference.of(joint, evidence))
+            driven = all(_is_driven(known, owner, owners) for owner in owners - {body[part] for part in known.fixed})
+            result.append(Hinge(Inference.of(joint, evidence), Stop.NONE if driven else Stop.FACES))
     return result
+
+
+def _is_driven(known: Known, owner: str, owners: Pair) -> bool:
+    """Tell whether a body has an axis in common with a third one, as a ram that links drive."""
+    between = ({known.body[part] for part in pair.parts} for pair in known.axes)
+    return any(owner in pair and not pair <= owners for pair in between)
 
 
 def _are_across(one: Vector, other: Vector) -> bool:
