@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
+
+import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.fasteners import Stack, beside
@@ -40,7 +42,8 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     hinge. The other one, on which that lies flat, has the hole that the screw is tight in, or lies on the nut, with a
     hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
     faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off.
-    A bar with such screws into several bodies is a link, which turns on them.
+    A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
+    Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
     """
     body = known.body
     found = [each for stack in every for each in (*_under_head(known, stack, body), *_on_bolt(known, stack, body))]
@@ -51,13 +54,58 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
             partners.setdefault(owner, set()).update(owners - {owner})
     links, result = {owner for owner, others in partners.items() if len(others) > 1}, []
     for each in found:
-        if not links & {body[part] for part in each.turning}:
-            text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them (if they turn on it,"
-            text += " give that joint by hand)"
+        turning = {body[part] for part in each.turning}
+        if not links & turning and not _is_lever(known, each, body) and not _is_leaf(each, found, body):
+            text = f"{each.why} with a clearance of {each.through.clearance:.2g}: it clamps them"
+            text += f" (if they turn on it, give joints=[{_hinge(each)}])"
             sizes = (("radius", each.inner.one.radius), ("clearance", each.through.clearance))
             parts = known.in_order((each.part, each.host))
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
+
+
+def _is_lever(known: Known, clamped: _Clamped, body: Mapping[str, str]) -> bool:
+    """Tell whether one of two parts is in a ring of four: a pin beside the screw joins it with a third body, which a
+    fourth one joins with the other part.
+
+    Four hinges with parallel axes, or three and a slide, have one freedom; with the screw clamped they have none. A
+    bracket that carries a lever is in a ring of five, and braced by one bar in one of three, which moves in no case.
+    """
+    axis = clamped.inner.one
+    ties = {frozenset(body[part] for part in pair) for pair in (*known.touching, *(each.parts for each in known.axes))}
+    for part in clamped.turning:
+        own, other = body[part], body[clamped.host if part == clamped.part else clamped.part]
+        pinned = (each for each in known.axes if not each.virtual and beside(each.one, axis))
+        thirds = {owner for each in pinned for owner in _beyond(each.parts, own, body)} - {other}
+        for third in thirds:
+            fourth = {owner for tie in ties for owner in _beyond(tie, third, body)} - {own}
+            if other not in fourth and any(frozenset((each, other)) in ties for each in fourth):
+                return True
+    return False
+
+
+def _beyond(parts: Iterable[str], own: str, body: Mapping[str, str]) -> set[str]:
+    """Find the body that a pair of parts joins with a given one; none where the pair does not join that."""
+    owners = {body[part] for part in parts}
+    return owners - {own} if own in owners else set()
+
+
+def _is_leaf(clamped: _Clamped, found: Sequence[_Clamped], body: Mapping[str, str]) -> bool:
+    """Tell whether two bodies are on another such screw with the same axis, as a leaf between the eyes of a door."""
+    owners, axis = {body[clamped.part], body[clamped.host]}, clamped.inner.one
+    return any(
+        {body[each.part], body[each.host]} == owners
+        and each.inner.one.part != axis.part
+        and each.inner.one.on_axis_of(axis)
+        for each in found
+    )
+
+
+def _hinge(clamped: _Clamped) -> str:
+    """Write the hinge about a screw as a user would."""
+    parts, screw = f"{clamped.part!r}, {clamped.host!r}", clamped.inner.one
+    point, axis = (np.round(each, 6).tolist() for each in (screw.point, screw.axis))
+    return f"jk.revolute('{clamped.part}-{clamped.host}', {parts}, point={point}, axis={axis})"
 
 
 def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Clamped]:
