@@ -111,7 +111,8 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
         other, more, _ = made([*seats, *held])
         if useful_freedoms(other) and leaves_all_moving(mechanism, other, held):
             seats, mechanism, found = [*seats, *held], other, more
-    unlocked = None if not found or useful_freedoms(mechanism) else _unlocked(assembly, contacts, said, found)
+    moves = useful_freedoms(mechanism) or _has_free_slide(mechanism)
+    unlocked = None if not found or moves else _unlocked(assembly, contacts, said, found)
     told = unlocked or _counted(mechanism, found)
     return replace(told, history=(*told_caps(told), *told.history))
 
@@ -153,6 +154,19 @@ def _without_inner(assembly: Assembly, said: Said, found: Sequence[Inference]) -
     groups = [each.parts for each in found if each.joint is None]
     body = bodies(assembly.names, said.fixed, [*said.rigid, *groups])
     return [each for each in found if each.joint is None or len({body[part] for part in each.parts}) > 1]
+
+
+def _has_free_slide(mechanism: Mechanism) -> bool:
+    """Tell whether a slide that walls with play imply is an idle motion: a carriage whose screw is not coupled yet
+    moves nothing else, but is not locked."""
+    idle = {*mechanism.mobility().idle}
+    return any(
+        joint.kind is JointKind.PRISMATIC
+        and joint.evidence is not None
+        and joint.evidence.kind is EvidenceKind.CLEARANCE
+        and {f"{joint.name}.{name}" for name in joint.coordinates} <= idle
+        for joint in mechanism.all_joints
+    )
 
 
 def _unlocked(

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.clamped import FITTED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import is_hollow
-from jaxkin.assembly.inference.trapped import ACROSS, stands_across
+from jaxkin.assembly.inference.trapped import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -29,15 +28,15 @@ def screwed_fittings(known: Known) -> list[Inference]:
     """
     result = []
     for pair in known.axes:
-        fitting, host = pair.parts
-        if not _fits(pair) or not _is_fitting(known, pair) or not _meet(known, fitting, host, pair.one):
+        (fitting, host), axis = pair.parts, pair.one.axis
+        if not _fits(pair) or not _is_fitting(known, pair) or not known.lie_flat(fitting, host, axis, pins=False):
             continue
         result.append(_held(known, pair, f"the hexagon of {fitting!r} is down on {host!r}, into which it is screwed"))
         for other in known.axes:
             tube = other.one.part
-            if other.other is pair.other and tube != fitting and _fits(other) and _meet(known, fitting, tube, pair.one):
-                text = f"{fitting!r} is tightened against the end of {tube!r} in their hole of {host!r}: both are"
-                result.append(_held(known, other, f"{text} screwed in"))
+            if other.other is pair.other and _fits(other) and known.lie_flat(fitting, tube, axis):
+                text = f"{fitting!r} is tightened against the end of {tube!r} in their hole of {host!r}"
+                result.append(_held(known, other, f"{text}: both are screwed in"))
     return result
 
 
@@ -68,13 +67,3 @@ def _is_fitting(known: Known, pair: CommonAxis) -> bool:
     cosines = np.array([[one @ other for other in sides] for one in sides])
     steps = np.abs(2 * cosines - np.round(2 * cosines))  # normals a multiple of 60 degrees apart
     return bool(np.all(steps <= ALIKE))
-
-
-def _meet(known: Known, one: str, other: str, axis: Bore) -> bool:
-    """Tell whether all that two parts have in contact beside a thread are faces across its axis."""
-    surfaces = [
-        contact.surfaces[0]
-        for contact in known.contacts
-        if {*contact.parts} == {one, other} and not contact.contact_state.is_pin
-    ]
-    return bool(surfaces) and all(stands_across(each, axis.axis) for each in surfaces)

@@ -26,12 +26,7 @@ def is_head_on_tube(known: Known, contact: Contact) -> bool:
 
 def lies_across(known: Known, part: str, stack: Stack) -> bool:
     """Tell whether a part lies flat on a fastener of a stack, across the axis, as a plate on the head of a bolt."""
-    for contact in known.contacts:
-        if part in contact.parts and {*contact.parts} & {*stack.fasteners}:
-            plane = contact.surfaces[0]
-            if stands_across(plane, stack.axis.axis):
-                return True
-    return False
+    return any(known.touch_across(part, each, stack.axis.axis) for each in stack.fasteners)
 
 
 def is_headed(known: Known, stack: Stack) -> bool:

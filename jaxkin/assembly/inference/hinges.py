@@ -139,7 +139,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
-        elif min(abs(pair.one.point @ pair.one.axis - middle) for middle in middles) <= CENTRED * hole.radius:
+        elif not _is_inside(pair, found) and _is_centred(pair, middles):
             free, stop = 0.0, Stop.CENTRED
         elif jams:
             free, stop = 0.0, Stop.SHORT
@@ -168,6 +168,20 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}", doubt)
     return [Hinge(Inference.of(joint, evidence), stop if exact else Stop.NONE)]
+
+
+def _is_centred(pair: CommonAxis, middles: Sequence[float]) -> bool:
+    """Tell whether the middle of a pin is one of some places along its axis."""
+    away = min(abs(float(pair.one.point @ pair.one.axis) - middle) for middle in middles)
+    return away <= CENTRED * pair.other.radius
+
+
+def _is_inside(pair: CommonAxis, found: Sequence[CommonAxis]) -> bool:
+    """Tell whether a pin is in one hole only, and ends inside of it on both sides, as a piston does: a cylinder does
+    not keep its middle."""
+    (low, high), spans = pair.one.reach(pair.one.axis), pair.other.spans_along(pair.one.axis)
+    room = min(low - spans[0][0], spans[0][1] - high)
+    return len(found) == len(spans) == 1 and room > CENTRED * pair.one.radius
 
 
 def _kept_with(owner: str, line: Line, kept: Sequence[Line]) -> set[str]:

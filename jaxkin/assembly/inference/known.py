@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.bores import NEAR_LENGTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.sockets import sockets
+from jaxkin.assembly.inference.trapped import stands_across
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
@@ -42,7 +43,11 @@ class Known:
         """The sub-assembly that each part is in, by its path; () for those of the whole assembly."""
         self.rigid = [tuple(group) for group in rigid]
         self.by_hand = {frozenset(joint.parts) for joint in joints}
-        self.touching = {frozenset(contact.parts) for contact in contacts}
+        self.between: dict[Pair, list[Contact]] = {}
+        """The exact contacts of each pair of parts."""
+        for contact in contacts:
+            self.between.setdefault(frozenset(contact.parts), []).append(contact)
+        self.touching = {*self.between}
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         self.sleeves: set[str] = set()
@@ -81,6 +86,16 @@ class Known:
             if body[other.name] != body[part.name]:
                 found.setdefault(body[other.name], []).append(other)
         return found
+
+    def touch_across(self, one: str, other: str, axis: Vector) -> bool:
+        """Tell whether two parts have a plane face across an axis in contact."""
+        return any(stands_across(each.surfaces[0], axis) for each in self.between.get(frozenset((one, other)), ()))
+
+    def lie_flat(self, one: str, other: str, axis: Vector, pins: bool = True) -> bool:
+        """Tell whether all that two parts have in contact are plane faces across an axis, `pins` in holes included."""
+        some = self.between.get(frozenset((one, other)), ())
+        across = [stands_across(each.surfaces[0], axis) for each in some if pins or not each.contact_state.is_pin]
+        return bool(across) and all(across)
 
     @property
     def far(self) -> list[CommonAxis]:

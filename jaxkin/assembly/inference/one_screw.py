@@ -13,7 +13,6 @@ from jaxkin.assembly.inference.heads import lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.trapped import stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 THROUGH = 0.08
@@ -117,7 +116,7 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
         for part, pair in holes.items():
             apart = body[part] != body[host] and pair.one.part == screw
             if apart and lies_across(known, part, stack):
-                flat = _is_wide(pair) and _lie_flat(known, part, host, inner)
+                flat = _is_wide(pair) and known.lie_flat(part, host, inner.one.axis)
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
                     result.append(_Clamped(part, host, pair, inner, (part,), why))
@@ -131,7 +130,7 @@ def _on_bolt(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Clamp
     if not any(with_hole) or all(with_hole) or len(holes) != 2 or not all(map(_is_wide, holes.values())):
         return []
     (part, through), (host, inner) = holes.items()
-    if body[part] == body[host] or through.one is not inner.one or not _lie_flat(known, part, host, inner):
+    if body[part] == body[host] or through.one is not inner.one or not known.lie_flat(part, host, inner.one.axis):
         return []
     why = f"{inner.one.part!r} and its nut hold {part!r} on {host!r}, through both of which it goes"
     return [_Clamped(part, host, through, inner, (part, host), why)]
@@ -158,9 +157,3 @@ def _beside(known: Known, one: str, other: str, inner: CommonAxis, body: Mapping
     owners = {body[one], body[other]}
     pins = (pair for pair in known.axes if not pair.virtual and {body[part] for part in pair.parts} == owners)
     return inner.threaded and any(beside(pair.one, inner.one) for pair in pins)
-
-
-def _lie_flat(known: Known, one: str, other: str, axis: CommonAxis) -> bool:
-    """Tell whether two parts lie flat on each other across an axis, and nowhere else."""
-    planes = [each.surfaces[0] for each in known.contacts if {*each.parts} == {one, other}]
-    return bool(planes) and all(stands_across(plane, axis.one.axis) for plane in planes)

@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
-from jaxkin.assembly.inference.trapped import play, stands_across
+from jaxkin.assembly.inference.trapped import play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02
@@ -95,7 +95,7 @@ def screwed_on_ends(known: Known) -> list[Inference]:
             screw = end.one.part
             if end.virtual or end.other.part != shaft or screw == hub or not end.other.on_axis_of(pair.one):
                 continue
-            if _lies_across(known, screw, hub, pair):
+            if known.touch_across(screw, hub, pair.one.axis):
                 text = f"{screw!r} in the end of {shaft!r} holds {hub!r}, which fits the shaft exactly"
                 result.append(_held(known, pair, text))
     return result
@@ -118,7 +118,7 @@ def bolted_ends(known: Known) -> list[Inference]:
             if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
                 continue
             loose = through.clearance >= MIN_LOOSE * through.other.radius
-            gripped = all(_lies_across(known, each, part, through) for each in (screw, rod))
+            gripped = all(known.touch_across(each, part, through.one.axis) for each in (screw, rod))
             if loose and gripped and not is_round_about(known, part, through.other):
                 text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
                 sizes = (("radius", through.one.radius), ("clearance", through.clearance))
@@ -141,12 +141,6 @@ def _is_tight_end(known: Known, pair: CommonAxis) -> bool:
         and each.one.on_axis_of(pair.one)
         for each in known.axes
     )
-
-
-def _lies_across(known: Known, screw: str, hub: str, pair: CommonAxis) -> bool:
-    """Tell whether the head of a screw lies flat on a hub, across the axis of its shaft."""
-    planes = [each.surfaces[0] for each in known.contacts if {*each.parts} == {screw, hub}]
-    return any(stands_across(plane, pair.one.axis) for plane in planes)
 
 
 def _held(known: Known, pair: CommonAxis, text: str) -> Inference:

@@ -86,3 +86,30 @@ def test_a_ram_between_rails_slides_where_its_links_would_keep_it_in_line_as_wel
     _, mechanism = of(seed, base, ram, link, crank)
     assert mechanism.mobility().useful == 1
     assert kind_of(mechanism, "base", "ram") == ("prismatic" if play < 1 else "planar")
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("half", "kind"), [(13, "cylindrical"), (60, "revolute")])
+def test_a_piston_amid_its_cylinder_slides_and_an_axle_that_sticks_out_on_both_sides_turns(seed, half, kind):
+    base = part("base", ring(13, 20, -40, 40), block((20, -10, -40), (80, 10, 40)), PIVOT)
+    arm = block((-4, -3, half), (4, 3, half + 6)) if half < 40 else block((-13, -150, half), (13, 4, half + 30))
+    piston = part("piston", pin(13, -half, half), arm)
+    _, mechanism = of(seed, base, piston, LEVER)
+    assert kind_of(mechanism, "base", "piston") == kind
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_carriage_stays_on_its_rail_though_no_coupling_ties_its_screw(seed):
+    """The screw turns, the carriage and a cover on it slide, and none moves another: all is idle, nothing is locked."""
+    sides = [block((min(s * 10, s * 20), -30, -100), (max(s * 10, s * 20), -19.9, 100)) for s in (-1, 1)]
+    lips = [block((min(s * 5.1, s * 20), -19.9, -100), (max(s * 5.1, s * 20), -15, 100)) for s in (-1, 1)]
+    lug = ring(4.0, 8.0, -110, -104), block((-6, -40, -110), (6, -6, -104))
+    base = part("base", block((-20, -40, -100), (20, -30.1, 100)), *sides, *lips, *lug)
+    screw = part("screw", pin(4.0, -120, 90), pin(7.0, -113, -110), pin(7.0, -104, -101))
+    feet = block((-9.9, -30, -10), (9.9, -20, 10)), block((-5, -20, -10), (5, -6, 10))
+    carriage = part("carriage", ring(4.0, 8.0, -10, 10), *feet)
+    fitted = block((-10, -30.1, -95), (10, -20, -90)), block((-5, -20, -95), (5, -6, -90))
+    cover = part("cover", ring(4.0, 8.0, -95, -90), *fitted)
+    _, mechanism = of(seed, base, screw, carriage, cover)
+    assert kind_of(mechanism, "base", "carriage") == "prismatic"
+    assert kind_of(mechanism, "base", "screw") == "revolute"
