@@ -1,4 +1,4 @@
-"""Parts that stand in the material of others: a pin that ends in a lug that has no hole for it."""
+"""How much of a pin is in the material of another part, as of one that ends in a lug without a hole for it."""
 
 from __future__ import annotations
 

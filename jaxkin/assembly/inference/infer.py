@@ -59,10 +59,9 @@ def infer(
     clearance: float | None = None,
     springs: Collection[str] = (),
 ) -> tuple[list[Inference], list[list[Inference]]]:
-    """Infer bodies and joints from solids, in the order in which they are the surest.
+    """Infer bodies and joints from solids, in the order in which they are the surest: first what is one body, then
+    joints between bodies, then parts that nothing ties.
 
-    Bearings, pins in the material of others, bolt patterns, fasteners and the bodies that hold them, pins with
-    clearance or interference, bores without a pin, parts that lie on one other only, and parts that touch nothing.
     Apart from these comes what would stop slides that exact contacts allow, the surest first: for those slides that are
     of no use.
     Between the parts of pairs that are `ignored` nothing is inferred; `clearance` is that of `common_axes`.
@@ -70,11 +69,15 @@ def infer(
     """
     known = Known(measured, contacts, fixed, rigid, joints, ignored, clearance)
     known.springs = {*springs}
+
+    # rolling bearings: rings, balls, and what lies on one ring only
     rolling = measured.bearings
     known.axes = outside_of(rolling, known.axes)
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
     known.add(bearing_bodies(known, rolling))
     known.add(clamped_on_rings(known, rolling))
+
+    # shafts and hubs: keys, flats, balls of rod ends, split rings, bushes, screws across
     keyed = feathers(known)
     known.add([each for each in keyed if each.joint is None])
     known.found += [each for each in keyed if each.joint]
@@ -88,6 +91,8 @@ def infer(
     fastening = fasteners(known.parts, [bore for pair in known.axes for bore in (pair.one, pair.other)], known.bores)
     known.add(clamped_hubs(known, fastening))
     known.sleeves = {each.part for each in set_in} - {*fixed}
+
+    # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
     fastening -= rollers(known, fastening)
@@ -98,6 +103,8 @@ def infer(
     others = [each for each in others if not is_head_on_tube(known, each)]
     apart = [each.parts for each in others if len({body[part] for part in each.parts}) > 1]
     fastening -= {*fixed, *(part for parts in apart for part in parts)}
+
+    # pins that are in one part: threads, motors, posts, press fits, rivets, rings in grooves
     known.add(screwed_in(known, fastening))
     known.found += motor_shafts(known, fastening)
     known.add(embedded_pins(known, fastening))
@@ -106,6 +113,8 @@ def infer(
     known.add([*pressed_pins(known), *bolted_ends(known)])
     known.add([*riveted_studs(known, fastening), *screwed_on_ends(known), *screwed_fittings(known)])
     known.add([*pressed_rings(known), *retaining_rings(known)])
+
+    # what fasteners hold: patterns, then each fastener with its body, then one screw alone
     drawn = stacks(known.axes, fastening, known.touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
     while added := bolted_bodies(known, every):
@@ -114,6 +123,8 @@ def infer(
     known.add(screwed_bodies(known, every))
     known.add(clamped_by_one_screw(known, every))
     known.add(clamped_on_slots(known, every))
+
+    # joints between bodies: bearings, balls, shoes, hinges, slides, wheels
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
     known.found += shoes(known)
@@ -124,6 +135,8 @@ def infer(
     known.found += [each.inference for each in joined if each.stop is Stop.NONE]
     known.found += loose_slides(known)
     known.found += carriages(known)
+
+    # what is left: parts that lie on one other, or that nothing ties
     known.add(screwed_flat(known))
     known.add(lying_on_one(known, guided))
     known.add(sunk_in_siblings(known))
@@ -131,6 +144,8 @@ def infer(
     known.add([each for each in far if each.joint is None])
     known.found += [each for each in far if each.joint]
     known.add(tied_to_nothing(known))
+
+    # what would stop slides that contacts allow, by how sure it is
     body = known.body
     stops = [each for each in joined if len({body[part] for part in each.inference.parts}) > 1]
     levels = [[each.inference for each in stops if each.stop is level] for level in Stop if level is not Stop.NONE]
