@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jaxkin.assembly.inference.trapped import WIDER, stands_across
+from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Cylinder

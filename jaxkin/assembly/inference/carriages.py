@@ -9,7 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane

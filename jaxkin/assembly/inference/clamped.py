@@ -16,7 +16,7 @@ from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.standing import on_floors
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER, gap, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 

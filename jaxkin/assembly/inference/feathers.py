@@ -6,7 +6,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import is_key
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import stands_across
+from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.geometry.part import Part
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind

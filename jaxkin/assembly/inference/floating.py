@@ -11,7 +11,7 @@ import numpy as np
 from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector

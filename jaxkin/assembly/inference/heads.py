@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.axes import apart, shared_length
 from jaxkin.assembly.inference.bores import Bore, merged, shared
 from jaxkin.assembly.inference.fasteners import MAX_EXPOSED, Stack
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, WIDER, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import EvidenceKind
 

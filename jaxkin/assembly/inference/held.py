@@ -13,7 +13,7 @@ from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed,
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, WIDER, nearest, play
+from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, WIDER, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5

@@ -15,7 +15,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
-from jaxkin.assembly.inference.trapped import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
+from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints import pairs

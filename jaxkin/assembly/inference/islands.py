@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.embedded import inside
 from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import size
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane

@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.bores import NEAR_LENGTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.sockets import sockets
-from jaxkin.assembly.inference.trapped import stands_across
+from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector

@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import NEAR_ANGLE, NEAR_LENGTH, Bore
 from jaxkin.assembly.inference.known import Known, Pair
-from jaxkin.assembly.inference.trapped import ACROSS, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, stands_across
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Cylinder, Plane
 

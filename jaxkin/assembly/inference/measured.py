@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, common_axes, far_axes
 from jaxkin.assembly.inference.bearings import Bearing, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
 from jaxkin.assembly.inference.embedded import depth_inside
-from jaxkin.assembly.inference.trapped import Stop, stops
+from jaxkin.assembly.inference.stop_faces import StopFace, stops
 from jaxkin.geometry.part import Part
 
 CORNERS = 12
@@ -25,7 +25,7 @@ class Measured:
     def __init__(self, parts: Sequence[Part]) -> None:
         self.parts = tuple(parts)
         self._axes: dict[float | None, list[CommonAxis]] = {}
-        self._stops: dict[tuple[str, int], list[Stop]] = {}
+        self._stops: dict[tuple[str, int], list[StopFace]] = {}
         self._inside: dict[tuple[str, str], float] = {}
         self._distances: dict[frozenset[str], float] = {}
 
@@ -60,7 +60,7 @@ class Measured:
         meet = np.all((self.boxes[:, 0] <= high) & (low <= self.boxes[:, 1]), axis=1)
         return [self.parts[index] for index in np.flatnonzero(meet) if self.parts[index] is not part]
 
-    def stops(self, part: Part, axis: Bore) -> list[Stop]:
+    def stops(self, part: Part, axis: Bore) -> list[StopFace]:
         """Find the plane faces of a part that stand across the axis of a bore among `bores`, near to it."""
         key = part.name, id(axis)  # no other bore gets its number: those of `bores` live as long
         if key not in self._stops:

@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import MAX_NUT
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 

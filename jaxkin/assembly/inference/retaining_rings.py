@@ -8,7 +8,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import GROOVE
-from jaxkin.assembly.inference.trapped import play
+from jaxkin.assembly.inference.stop_faces import play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 THIN = 0.6

@@ -14,7 +14,7 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.lines import Line, lines
 from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 from jaxkin.topology.components import connected

@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.floating import wall_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, MAX_PLAY, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_PLAY, stands_across
 from jaxkin.assembly.inference.walls import Looking, facing
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector

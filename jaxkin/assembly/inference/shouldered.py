@@ -7,7 +7,7 @@ from collections.abc import Collection
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import WIDER, stands_across
+from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 

@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.bearings import ROUND
 from jaxkin.assembly.inference.bores import Bore, merged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS, play
+from jaxkin.assembly.inference.stop_faces import ACROSS, play
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from jaxkin.assembly.inference.trapped import MAX_PLAY
+from jaxkin.assembly.inference.stop_faces import MAX_PLAY
 from jaxkin.joints.evidence import Doubt
 from jaxkin.joints.kinds import JointKind
 

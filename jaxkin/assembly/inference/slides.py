@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.hinges import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.slide_stops import Stop
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector

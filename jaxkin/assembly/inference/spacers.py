@@ -9,7 +9,7 @@ import numpy as np
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import Stack
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.surfaces import Plane
 
 

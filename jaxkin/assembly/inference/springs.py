@@ -10,7 +10,7 @@ import numpy as np
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.measured import Measured
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Cylinder, Plane

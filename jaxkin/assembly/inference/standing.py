@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import is_round_about
-from jaxkin.assembly.inference.trapped import stands_across
+from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 

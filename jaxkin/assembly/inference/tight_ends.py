@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
-from jaxkin.assembly.inference.trapped import play
+from jaxkin.assembly.inference.stop_faces import play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 CLOSED = 0.02

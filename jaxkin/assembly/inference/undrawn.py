@@ -9,7 +9,7 @@ from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.screwed import crossings
-from jaxkin.assembly.inference.trapped import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind

@@ -1,4 +1,4 @@
-"""How far two bodies can slide on each other along an axis until faces across it meet."""
+"""Stop faces, which stand across an axis: how far two bodies can slide on each other along it until such faces meet."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def stands_across(surface: Surface, axis: Vector) -> bool:
     return isinstance(surface, Plane) and bool(np.linalg.norm(np.cross(surface.normal, axis)) < ACROSS)
 
 
-class Stop(NamedTuple):
+class StopFace(NamedTuple):
     """A plane face across an axis, near to it."""
 
     height: float
@@ -51,7 +51,7 @@ class Stop(NamedTuple):
     """Greatest one: what turns about the axis meets faces that are as far from it."""
 
 
-def stops(part: Part, axis: Bore) -> list[Stop]:
+def stops(part: Part, axis: Bore) -> list[StopFace]:
     """Find the plane faces of a part that stand across an axis, near to it."""
     planes = [(face.surface, face.triangles) for face in part.faces if isinstance(face.surface, Plane)]
     if not planes:
@@ -63,7 +63,7 @@ def stops(part: Part, axis: Bore) -> list[Stop]:
             corners = triangles.reshape(-1, 3) - axis.point
             outer = np.linalg.norm(corners - np.outer(corners @ axis.axis, axis.axis), axis=1).max()
             forwards = bool(plane.normal @ axis.axis > 0)
-            found.append(Stop(float(plane.point @ axis.axis), forwards, inner, float(outer)))
+            found.append(StopFace(float(plane.point @ axis.axis), forwards, inner, float(outer)))
     return found
 
 
@@ -80,20 +80,20 @@ def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis
     return float(np.linalg.norm(corners + along[..., None] * edges, axis=-1).min())
 
 
-def play(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+def play(one: Sequence[StopFace], other: Sequence[StopFace], radius: float) -> float | None:
     """Return how far one body can slide in the other in all, forwards and backwards; None where nothing stops it."""
     ahead, behind = gap(one, other, radius), gap(other, one, radius)
     return None if ahead is None or behind is None else ahead + behind
 
 
-def nearest(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+def nearest(one: Sequence[StopFace], other: Sequence[StopFace], radius: float) -> float | None:
     """Return how far one body is from being stopped by the other, on the side where that is less; None without
     stops."""
     found = (gap(one, other, radius), gap(other, one, radius))
     return min((each for each in found if each is not None), default=None)
 
 
-def gap(one: Sequence[Stop], other: Sequence[Stop], radius: float) -> float | None:
+def gap(one: Sequence[StopFace], other: Sequence[StopFace], radius: float) -> float | None:
     """Measure the least gap from faces of one that look forwards to faces of the other that look backwards, as far from
     the axis."""
     facing = [(a, b) for a in one if a.forwards for b in other if not b.forwards]
