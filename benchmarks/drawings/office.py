@@ -25,7 +25,10 @@ def stapler(random):
     drawing.add("base", cut(base, bore(hinge, Y, 2), bore(pivot, Z, 2.5)))
     for name, x in (("rear", 5), ("front", 80)):
         drawing.add(f"{name} foot", box((x - 10, -15, -3), (x + 10, 15, 0)))
-    drawing.add("anvil", tube(pivot + 3 * Z, Z, 2.5 + play, 9, 1.2).faces(">Z").edges().chamfer(0.2))
+    anvil = tube(pivot + 3 * Z, Z, 2.5 + play, 9, 1.2).faces(">Z").edges().chamfer(0.2)
+    drawing.add(
+        "anvil", cut(anvil, *(box(pivot + at(x - 0.8, -6.5, 3.7), pivot + at(x + 0.8, 6.5, 5)) for x in (-6, 6)))
+    )
     drawing.add("anvil rivet", rivet(pivot, Z, 2.5, 4.25))
     rod = at(0, 0, 17.6)
     magazine = cut(box((-8, -6.5, 8), (118, 6.5, 20)), box((-4, -5.5, 9), (115, 5.5, 21)))

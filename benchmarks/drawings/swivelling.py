@@ -179,9 +179,9 @@ def _servo() -> tuple[Shape, Shape, Shape]:
     )
     middle = cut(middle, cyl((0, 0, 33.95), Z, 4.6, 1))
     high = cut(union(high, cyl((0, 0, 36), Z, 5.9, 5)), cavity[0], cyl((0, 0, 33), Z, 2.42, 9))
-    spline = cut(union(cyl((0, 0, 34), Z, 4.5, 2), cyl((0, 0, 35), Z, 2.4, 9.5)), cyl((0, 0, 37), Z, 1, 8))
+    spline = cut(union(cyl((0, 0, 34), Z, 4.5, 2), cyl((0, 0, 35), Z, 2.4, 8.5)), cyl((0, 0, 37), Z, 1, 8))
     horn = bar((-14, 0), (14, 0), 3, 41.5, 44.5).union(cyl((0, 0, 41.5), Z, 4, 3))
-    horn = cut(horn, bore(0 * Z, Z, 2.4), *(bore(at(x, 0, 0), Z, 0.8) for x in (-12, 12)))
+    horn = cut(horn, cyl((0, 0, 41), Z, 2.4, 2.5), bore(0 * Z, Z, 1.1), *(bore(at(x, 0, 0), Z, 0.8) for x in (-12, 12)))
     return compound(low, middle, high), spline, horn
 
 
