@@ -32,7 +32,7 @@ from drawings.shapes import (
 def peaucellier_model(random):
     """Seven bars in four storeys on a board with two posts, washers between the bars, bolts with nuts."""
     drawing, play = Drawing(["board"]), random.choice([0.0, 0.05, 0.2])
-    crank, turn, long, short = 50.0, random.uniform(0.2, 0.6), random.uniform(145, 155), random.uniform(58, 62)
+    crank, turn, long, short = 50.0, random.uniform(0.2, 0.6), random.uniform(135, 145), random.uniform(58, 62)
     o, a = at(0, 0), at(crank, 0)
     b = a + crank * at(np.cos(turn), np.sin(turn))
     away = float(np.linalg.norm(b))
