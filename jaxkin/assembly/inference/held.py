@@ -39,12 +39,15 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
 
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Find bodies that have two or more parallel axes in common."""
+    """Find bodies that have two or more parallel axes in common: what only touches a fastener, as a lever does that
+    pushes pins, has not its axis."""
     body = known.body
 
     def of_bodies(stack: Stack) -> Stack:
-        held = tuple(dict.fromkeys(body[part] for part in stack.held))
-        return Stack(stack.fasteners, held, stack.axis, stack.guides)
+        pairs = [pair.parts for pair in known.axes if {*pair.parts} & {*stack.fasteners}]
+        on_axis = {body[part] for parts in (*pairs, stack.fasteners) for part in parts}
+        held = dict.fromkeys(body[part] for part in stack.held if body[part] in on_axis)
+        return Stack(stack.fasteners, tuple(held), stack.axis, stack.guides)
 
     flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
     tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]
@@ -110,7 +113,7 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     }
     widest = max(_keepers(known, stack, reach, fits), key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
-    if len({body[each] for each in stack.held}) == 1:
+    if len(reach) == 1:
         # as a shaft in bushes, also where its collars touch what these are in
         turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
         turns = turns or _goes_on(known, stack, low, high)
@@ -219,8 +222,9 @@ def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
     screw ends with its hole on one side, or its head lies on a face; a pin that comes out on both sides is held there.
     One that is not `loose` is deep inside of its hole on both sides."""
     pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and pair.other.part in stack.held]
+    holders = {pair.other.part for pair in pairs}
     flat = (each.parts for each in known.contacts if each.contact_state.is_flat)
-    if any({*parts} & {*stack.fasteners} and {*parts} & {*stack.held} for parts in flat):
+    if any({*parts} & {*stack.fasteners} and {*parts} & holders for parts in flat):
         return False
     for pair in pairs:
         (low, high), (first, last) = (bore.reach(pair.one.axis) for bore in (pair.one, pair.other))

@@ -73,14 +73,10 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
     pinned = [each.one for each in line.found if not each.virtual]
     if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
         return [_guided(known, pair)]
-    if not any(pins):
-        one, other = (known.solids[part] for part in pair.parts)
-        if turns([one], [other], pair.other.point, pair.one.axis) <= MIN_TURN:
-            return []  # as a bolt with a knob in its slot, which slides between walls
+    if walled := _walled(known, line, exact=any(pins)):
+        return walled
     fastened = pair.one.part in fastening and not _is_rod(known, line)
-    found = _hinge(known, line, any(across), fastened, kept)
-    stopped = any(across) or any(each.stop is Stop.FACES for each in found)
-    return found if stopped or not any(pins) else _walled(known, line) or found
+    return _hinge(known, line, any(across), fastened, kept)
 
 
 def _is_rod(known: Known, line: Line) -> bool:
@@ -217,19 +213,24 @@ def _guided(known: Known, pair: CommonAxis) -> Hinge:
     return Hinge(Inference.of(joint, evidence), Stop.NONE)
 
 
-def _walled(known: Known, line: Line) -> list[Hinge]:
-    """Make a prismatic joint along a pin that fits exactly, where walls beside the axis keep a body from turning on it,
-    such as a finger in a slot."""
+def _walled(known: Known, line: Line, exact: bool) -> list[Hinge]:
+    """Make a prismatic joint along a pin where walls beside the axis keep a body from turning on it, such as a finger
+    in a slot, or a jaw with its neck in one; beside a pin with play the walls of the same two parts."""
     pair, body = line.first, known.body
-    one, other = ([part for part in known.parts if body[part.name] == owner] for owner in line.owners)
+    owners = [body[part] for part in pair.parts]
+    one, other = (
+        [part for part in known.parts if (body[part.name] == owner if exact else part.name == name)]
+        for owner, name in zip(owners, pair.parts, strict=True)
+    )
     angle = turns(one, other, pair.other.point, pair.one.axis)
     if angle > MIN_TURN:
         return []
     parts = known.in_order(pair.parts)
     joint = pairs.prismatic("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
-    text = f"the pin of radius {pair.one.radius:.4g} fits; walls beside it leave a turn of {angle:.2g} rad"
+    fit = "fits" if exact else f"has a clearance of {pair.clearance:.2g}"
+    text = f"the pin of radius {pair.one.radius:.4g} {fit}; walls beside it leave a turn of {angle:.2g} rad"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
-    return [Hinge(Inference.of(joint, evidence), Stop.FACES)]
+    return [Hinge(Inference.of(joint, evidence), Stop.FACES if exact else Stop.NONE)]
 
 
 def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:

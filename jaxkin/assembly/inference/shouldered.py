@@ -7,6 +7,7 @@ from collections.abc import Collection
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
@@ -15,16 +16,20 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
     """Join shafts with their nuts and with what is between a nut and a shoulder of the shaft.
 
     The shoulder is the end of a thicker length, with which the shaft is in another part: it turns there. That of a
-    bolt, its head, is in none.
+    bolt, its head, is in none. Where a flat of the shaft keeps some of them from turning, as the washers of a friction
+    hinge, what has play on it turns.
     """
-    result = []
+    body, result = known.body, []
     for pair in known.axes:
         thread, nut = pair.one, pair.other.part
         if pair.virtual or nut not in fastening or not all(bore.hole for bore in known.bores[nut]):
             continue
         shaft = thread.part
-        on = {each.other.part for each in known.axes if each.one is thread and not each.virtual}
+        on = {each.other.part: each for each in known.axes if each.one is thread and not each.virtual}
         between, shouldered = _pressed(known, nut, shaft, on, thread)
+        if any(body[part] == body[shaft] for part in between):
+            loose = {part for part in between if on[part].clearance > SAME_FIT * thread.radius}
+            between -= {part for part in loose if body[part] != body[shaft]}
         if not shouldered or not between - {nut}:
             continue
         thicker = [bore for bore in known.bores[shaft] if _is_thicker(bore, thread)]
