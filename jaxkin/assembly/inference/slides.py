@@ -86,7 +86,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-            loose = owners - {body[part] for part in known.fixed}
+            loose = owners - {body[part] for part in known.fixed}  # a pin drives what has an axis with a third body
             driven = all(any(owner in pair and not pair <= owners for pair in about) for owner in loose)
             result.append(Hinge(Inference.of(joint, evidence), Stop.NONE if driven else Stop.FACES))
     return result
