@@ -16,15 +16,15 @@ CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
 MIN_LOOSE = 0.045
 """Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
-0.048 to 0.057 in the fine series of ISO 273."""
+0.048 to 0.063 in the fine series of ISO 273."""
 MIN_PRESS = 2e-4
 """Interference of a press fit over the radius, at least: less is rounding, of the file or of inches."""
 MAX_PRESS = 5e-3
-"""The same at most: H7/p6 to H8/x8 of 10 to 80 mm have up to 0.004 by ISO 286. What is thicker by more is a thread, or
-a pin that was drawn without a look at its hole."""
+"""The same at most: H7/p6 to H7/u6 of 10 to 80 mm have up to 0.0044 by ISO 286. What is thicker by more is a thread,
+or a pin that was drawn without a look at its hole."""
 MIN_PRESSED = 0.5
-"""Length of a pin in a hole that it is pressed into, over its radius, at least: press fits of discs and crowns have 0.6
-and more."""
+"""Length of a pin in a hole that it is pressed into, over its radius, at least: a thin sheet would widen; the crown of a
+fork has 1.9."""
 
 
 def pressed_pins(known: Known) -> list[Inference]:
