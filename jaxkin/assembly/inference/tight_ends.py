@@ -23,8 +23,8 @@ MAX_PRESS = 5e-3
 """The same at most: H7/p6 to H7/u6 of 10 to 80 mm have up to 0.0044 by ISO 286. What is thicker by more is a thread,
 or a pin that was drawn without a look at its hole."""
 MIN_PRESSED = 0.5
-"""Length of a pin in a hole that it is pressed into, over its radius, at least: a thin sheet would widen; the crown of a
-fork has 1.9."""
+"""Length of a pin in a hole that it is pressed into, over its radius, at least: a thin sheet would widen. The crown of
+a fork has 1.9."""
 
 
 def pressed_pins(known: Known) -> list[Inference]:
