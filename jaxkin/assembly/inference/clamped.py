@@ -17,7 +17,6 @@ from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_across
-from jaxkin.contacts.contact import Contact
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
@@ -205,17 +204,8 @@ def _presses(known: Known, on_pin: CommonAxis, host: str) -> bool:
 
 def _lies_on(known: Known, one: str, other: str, axis: Bore) -> bool:
     """Tell whether two parts touch with a plane face across an axis: on a plane one, or on a round side."""
-    pair = frozenset((one, other))
-    return any(
-        stands_across(face, axis.axis)
-        for each in known.contacts
-        if frozenset(each.parts) == pair
-        for face in each.surfaces
-    )
-
-
-def _is_across_face(contact: Contact, axis: Bore) -> bool:
-    return contact.contact_state.is_flat and stands_across(contact.surfaces[0], axis.axis)
+    contacts = known.between.get(frozenset((one, other)), ())
+    return any(stands_across(face, axis.axis) for each in contacts for face in each.surfaces)
 
 
 def bolted_balls(known: Known) -> list[Inference]:
@@ -250,8 +240,7 @@ def _through(socket: Socket, pair: CommonAxis) -> bool:
 
 def _stacked(known: Known, ball: str, parts: Collection[str], axis: Bore) -> Sequence[str]:
     """Find the parts that lie flat on a ball, and on those that do, across an axis."""
-    touching = [each.parts for each in known.contacts if {*each.parts} <= {*parts} and _is_across_face(each, axis)]
     found = [ball]
     for part in found:  # grows while it is read
-        found += [other for pair in touching if part in pair for other in pair if other not in found]
+        found += [other for other in known.flat_on(part, axis.axis) if other in parts and other not in found]
     return found

@@ -6,7 +6,6 @@ from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.keyed import is_key
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.geometry.part import Part
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -53,5 +52,5 @@ def _out_of(key: Part, pair: CommonAxis) -> float:
 
 def _is_shouldered(known: Known, pair: CommonAxis) -> bool:
     """Tell whether a hub lies on a face of its shaft across the axis."""
-    flat = (each for each in known.contacts if each.contact_state.is_flat and {*each.parts} == {*pair.parts})
-    return any(stands_across(each.surfaces[0], pair.one.axis) for each in flat)
+    shaft, hub = pair.parts
+    return hub in known.flat_on(shaft, pair.one.axis)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -96,6 +97,21 @@ class Known:
         some = self.between.get(frozenset((one, other)), ())
         across = [stands_across(each.surfaces[0], axis) for each in some if pins or not each.contact_state.is_pin]
         return bool(across) and all(across)
+
+    def flat_on(self, part: str, axis: Vector) -> list[str]:
+        """Find the parts that lie flat on a part, across an axis."""
+        some = [each for each in self._flat.get(part, ()) if stands_across(each.surfaces[0], axis)]
+        return list(dict.fromkeys(each.parts[part == each.parts[0]] for each in some))
+
+    @cached_property
+    def _flat(self) -> dict[str, list[Contact]]:
+        """The contacts of plane faces on plane faces, by their parts."""
+        found: dict[str, list[Contact]] = {}
+        for contact in self.contacts:
+            if contact.contact_state.is_flat:
+                for part in contact.parts:
+                    found.setdefault(part, []).append(contact)
+        return found
 
     @property
     def far(self) -> list[CommonAxis]:

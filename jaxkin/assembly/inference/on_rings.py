@@ -11,7 +11,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import MAX_NUT
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.stop_faces import ACROSS, stands_across
+from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
@@ -47,14 +47,8 @@ def _stack(known: Known, ring: str, axis: Bore, shut_out: set[str]) -> list[str]
 def _flat_on(known: Known, part: str, axis: Bore) -> list[str]:
     """Find the parts that lie flat on a part across an axis, and have a hole or a pin there that the axis goes
     through."""
-    result = []
-    for contact in known.contacts:
-        if part in contact.parts and contact.contact_state.is_flat:
-            other = next(each for each in contact.parts if each != part)
-            flat = stands_across(contact.surfaces[0], axis.axis)
-            if flat and other not in result and any(_is_around(bore, axis) for bore in known.bores[other]):
-                result.append(other)
-    return result
+    lying = known.flat_on(part, axis.axis)
+    return [other for other in lying if any(_is_around(bore, axis) for bore in known.bores[other])]
 
 
 def _is_around(bore: Bore, axis: Bore) -> bool:

@@ -8,7 +8,7 @@ from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.sleeves import SAME_FIT
-from jaxkin.assembly.inference.stop_faces import WIDER, stands_across
+from jaxkin.assembly.inference.stop_faces import WIDER
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 
@@ -48,13 +48,9 @@ def _pressed(known: Known, nut: str, shaft: str, on: Collection[str], axis: Bore
     """Find the parts on a thread that lie flat on each other from a nut on, and whether one lies on the shaft."""
     found, shouldered = [nut], False
     for part in found:  # grows while it is read
-        for contact in known.contacts:
-            if part not in contact.parts or not contact.contact_state.is_flat:
-                continue
-            if stands_across(contact.surfaces[0], axis.axis):
-                (other,) = {*contact.parts} - {part}
-                shouldered |= other == shaft
-                found += [other] if other in on and other not in found else []
+        for other in known.flat_on(part, axis.axis):
+            shouldered |= other == shaft
+            found += [other] if other in on and other not in found else []
     return {*found}, shouldered
 
 

@@ -58,7 +58,8 @@ def guided_on_faces(known: Known) -> list[Hinge]:
     """
     body, result = known.body, []
     flat: dict[Pair, list[Vector]] = {}
-    others = {frozenset(body[part] for part in each.parts) for each in (*known.axes, *known.tapped)}
+    about = {frozenset(body[part] for part in each.parts) for each in known.axes}
+    others = about | {frozenset(body[part] for part in each.parts) for each in known.tapped}
     others |= {frozenset(body[part] for part in each.parts) for each in known.found if each.joint}
     others |= {frozenset(body[part] for part in pair) for pair in known.by_hand}
     for contact in known.contacts:
@@ -85,15 +86,10 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
-            driven = all(_is_driven(known, owner, owners) for owner in owners - {body[part] for part in known.fixed})
+            loose = owners - {body[part] for part in known.fixed}  # a pin drives what has an axis with a third body
+            driven = all(any(owner in pair and not pair <= owners for pair in about) for owner in loose)
             result.append(Hinge(Inference.of(joint, evidence), Stop.NONE if driven else Stop.FACES))
     return result
-
-
-def _is_driven(known: Known, owner: str, owners: Pair) -> bool:
-    """Tell whether a body has an axis in common with a third one, as a ram that links drive."""
-    between = ({known.body[part] for part in pair.parts} for pair in known.axes)
-    return any(owner in pair and not pair <= owners for pair in between)
 
 
 def _are_across(one: Vector, other: Vector) -> bool:

@@ -16,15 +16,15 @@ CLOSED = 0.02
 """Play of a part between a head and a collar of its stud, over the radius, that counts as none."""
 MIN_LOOSE = 0.045
 """Clearance of a screw in what it clamps on the end of a rod, over the radius of the hole, at least: M5 to M10 have
-0.048 to 0.057 in the fine series of ISO 273."""
+0.048 to 0.063 in the fine series of ISO 273."""
 MIN_PRESS = 2e-4
 """Interference of a press fit over the radius, at least: less is rounding, of the file or of inches."""
 MAX_PRESS = 5e-3
-"""The same at most: H7/p6 to H8/x8 of 10 to 80 mm have up to 0.004 by ISO 286. What is thicker by more is a thread, or
-a pin that was drawn without a look at its hole."""
+"""The same at most: H7/p6 to H7/u6 of 10 to 80 mm have up to 0.0044 by ISO 286. What is thicker by more is a thread,
+or a pin that was drawn without a look at its hole."""
 MIN_PRESSED = 0.5
-"""Length of a pin in a hole that it is pressed into, over its radius, at least: press fits of discs and crowns have 0.6
-and more."""
+"""Length of a pin in a hole that it is pressed into, over its radius, at least: a thin sheet would widen. The crown of
+a fork has 1.9."""
 
 
 def pressed_pins(known: Known) -> list[Inference]:
@@ -102,29 +102,36 @@ def screwed_on_ends(known: Known) -> list[Inference]:
 
 
 def bolted_ends(known: Known) -> list[Inference]:
-    """Join rods with the part that they end on, where a screw through that part is tight in the end of the rod.
+    """Join round rods with the part that they end on, where a screw through that part is tight in the end of the rod.
 
     Head and rod grip the part on both sides, however loose the screw is in it. What is round about the rod, as a roller
-    between the end of its post and a washer, is left to turn, and so is what fits the screw more closely.
+    between the end of its post and a washer, is left to turn, and so are what fits the screw more closely, and links:
+    bars on the ends of several rods.
     """
-    result = []
+    body, found = known.body, []
     for end in known.axes:
-        screw, rod = end.parts
-        tight = not end.virtual and abs(end.clearance) <= SAME_FIT * end.other.radius
-        if not tight or not any(not bore.hole and bore.on_axis_of(end.one) for bore in known.bores[rod]):
+        rod = end.other.part
+        if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not is_round_about(known, rod, end.other):
             continue
-        for through in known.axes:
-            part = through.other.part
-            if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
-                continue
-            loose = through.clearance >= MIN_LOOSE * through.other.radius
-            gripped = all(known.touch_across(each, part, through.one.axis) for each in (screw, rod))
-            if loose and gripped and not is_round_about(known, part, through.other):
-                text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
-                sizes = (("radius", through.one.radius), ("clearance", through.clearance))
-                parts = known.in_order((rod, part))
-                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+        found += [(rod, through) for through in known.axes if _grips(known, end, through)]
+    result = []
+    for rod, through in found:
+        screw, part = through.parts
+        if all(body[other] == body[rod] for other, each in found if each.other.part == part):
+            text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
+            sizes = (("radius", through.one.radius), ("clearance", through.clearance))
+            result.append(Inference(known.in_order((rod, part)), Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
+
+
+def _grips(known: Known, end: CommonAxis, through: CommonAxis) -> bool:
+    """Tell whether a screw in the end of a rod goes through another part, which lies between its head and the rod."""
+    (screw, rod), part, axis = end.parts, through.other.part, end.one.axis
+    if through.one.part != screw or part == rod or not through.one.on_axis_of(end.one):
+        return False
+    loose = through.clearance >= MIN_LOOSE * through.other.radius
+    gripped = all(known.touch_across(each, part, axis) for each in (screw, rod))
+    return loose and gripped and not is_round_about(known, part, through.other)
 
 
 def _is_tight_end(known: Known, pair: CommonAxis) -> bool:

@@ -113,3 +113,14 @@ def test_a_carriage_stays_on_its_rail_though_no_coupling_ties_its_screw(seed):
     _, mechanism = of(seed, base, screw, carriage, cover)
     assert kind_of(mechanism, "base", "carriage") == "prismatic"
     assert kind_of(mechanism, "base", "screw") == "revolute"
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_bar_that_screws_hold_to_the_ends_of_two_rods_is_a_link(seed):
+    base = part("base", block((-80, -80, -30), (80, 80, -20)), PIVOT)
+    spots = (0.0, 0.0), (40.0, 0.0)
+    posts = [part(f"post {k}", ring(2.5, 6.0, -15, 0, at), pin(6.0, -18, -15, at)) for k, at in enumerate(spots)]
+    bar = part("bar", *(ring(2.75, 9.0, 0, 6, at) for at in spots), block((8, -4, 0), (32, 4, 6)))
+    screws = [part(f"screw {k}", pin(2.5, -15, 6, at), pin(4.5, 6, 11, at)) for k, at in enumerate(spots)]
+    _, mechanism = of(seed, base, *posts, bar, *screws, LEVER)
+    assert not any("in the end of" in note for note in mechanism.history)
