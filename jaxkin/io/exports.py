@@ -34,7 +34,7 @@ BOX = 0.02
 """Edge of the box of a part without a solid, over the size of the assembly."""
 
 LISTED = 3
-"""Parts that a warning names."""
+"""Parts or assemblies that a message names."""
 
 LOCKS = ("weld", "lock", "fixed")
 """Mates that leave no freedom."""
@@ -54,35 +54,58 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
     """Read the parts of an export in world coordinates, their unit, and what the CAD system says; `root` is its XML.
 
     Each instance is a part; an instance of several solids is a rigid group. Lengths are in the unit of the first file
-    of a solid; solids in another unit are converted. Warns of parts without a file: they are small boxes. Raises
-    ValueError where the XML is not understood.
+    of a solid; solids in another unit are converted. Warns of parts without a file, and of files that hold no solid or
+    are damaged: these parts are small boxes. Raises ValueError where the XML is not understood.
     """
     export = read_export(path, root)
     if not export.parts:
         raise ValueError(f"{path.name}: there are no parts in its InstanceTree; export the assembly again")
     files, missing = _files(path.parent, export.parts)
-    products = {name: read_solids(file) for name, file in files.items()}
+    products, unread = _read_each(files, read_solids)
     unit = next((unit for _, unit in products.values() if unit), "m")
     solids = {
         name: tuple(scaled(part, METRES[own] / METRES[unit]) if own not in ("", unit) else part for part in parts)
         for name, (parts, own) in products.items()
     }
     if missing:
-        listed = ", ".join(f"{part.name!r} ({part.file or 'no file is named'})" for part in missing[:LISTED])
-        more = f" and {len(missing) - LISTED} more" if len(missing) > LISTED else ""
+        listed = _listed([f"{part.name!r} ({part.file or 'no file is named'})" for part in missing])
         warnings.warn(
-            f"{path.name}: no solids for {listed}{more}: drawn as small boxes; joints are as exported. Put the files "
+            f"{path.name}: no solids for {listed}: drawn as small boxes; joints are as exported. Put the files "
             "that were exported with it into its folder",
+            stacklevel=2,
+        )
+    if unread:
+        warnings.warn(
+            f"{path.name}: {_listed(unread)}. The parts are drawn as small boxes; joints are as exported",
             stacklevel=2,
         )
     metres = METRES[unit]
     placed, groups, first = _placed(export, solids, metres)
-    where = _Places(export, first)
     notes = list(export.notes)
+    where = _Places(export, first, notes)
     if folders := {str(file.parent) for file in files.values() if file.parent.resolve() != path.parent.resolve()}:
         notes.append(f"solids are not beside {path.name}, but in {', '.join(sorted(folders))}")
     constraints = [*_joints(export.joints, where, metres, notes), *_mates(export, where, metres, notes)]
     return placed, unit, Exported(where.fixed, (*groups, *_rigid(export, first)), tuple(constraints), tuple(notes))
+
+
+def _read_each(
+    files: Mapping[str, Path], read_solids: Reader
+) -> tuple[dict[str, tuple[tuple[Part, ...], str]], list[str]]:
+    """Read the solids of each file and its unit, and say which files cannot be read, and why."""
+    products, unread = {}, []
+    for name, file in files.items():
+        try:
+            products[name] = read_solids(file)
+        except ValueError as error:  # parts that are sketches or planes only have a file without a solid
+            unread.append(str(error))
+    return products, unread
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Name the first few, and how many more there are."""
+    more = f" and {len(names) - LISTED} more" if len(names) > LISTED else ""
+    return ", ".join(names[:LISTED]) + more
 
 
 def _files(folder: Path, parts: Sequence[ExportedPart]) -> tuple[dict[str, Path], list[ExportedPart]]:
@@ -146,21 +169,47 @@ def _box(edge: float) -> Part:
 class _Places:
     """The parts that joints and mates are on."""
 
-    def __init__(self, export: Export, first: Paths) -> None:
+    def __init__(self, export: Export, first: Paths, notes: list[str]) -> None:
         self.first = first
-        self.fixed = tuple(first[part.path] for part in export.parts if part.grounded)
         self.body = {part.path: part.body for part in export.parts}
+        self.fixed_in = {part.path: part.fixed_in for part in export.parts}
+        self.fixed = self._fixed(export, notes)
+
+    def _fixed(self, export: Export, notes: list[str]) -> tuple[str, ...]:
+        """Find the parts that stand in the world: those that are fixed in it, or else welded to it.
+
+        Where the file has neither, and what is fixed in assemblies is all in one of these, that one is the frame.
+        """
+        fixed = [name for path, name in self.first.items() if self.fixed_in[path] == ()]
+        if not fixed:
+            welds = [each.sides for each in export.joints if each.kind.lower() in LOCKS]
+            ends = [one.path or other.path for one, other in welds if not (one.path and other.path)]
+            fixed = [name for path in ends if (name := self.part(path)) is not None]
+        if fixed:
+            return tuple(dict.fromkeys(fixed))
+        inside = {path: name for path, name in self.first.items() if self.fixed_in[path] is not None}
+        if not inside:
+            return ()
+        frames = {part.names[0] for part in export.parts if part.path in inside}
+        if len({path[0] for path in inside}) > 1:
+            notes.append(f"nothing is fixed in the assembly itself, only in {_listed(sorted(frames))}, which may move")
+            return ()
+        notes.append(f"nothing is fixed in the assembly itself; what is fixed in {_listed([*frames])} is taken to be")
+        return tuple(inside.values())
 
     def part(self, path: tuple[str, ...]) -> str | None:
-        """Find the part at a path: of the root a fixed one, of a rigid assembly the first one; None where there is
-        none."""
+        """Find the part at a path: of an assembly one that is fixed in it, or the first one where it is rigid; None
+        where there is none."""
         if path in self.first:
             return self.first[path]
         if not path:
             return next(iter(self.fixed), None)
         below = [each for each in self.first if each[: len(path)] == path]
         bodies = {self.body[each] for each in below}
-        return self.first[below[0]] if len(bodies) == 1 and None not in bodies else None
+        if len(bodies) == 1 and None not in bodies:
+            return self.first[below[0]]
+        fixed = (each for each in below if (at := self.fixed_in[each]) is not None and path[: len(at)] == at)
+        return next((self.first[each] for each in fixed), None)
 
     def parts(self, one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, str] | None:
         """Find the two parts at two paths; None where there are no two."""
@@ -169,11 +218,12 @@ class _Places:
 
 
 def _rigid(export: Export, first: Paths) -> list[tuple[str, ...]]:
-    """Find the rigid groups of the export, as names of parts."""
-    groups: dict[tuple[str, ...], list[str]] = {}
+    """Find the rigid groups of the export, as names of parts: rigid assemblies, and what is fixed in one assembly."""
+    groups: dict[tuple[str, tuple[str, ...]], list[str]] = {}
     for part in export.parts:
-        if part.body is not None:
-            groups.setdefault(part.body, []).append(first[part.path])
+        for what, holder in (("body", part.body), ("fixed", part.fixed_in)):
+            if holder:
+                groups.setdefault((what, holder), []).append(first[part.path])
     return [tuple(group) for group in groups.values() if len(group) > 1]
 
 
