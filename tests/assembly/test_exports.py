@@ -13,7 +13,7 @@ from jaxkin import examples
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.evidence import EvidenceKind
 from reference.archives import unpack
-from reference.exported import FRAME, Z, instance, joint, load, mate
+from reference.exported import FRAME, X, Y, Z, instance, joint, load, mate
 
 DATA = Path(__file__).with_name("data")
 
@@ -215,11 +215,26 @@ def test_of_several_frames_none_is_chosen(tmp_path):
     assert any("only in servo, stand" in note for note in assembly.mechanism(fixed=["base"]).notes)
 
 
-def test_a_part_that_is_welded_to_the_origin_stands_still(tmp_path):
+WELD = joint("Weld", "origin", "", "base", (0, 0, 0))
+PLANES = [
+    mate("Coincident", f"plane {axis}", ("machine", "plane", (0, 0, 0), axis), ("base", "plane", (0, 0, 0), axis))
+    for axis in (X, Y, Z)
+]
+
+
+@pytest.mark.parametrize(("weld", "mates"), [(WELD, ""), ("", "".join(PLANES))])
+def test_a_part_that_is_held_by_the_assembly_itself_stands_still(tmp_path, weld, mates):
     tree, joints = arm_of_servos()
-    weld = joint("Weld", "origin", "", "base", (0, 0, 0))
-    mechanism = load(tmp_path, tree, joints + weld, assemblies='<Assembly uid="A"/>').mechanism()
+    mechanism = load(tmp_path, tree, joints + weld, mates, assemblies='<Assembly uid="A"/>').mechanism()
     assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
+
+
+def test_a_part_that_the_assembly_itself_does_not_hold_is_named(tmp_path):
+    assembly = load(
+        tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)), PLANES[0]
+    )
+    said = assembly.mechanism(fixed=["base"]).notes
+    assert any("holds 'base' in the assembly itself, in which nothing is fixed; left out" in note for note in said)
 
 
 @pytest.mark.parametrize(("inner", "freedoms"), [("", 0), (joint("Revolute", "pin", "case", "screw", (0, 0, 0)), 1)])
