@@ -51,8 +51,8 @@ def read_exported(path: Path, root: Element, read_solids: Reader) -> tuple[tuple
     if missing:
         names = [f"{part.name!r} ({part.file or 'no file is named'})" for part in missing]
         warnings.warn(
-            f"{path.name}: no solids for {listed(names, LISTED)}: drawn as small boxes; joints are as exported. Put the "
-            "files that were exported with it into its folder",
+            f"{path.name}: no solids for {listed(names, LISTED)}: drawn as small boxes; joints are as exported. Put "
+            "the files that were exported with it into its folder",
             stacklevel=2,
         )
     if unread:
