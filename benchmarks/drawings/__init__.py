@@ -17,10 +17,13 @@ from drawings import household as household
 from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import mounted as mounted
+from drawings import office as office
 from drawings import powered as powered
 from drawings import reciprocating as reciprocating
 from drawings import road as road
 from drawings import robotics as robotics
+from drawings import swivelling as swivelling
+from drawings import threaded as threaded
 from drawings import turning as turning
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop
