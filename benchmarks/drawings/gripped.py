@@ -108,7 +108,7 @@ def nutcracker(random):
     half, wide = 16.0, random.uniform(30, 42)
     pivots = {"left": at(-half, 0, 0), "right": at(half, 0, 0)}
     for name, z in (("front", 3), ("back", -6)):
-        drawing.add(f"{name} link", bar(*pivots.values(), 9, z, z + 3, pivots.values(), 4))
+        drawing.add(f"{name} link", bar(pivots["left"], pivots["right"], 9, z, z + 3, tuple(pivots.values()), 4))
     for s, (name, p) in zip((-1, 1), pivots.items(), strict=True):
         drawing.add(f"{name} rivet", rivet(p - 6 * Z, Z, 4, 12))
         knee, end = p - 60 * Y, at(s * wide, -165, 0)

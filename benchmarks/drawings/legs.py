@@ -17,7 +17,7 @@ def knee_brace(random):
     bend, apart = random.uniform(0.1, 0.5), random.uniform(14, 16)
     pivots = {"thigh": at(0, apart, 0), "calf": at(0, -apart, 0)}
     for name, z in (("inner", 0), ("outer", 6.3)):
-        plate = bar(*pivots.values(), 15, z, z + 2, pivots.values(), 2.1)
+        plate = bar(pivots["thigh"], pivots["calf"], 15, z, z + 2, tuple(pivots.values()), 2.1)
         drawing.add(f"{name} plate", plate.faces(">Z" if z else "<Z").edges().chamfer(0.4))
     for name, p, s, turn in (("thigh", pivots["thigh"], 1, 0.0), ("calf", pivots["calf"], -1, bend)):
         along = at(np.sin(turn), s * np.cos(turn), 0)
