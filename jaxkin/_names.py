@@ -66,10 +66,10 @@ def nearest(name: str, known: Iterable[str]) -> str:
     return f"; there is {listed([repr(other) for other in known])}"
 
 
-def listed(words: Sequence[str]) -> str:
+def listed(words: Sequence[str], most: int = _MAX_KNOWN) -> str:
     """Write names with commas, the first few of many: "A, B, C and 40 more"."""
-    more = f" and {len(words) - _MAX_KNOWN} more" if len(words) > _MAX_KNOWN else ""
-    return ", ".join(words[:_MAX_KNOWN]) + more
+    more = f" and {len(words) - most} more" if len(words) > most else ""
+    return ", ".join(words[:most]) + more
 
 
 def closest(name: object, known: Iterable[str]) -> str:

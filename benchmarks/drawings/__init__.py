@@ -11,9 +11,12 @@ from drawings import everyday as everyday
 from drawings import fittings as fittings
 from drawings import fixtures as fixtures
 from drawings import folding as folding
+from drawings import gripped as gripped
 from drawings import guided as guided
 from drawings import handheld as handheld
+from drawings import hoisting as hoisting
 from drawings import household as household
+from drawings import legs as legs
 from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import mounted as mounted

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
@@ -25,6 +26,9 @@ KILOGRAMS = {"kilogram": 1.0, "kg": 1.0, "gram": 0.001, "g": 0.001, "lbm": 0.453
 ORTHOGONAL = 1e-6
 """Largest entry by which rows of a rotation are not orthogonal unit vectors: exporters write nine digits or more."""
 
+RELATIONS = ("Joints/*", "Constraints/*")
+"""Where an assembly has its joints and mates."""
+
 
 @dataclass(frozen=True, eq=False)
 class ExportedPart:
@@ -40,7 +44,8 @@ class ExportedPart:
     """(4, 4) from its file to the world, metres."""
     inertial: Inertial | None
     """What it weighs: metres, in the axes of its file; None where the export does not say all of it."""
-    grounded: bool
+    fixed_in: tuple[str, ...] | None
+    """Path of the assembly in which it is fixed, as it is placed there; () in the world, None where it may move."""
     body: tuple[str, ...] | None
     """The rigid group, or the rigid assembly, that holds it, by its path; None where the part moves alone."""
 
@@ -104,6 +109,22 @@ class Export:
     """What is in the file and was not understood, one line each."""
 
 
+class _Above(NamedTuple):
+    """An assembly that holds instances; the root has the empty path."""
+
+    path: tuple[str, ...]
+    names: tuple[str, ...]
+    place: np.ndarray
+    """(4, 4), metres."""
+    stands_in: tuple[str, ...]
+    """Path of the outermost assembly in which its frame is fixed: its own where it may move, () where it stands in the
+    world."""
+    body: tuple[str, ...] | None
+    """The rigid group or rigid assembly that holds it."""
+    holds_all: bool = False
+    """Whether all in it is fixed, unless it says which: it is fixed itself, and has no joints or mates."""
+
+
 def read_export(path: str | Path, root: Element | None = None) -> Export:
     """Read the XML of Simscape Multibody Link or of a CAD system that writes the same; `root` where it is parsed.
 
@@ -135,10 +156,10 @@ class _Reader:
         tree, self.root = root.find("InstanceTree"), root.get("uid", "")
         parts, assemblies = [], [((), root)]
         if tree is not None:
-            for path, names, instance, grounded, body in self._instances(tree, (), (), np.eye(4), False, None):
+            for path, names, instance, fixed_in, body in self._instances(tree, _Above((), (), np.eye(4), (), None)):
                 uid = instance.get("entityUid")
                 if uid in self.part_of:
-                    parts.append(self._part(self.part_of[uid], path, names, grounded, body))
+                    parts.append(self._part(self.part_of[uid], path, names, fixed_in, body))
                 elif uid in self.assembly_of:
                     assemblies.append((path, self.assembly_of[uid]))
                 else:
@@ -148,31 +169,37 @@ class _Reader:
         mates = tuple(one for one in found if isinstance(one, ExportedMate))
         return Export(root.get("name", ""), tuple(parts), joints, mates, tuple(self.notes))
 
-    def _instances(
-        self, at: Element, path: tuple, names: tuple, above: np.ndarray, grounded: bool, body: tuple | None
-    ) -> Iterator[tuple]:
-        """Yield (path, names, element, grounded, body) of the instances inside an element, outer ones first.
+    def _instances(self, at: Element, above: _Above) -> Iterator[tuple]:
+        """Yield (path, names, element, fixed in, body) of the instances inside an element, outer ones first.
 
         Parts of one rigid group, and of an assembly that is rigid, do not move against each other; of several, one
-        inside the other, the outermost decides.
+        inside the other, the outermost decides. An instance that is grounded is fixed in the assembly that it is in,
+        and in the world only if that is: the first part of most assemblies is, also of those that move.
         """
-        for one in at.iterfind("Instance"):
-            held = grounded or _true(one, "grounded")
-            inner, called = (*path, one.get("uid", "")), (*names, one.get("name", ""))
+        inside = at.findall("Instance")
+        everything = above.holds_all and not any(_true(one, "grounded") for one in inside)
+        for one in inside:
+            inner, called = (*above.path, one.get("uid", "")), (*above.names, one.get("name", ""))
             group = one.get("rigidGroup")
-            own = body or ((*path, f"group {group}") if group else inner if _true(one, "rigid") else None)
+            body = above.body or ((*above.path, f"group {group}") if group else inner if _true(one, "rigid") else None)
             if inner in self.placed:
                 self.notes.append(
                     f"{'/'.join(called)}: another instance has its identifier {inner[-1]!r}; taken for one body"
                 )
-            self.placed[inner] = above @ self._transform(one.find("Transform"), "/".join(called))
-            yield inner, called, one, held, own
-            yield from self._instances(one, inner, called, self.placed[inner], held, own)
+            self.placed[inner] = above.place @ self._transform(one.find("Transform"), "/".join(called))
+            fixed_in = above.stands_in if everything or _true(one, "grounded") else None
+            yield inner, called, one, fixed_in, body
+            definition = self.assembly_of.get(one.get("entityUid"))
+            tied = definition is not None and any(definition.find(each) is not None for each in RELATIONS)
+            stands_in, holds_all = (inner, False) if fixed_in is None else (fixed_in, not tied)
+            yield from self._instances(one, _Above(inner, called, self.placed[inner], stands_in, body, holds_all))
 
-    def _part(self, part: Element, path: tuple, names: tuple, grounded: bool, body: tuple | None) -> ExportedPart:
+    def _part(
+        self, part: Element, path: tuple, names: tuple, fixed_in: tuple | None, body: tuple | None
+    ) -> ExportedPart:
         geometry = part.find("GeometryFile")
         file = "" if geometry is None else geometry.get("name", "")
-        return ExportedPart(path, names, file, self.placed[path], self._inertial(part, names[-1]), grounded, body)
+        return ExportedPart(path, names, file, self.placed[path], self._inertial(part, names[-1]), fixed_in, body)
 
     def _inertial(self, part: Element, name: str) -> Inertial | None:
         """Read what a part weighs; None, and a note, for a mass below zero."""
@@ -189,7 +216,7 @@ class _Reader:
 
     def _relations(self, assembly: Element, path: tuple) -> Iterator[ExportedJoint | ExportedMate]:
         """Yield the joints and mates of an assembly at a path; note those that are neither."""
-        for one in [*assembly.iterfind("Joints/*"), *assembly.iterfind("Constraints/*")]:
+        for one in (each for place in RELATIONS for each in assembly.iterfind(place)):
             name = one.get("name", "")
             frames = [self._side(frame, path, name) for frame in (one.find("BaseFrame"), one.find("FollowerFrame"))]
             features = [self._feature(each, path, name) for each in one.iterfind("ConstraintGeometry")]

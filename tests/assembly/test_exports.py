@@ -13,7 +13,7 @@ from jaxkin import examples
 from jaxkin.geometry.units import METRES
 from jaxkin.joints.evidence import EvidenceKind
 from reference.archives import unpack
-from reference.exported import FRAME, Z, instance, joint, load, mate
+from reference.exported import FRAME, X, Y, Z, instance, joint, load, mate
 
 DATA = Path(__file__).with_name("data")
 
@@ -107,7 +107,8 @@ def test_groups_of_nested_assemblies_are_bodies(aileron):
 
 def test_a_large_export_is_told_in_a_few_lines(aileron):
     mechanism = aileron.mechanism()
-    assert "4 revolute" in mechanism.notes[0] and len(mechanism.notes) < 5
+    assert "4 revolute" in "".join(mechanism.notes) and len(mechanism.notes) < 5
+    assert any("fixed in MountBrackets <1> is taken to be" in note for note in mechanism.notes)
 
 
 @pytest.mark.long
@@ -181,6 +182,71 @@ def test_joints_to_the_world_are_joints_to_what_is_held(tmp_path):
     assert load(tmp_path, tree, joint("Revolute", "A", "", "arm", (0, 0, 0))).mechanism().mobility().freedoms == 1
 
 
+def arm_of_servos(**of_servo):
+    """A base, and on its hinge a servo of two parts that are fixed in it, with a horn on a hinge of the servo."""
+    servo = instance("case", grounded="true") + instance("screw", (0.01, 0, 0), grounded="true")
+    tree = instance("base") + instance("servo", (0.1, 0, 0), servo, of="A", **of_servo) + instance("horn")
+    axle = joint("Revolute", "horn", "servo", "horn", (0, 0, 0), (0.1, 0, 0))
+    return tree, joint("Revolute", "arm", "base", "servo/case", (0, 0, 0), (-0.1, 0, 0)) + axle
+
+
+def test_what_is_fixed_in_an_assembly_moves_with_it(tmp_path):
+    """Servos come with all of their parts fixed in them; a joint on the servo itself is one on these."""
+    tree, joints = arm_of_servos()
+    tree = tree.replace('uid="base"', 'uid="base" grounded="true"')
+    mechanism = load(tmp_path, tree, joints, assemblies='<Assembly uid="A"/>').mechanism()
+    assert mechanism.bodies == {"base": ("base",), "case": ("case", "screw"), "horn": ("horn",)}
+    assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
+    assert mechanism.joints["horn"].parts == ("case", "horn")
+
+
+def test_what_is_fixed_in_the_only_frame_stands_still_where_nothing_else_does(tmp_path):
+    tree, joints = arm_of_servos()
+    mechanism = load(tmp_path, tree, joints, assemblies='<Assembly uid="A"/>').mechanism()
+    assert mechanism.fixed == ("case", "screw") and any("fixed in servo is taken" in note for note in mechanism.notes)
+
+
+def test_of_several_frames_none_is_chosen(tmp_path):
+    tree, joints = arm_of_servos()
+    second = instance("stand", inside=instance("foot", grounded="true"), of="A")
+    assembly = load(tmp_path, tree + second, joints, assemblies='<Assembly uid="A"/>')
+    with pytest.raises(ValueError, match="holds no part"):
+        assembly.mechanism()
+    assert any("only in servo, stand" in note for note in assembly.mechanism(fixed=["base"]).notes)
+
+
+WELD = joint("Weld", "origin", "", "base", (0, 0, 0))
+PLANES = [
+    mate("Coincident", f"plane {axis}", ("machine", "plane", (0, 0, 0), axis), ("base", "plane", (0, 0, 0), axis))
+    for axis in (X, Y, Z)
+]
+
+
+@pytest.mark.parametrize(("weld", "mates"), [(WELD, ""), ("", "".join(PLANES))])
+def test_a_part_that_is_held_by_the_assembly_itself_stands_still(tmp_path, weld, mates):
+    tree, joints = arm_of_servos()
+    mechanism = load(tmp_path, tree, joints + weld, mates, assemblies='<Assembly uid="A"/>').mechanism()
+    assert mechanism.fixed == ("base",) and mechanism.mobility().freedoms == 2
+
+
+def test_a_part_that_the_assembly_itself_does_not_hold_is_named(tmp_path):
+    assembly = load(
+        tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)), PLANES[0]
+    )
+    said = assembly.mechanism(fixed=["base"]).notes
+    assert any("holds 'base' in the assembly itself, in which nothing is fixed; left out" in note for note in said)
+
+
+@pytest.mark.parametrize(("inner", "freedoms"), [("", 0), (joint("Revolute", "pin", "case", "screw", (0, 0, 0)), 1)])
+def test_in_an_assembly_that_is_fixed_joints_move_what_is_not(tmp_path, inner, freedoms):
+    """Without joints of its own all of it is fixed; of a hinge in it the side that is fixed is."""
+    inside = instance("case", **({"grounded": "true"} if inner else {})) + instance("screw")
+    tree = instance("stand", inside=inside, of="A", grounded="true") + instance("arm")
+    joints = joint("Revolute", "arm", "stand/case", "arm", (0, 0, 0))
+    assembly = load(tmp_path, tree, joints, assemblies=f'<Assembly uid="A"><Joints>{inner}</Joints></Assembly>')
+    assert assembly.mechanism().mobility().freedoms == 1 + freedoms
+
+
 def test_an_export_that_holds_no_part_asks_for_one(tmp_path):
     assembly = load(tmp_path, instance("base") + instance("arm"), joint("Revolute", "A", "base", "arm", (0, 0, 0)))
     with pytest.raises(ValueError, match=r"machine.xml: its CAD system holds no part; .*fixed=\['base'\]"):
@@ -230,6 +296,19 @@ def test_solids_in_several_units_are_converted_and_solids_of_one_instance_are_on
     np.testing.assert_allclose(np.ptp(pin.box, axis=0), 1000 * np.ptp(metres.box, axis=0), rtol=1e-6)
     for face in pin.faces:  # the surfaces are scaled with their triangles
         assert np.abs(face.surface.distance(face.triangles.reshape(-1, 3))).max() < 1e-3
+
+
+def test_a_part_whose_file_holds_no_solid_is_a_box(tmp_path):
+    """Of a part with sketches only CAD systems write a STEP file without a shape."""
+    (tmp_path / "sketch.step").write_text(
+        "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('CONFIG_CONTROL_DESIGN'));\nENDSEC;\nDATA;\n"
+        "#1=PRODUCT('sketch','sketch','',(#2));\n#2=PRODUCT_CONTEXT('',#3,'mechanical');\n"
+        "#3=APPLICATION_CONTEXT('');\nENDSEC;\nEND-ISO-10303-21;\n"
+    )
+    tree = instance("sketch", grounded="true") + instance("arm")
+    with pytest.warns(UserWarning, match=r"sketch.step holds no solids.*drawn as small boxes"):
+        assembly = load(tmp_path, tree, joint("Revolute", "A", "sketch", "arm", (0, 0, 0)), file="sketch.step")
+    assert assembly.mechanism().mobility().freedoms == 1
 
 
 KINDS = [

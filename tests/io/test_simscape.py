@@ -44,7 +44,7 @@ def test_placements_are_composed_through_assemblies_and_units(tmp_path: Path) ->
     tree = instance("a", "A", TURNED.format("0 0 10"), inner, grounded="true")
     export = read_export(written(tmp_path, tree, assemblies='<Assembly uid="A"/>', unit="inch"))
     (part,) = export.parts
-    assert (part.name, part.path, part.file, part.grounded) == ("a/b", ("a", "b"), "p.step", True)
+    assert (part.name, part.path, part.file, part.fixed_in) == ("a/b", ("a", "b"), "p.step", ())
     assert part.inertial is None  # the centre is not said
     np.testing.assert_allclose(part.transform[:3, 3], np.array([0, 1, 10]) * 0.0254, atol=1e-15)
 

@@ -33,15 +33,17 @@ def mate(kind, name, *sides):
     return f'<{kind} name="{name}">{text}</{kind}>'
 
 
-def load(folder, tree, joints="", mates="", assemblies=""):
+def load(folder, tree, joints="", mates="", assemblies="", file=""):
     path = folder / "machine.xml"
+    solid = f'<GeometryFile name="{file}"/>' if file else ""
+    parts = f'<Parts><Part uid="P" name="p">{solid}</Part></Parts>'
     path.write_text(
         '<SimscapeMultibodyImportXML xmlns="urn:x"><RootAssembly name="machine" uid="machine">'
         f"<InstanceTree>{tree}</InstanceTree><Constraints>{mates}</Constraints><Joints>{joints}</Joints></RootAssembly>"
-        f'<Assemblies>{assemblies}</Assemblies><Parts><Part uid="P" name="p"/></Parts></SimscapeMultibodyImportXML>'
+        f"<Assemblies>{assemblies}</Assemblies>{parts}</SimscapeMultibodyImportXML>"
     )
     with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", message=".*drawn as small boxes")
+        warnings.filterwarnings("ignore", message=".*no solids for .*drawn as small boxes")
         return jk.load(path)
 
 

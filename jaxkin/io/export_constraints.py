@@ -1,0 +1,150 @@
+"""Joints and mates of the exports of CAD systems, as constraints between two parts each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from jaxkin.assembly.exported import Constraint
+from jaxkin.geometry.movements import MOVEMENTS
+from jaxkin.geometry.pose import Pose
+from jaxkin.io.export_joints import FREE, joint_of_kind
+from jaxkin.io.names import cleaned
+from jaxkin.io.simscape import Export, ExportedJoint, ExportedMate
+from jaxkin.joints.combine import LOWER_PAIRS, Chain
+from jaxkin.joints.kinds import JointKind
+from jaxkin.joints.mates import Feature, mate
+
+Paths = Mapping[tuple[str, ...], str]
+"""Paths of instances -> names of their first solids."""
+
+LOCKS = ("weld", "lock", "fixed")
+"""Mates that leave no freedom."""
+
+LIMIT = "limit"
+"""How the names of mates begin that allow a range of distances or angles, which the export does not say."""
+
+UNKNOWN = "UnknownConstraint"
+"""Mates that the exporter has no name for: gears, locks, slots. Their own names may tell."""
+
+PARALLEL = 1e-5
+"""Radians within which the features of a mate are parallel: exports round directions to nine digits, and systems solve
+mates to about 1e-6."""
+
+
+class Places:
+    """The parts that joints and mates are on."""
+
+    def __init__(self, export: Export, first: Paths, world: str | None) -> None:
+        """`world` is a part that stands in the world; None where nothing does."""
+        self.first, self.world = first, world
+        self.body = {part.path: part.body for part in export.parts}
+        self.fixed_in = {part.path: part.fixed_in for part in export.parts}
+
+    def part(self, path: tuple[str, ...]) -> str | None:
+        """Find the part at a path: of the root the world, of another assembly one that is fixed in it, or the first one
+        where it is rigid; None where there is none."""
+        if path in self.first:
+            return self.first[path]
+        if not path:
+            return self.world
+        below = [each for each in self.first if each[: len(path)] == path]
+        bodies = {self.body[each] for each in below}
+        if len(bodies) == 1 and None not in bodies:
+            return self.first[below[0]]
+        fixed = (each for each in below if (at := self.fixed_in[each]) is not None and path[: len(at)] == at)
+        return next((self.first[each] for each in fixed), None)
+
+    def parts(self, one: tuple[str, ...], other: tuple[str, ...]) -> tuple[str, str] | None:
+        """Find the two parts at two paths; None where there are no two."""
+        first, second = self.part(one), self.part(other)
+        return None if first is None or second is None or first == second else (first, second)
+
+    def why_not(self, paths: tuple[tuple[str, ...], tuple[str, ...]]) -> str:
+        """Say why two paths are not those of two parts."""
+        found = [name for path in paths if (name := self.part(path)) is not None]
+        if () in paths and self.world is None and len(found) == 1:
+            return f"it holds {found[0]!r} in the assembly itself, in which nothing is fixed"
+        return "it is not between two parts"
+
+
+def joints_between(joints: Iterable[ExportedJoint], where: Places, metres: float, notes: list[str]) -> list[Constraint]:
+    """Find the joints between parts; what is no joint that is known is added to the notes."""
+    result = []
+    for each in joints:
+        text = f"{each.kind} {each.name!r}"
+        parts = where.parts(each.sides[0].path, each.sides[1].path)
+        base, follower = (in_unit(side.frame, metres) for side in each.sides)
+        known = joint_of_kind(each.kind, base, follower)
+        if parts is None or known is None:
+            paths = each.sides[0].path, each.sides[1].path
+            why = where.why_not(paths) if parts is None else _unknown(each.kind)
+            notes.append(f"{text}: {why}; left out")
+            continue
+        kind, chain = known
+        offset, tilt = _apart(chain.movements[0], base, follower) if len(chain.movements) == 1 else (0.0, 0.0)
+        result.append(Constraint(cleaned(each.name), parts, text, chain, kind, offset, tilt))
+    return result
+
+
+def _unknown(kind: str) -> str:
+    free = kind.lower().replace("-", "") in FREE
+    return "it leaves all freedoms, and holds nothing" if free else "this kind is not known"
+
+
+def _apart(movement: str, base: Pose, follower: Pose) -> tuple[float, float]:
+    """Measure distance and angle by which two frames of a joint differ in what its movement leaves in place."""
+    feature, aligned = MOVEMENTS[movement].feature, MOVEMENTS[movement].aligned
+    offset = follower[:3, 3] - base[:3, 3]
+    along = float(offset @ base[:3, 2])
+    tilt = float(np.linalg.norm(np.cross(base[:3, 2], follower[:3, 2]))) if "direction" in aligned else 0.0
+    if feature is None or not aligned:
+        return 0.0, tilt
+    if feature.kind == "plane":
+        return abs(along), tilt
+    if feature.kind == "axis" and not feature.marked:
+        return float(np.linalg.norm(offset - along * base[:3, 2])) if "axis" in aligned else 0.0, tilt
+    return float(np.linalg.norm(offset)), tilt
+
+
+def mates_between(
+    mates: Iterable[ExportedMate], where: Places, metres: float, size: float, notes: list[str]
+) -> list[Constraint]:
+    """Find the mates between parts of an assembly of a size; those that are not understood are added to the notes."""
+    return [found for each in mates if (found := _mate(each, where, metres, PARALLEL * size, notes)) is not None]
+
+
+def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes: list[str]) -> Constraint | None:
+    text = f"{each.kind} {each.name!r}"
+    parts = where.parts(each.sides[0].path, each.sides[1].path)
+    if parts is None:
+        notes.append(f"{text}: {where.why_not((each.sides[0].path, each.sides[1].path))}; left out")
+        return None
+    if each.name.lower().startswith(LIMIT):
+        notes.append(
+            f"{text} between {parts[0]!r} and {parts[1]!r} is a limit by its name: it holds nothing in between"
+        )
+        return None
+    if each.kind.lower() in LOCKS or (each.kind == UNKNOWN and each.name.lower().startswith(LOCKS)):
+        if each.kind == UNKNOWN:
+            notes.append(f"{text} between {parts[0]!r} and {parts[1]!r} is taken for a lock, by its name")
+        return Constraint(
+            cleaned(each.name), parts, text, Chain((LOWER_PAIRS[0, 0][1],), np.eye(4)[None]), JointKind.FIXED
+        )
+    features = [Feature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
+    found = mate(each.kind, features[0], features[1], PARALLEL, length) if features[0] and features[1] else None
+    if found is None:
+        of = " and ".join(f"a {side.kind or 'nameless feature'}" for side in each.sides)
+        notes.append(f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out")
+        return None
+    return Constraint(
+        cleaned(each.name), (parts[1], parts[0]) if found.swapped else parts, text, found.chain, found.kind
+    )
+
+
+def in_unit(transform: Pose, metres: float) -> Pose:
+    """Convert a transform in metres to another unit."""
+    result = transform.copy()
+    result[:3, 3] /= metres
+    return result
