@@ -12,16 +12,15 @@ from jaxkin.assembly.inference.fasteners import Stack, bolted, patterns
 from jaxkin.assembly.inference.heads import goes_through, is_exposed, is_headed, lies_across
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.moving_pins import moves_in_holes
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, WIDER, nearest, play
+from jaxkin.assembly.inference.stop_faces import MAX_PLAY, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
 """Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
-STICKS_OUT = 2.0
-"""Length of a loose pin beyond its hole, over its radius, on both sides from which on it is a bar that slides."""
 
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
@@ -116,11 +115,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     if len(reach) == 1:
         # as a shaft in bushes, also where its collars touch what these are in
         turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
-        turns = turns or _goes_on(known, stack, low, high)
-        loose = fits[widest] > SAME_FIT * stack.axis.radius
-        slides = loose and stack.guides and _sticks_out(known, stack, low, high)
-        slides = slides or _is_plunger(known, stack, loose)
-        return (None, "") if turns or slides else (part, "only")
+        moves = turns or moves_in_holes(known, stack, low, high, fits[widest] > SAME_FIT * stack.axis.radius)
+        return (None, "") if moves else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
     if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
@@ -188,53 +184,6 @@ def _clamped_on(known: Known, stack: Stack, body: Mapping[str, str]) -> str | No
         and any(goes_through(pin, hole) for hole in known.bores[part] if hole.hole for pin in pins)
     ]
     return found[0] if len({body[part] for part in found}) == 1 else None
-
-
-def _goes_on(known: Known, stack: Stack, low: float, high: float) -> bool:
-    """Tell whether a pin goes on beyond a collar of its own, as a shaft does; a rivet ends with its heads."""
-    for pair in known.axes:
-        if pair.virtual or pair.one.part not in stack.fasteners or pair.other.part not in stack.held:
-            continue
-        pin, along = pair.one, stack.axis.axis
-        collars = [
-            bore
-            for bore in known.bores[pin.part]
-            if not bore.hole and bore.on_axis_of(pin) and bore.radius > WIDER * pin.radius
-        ]
-        spans = [span for bore in collars for span in bore.spans_along(along)]
-        first, last = pin.reach(along)
-        beyond = [start - first for start, end in spans if start + end < 2 * low]
-        beyond += [last - end for start, end in spans if start + end > 2 * high]
-        if beyond and max(beyond) > STICKS_OUT * pin.radius:
-            return True
-    return False
-
-
-def _sticks_out(known: Known, stack: Stack, low: float, high: float) -> bool:
-    """Tell whether a pin is out of its holes on both sides, as the bar of a vise is, which slides to and fro."""
-    pins = [pair.one for pair in known.axes if pair.one.part in stack.fasteners and not pair.virtual]
-    ends = [end for pin in pins for end in pin.reach(stack.axis.axis)]
-    return bool(ends) and min(low - min(ends), max(ends) - high) > STICKS_OUT * stack.axis.radius
-
-
-def _is_plunger(known: Known, stack: Stack, loose: bool) -> bool:
-    """Tell whether pins are in the midst of their holes, with room on both sides: a piston, or the rod of a button. A
-    screw ends with its hole on one side, or its head lies on a face; a pin that comes out on both sides is held there.
-    One that is not `loose` is deep inside of its hole on both sides."""
-    pairs = [pair for pair in known.axes if pair.one.part in stack.fasteners and pair.other.part in stack.held]
-    holders = {pair.other.part for pair in pairs}
-    flat = (each.parts for each in known.contacts if each.contact_state.is_flat)
-    if any({*parts} & {*stack.fasteners} and {*parts} & holders for parts in flat):
-        return False
-    for pair in pairs:
-        (low, high), (first, last) = (bore.reach(pair.one.axis) for bore in (pair.one, pair.other))
-        own, other = (known.measured.stops(known.solids[part], pair.other) for part in pair.parts)
-        near = nearest(own, other, pair.other.radius)
-        inside = np.array([low - first, last - high])
-        room = min(*(np.abs(inside) if loose else inside), np.inf if near is None else near)
-        if inside.max() < 0 or room <= (MAX_LIFT if loose else STICKS_OUT) * pair.other.radius:
-            return False
-    return bool(pairs)
 
 
 def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:

@@ -32,6 +32,10 @@ MIN_TURN = 0.05
 """Radians by which a part turns on a hinge with play before faces beside its axis meet, at least."""
 
 
+MAX_DISC = 0.1
+"""Half the thickness of a disc, and its clearance, over the radius of its hole: washers are thinner, and looser."""
+
+
 class Hinge(NamedTuple):
     """An inferred joint of two bodies about a common axis."""
 
@@ -73,10 +77,18 @@ def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence
     pinned = [each.one for each in line.found if not each.virtual]
     if not any(pins) and any(beside(each, pinned[0]) for each in pinned[1:]):
         return [_guided(known, pair)]
+    if not any(pins) and _is_disc(pair):
+        return []
     if walled := _walled(known, line, exact=any(pins)):
         return walled
     fastened = pair.one.part in fastening and not _is_rod(known, line)
     return _hinge(known, line, any(across), fastened, kept)
+
+
+def _is_disc(pair: CommonAxis) -> bool:
+    """Tell whether a pin with much play in its hole is a thin disc, such as a washer in a counterbore, which guides
+    nothing."""
+    return pair.clearance > MAX_DISC * pair.other.radius and pair.one.half < MAX_DISC * pair.one.radius
 
 
 def _is_rod(known: Known, line: Line) -> bool:

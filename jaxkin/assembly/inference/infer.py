@@ -26,7 +26,7 @@ from jaxkin.assembly.inference.held import (
 from jaxkin.assembly.inference.hinges import hinges
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.islands import lying_on_one, sunk_in_siblings, tied_to_nothing
-from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs
+from jaxkin.assembly.inference.keyed import flatted_hubs, keyed_hubs, squared_hubs
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
@@ -96,7 +96,7 @@ def infer(
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
     fastening -= rollers(known, fastening)
-    known.add(pressed_on_shoulders(known, fastening))
+    known.add([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.add(locked_threads(known, fastening))
     body = known.body
     others = [each for each in contacts if not (each.contact_state.is_flat or each.contact_state.is_pin)]

@@ -1,14 +1,19 @@
-"""Keys: a small part in a slot of a shaft and in one of the hub on it, which hold each other, and flats of shafts."""
+"""Keys: a small part in a slot of a shaft and in one of the hub on it, which hold each other; flats and squares of
+shafts."""
 
 from __future__ import annotations
+
+from collections.abc import Collection
 
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import SAME_FIT
 from jaxkin.assembly.inference.slides import between_faces
-from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.assembly.inference.stop_faces import ACROSS, MAX_LIFT, play
+from jaxkin.assembly.inference.walls import is_on_polygon
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -49,6 +54,31 @@ def flatted_hubs(known: Known) -> list[Inference]:
             sizes = (("radius", pair.one.radius),)
             text = f"a flat of {shaft!r} keeps {hub!r} from turning on it"
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+    return result
+
+
+def squared_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
+    """Join hubs with the shafts whose square or hexagon they are on with play, where a nut or a screw on the axis of
+    the shaft and a shoulder keep them from sliding."""
+    result = []
+    for pair in known.axes:
+        if pair.virtual or pair.clearance > SAME_FIT * pair.other.radius:
+            continue
+        for shaft, end in (pair.parts, pair.parts[::-1]):
+            if end not in fastening:
+                continue
+            held = {part for each in known.axes if shaft in each.parts for part in each.parts if part in fastening}
+            stops = [stop for part in {shaft, *held} for stop in known.measured.stops(known.solids[part], pair.other)]
+            for hub in known.measured.beside(known.solids[shaft]):
+                point, axis = pair.other.point, pair.other.axis
+                if hub.name in held or not is_on_polygon(hub, known.solids[shaft], point, axis):
+                    continue
+                room = play(stops, known.measured.stops(hub, pair.other), pair.other.radius)
+                if room is not None and room <= MAX_LIFT * pair.other.radius:
+                    text = f"flat sides of {shaft!r} keep {hub.name!r} from turning on it, and {end!r} from sliding off"
+                    sizes = (("radius", pair.one.radius), ("play", room))
+                    parts = known.in_order((shaft, hub.name, end))
+                    result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
 
 

@@ -17,7 +17,8 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
 
     The shoulder is the end of a thicker length, with which the shaft is in another part: it turns there. That of a
     bolt, its head, is in none. Where a flat of the shaft keeps some of them from turning, as the washers of a friction
-    hinge, what has play on it turns.
+    hinge, what has play on it turns. A ring that is set into another part, too, is a bearing drawn as one ring, and
+    goes with that part: a bush is not clamped.
     """
     body, result = known.body, []
     for pair in known.axes:
@@ -30,6 +31,7 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
         if any(body[part] == body[shaft] for part in between):
             loose = {part for part in between if on[part].clearance > SAME_FIT * thread.radius}
             between -= {part for part in loose if body[part] != body[shaft]}
+        between -= {part for part in known.sleeves if body[part] != body[shaft]}
         if not shouldered or not between - {nut}:
             continue
         thicker = [bore for bore in known.bores[shaft] if _is_thicker(bore, thread)]

@@ -114,10 +114,11 @@ def bolted_ends(known: Known) -> list[Inference]:
         if end.virtual or abs(end.clearance) > SAME_FIT * end.other.radius or not is_round_about(known, rod, end.other):
             continue
         found += [(rod, through) for through in known.axes if _grips(known, end, through)]
-    result = []
+    ground, result = {body[part] for part in known.fixed}, []
     for rod, through in found:
         screw, part = through.parts
-        if all(body[other] == body[rod] for other, each in found if each.other.part == part):
+        alone = all(body[other] == body[rod] for other, each in found if each.other.part == part)
+        if alone or body[part] in ground:
             text = f"{screw!r} in the end of {rod!r} pulls it against {part!r}"
             sizes = (("radius", through.one.radius), ("clearance", through.clearance))
             result.append(Inference(known.in_order((rod, part)), Evidence(EvidenceKind.FASTENER, sizes, text)))

@@ -17,6 +17,11 @@ millimetre on each side of 20."""
 TOUCHING = 1e-3
 """Overlap of two faces, over the length that they have in common, that is none: rounding of the file, not a fit."""
 
+LEAST_SIDES = 3
+"""Sides of a polygon that keeps a hub from turning, at least: one flat, or two, may be beside it by chance."""
+MAX_TURN = 0.1
+"""Radians by which a hub turns to and fro on a polygon with play in all, at most: 0.1 on each side of a square of 5."""
+
 
 Looking = tuple[Vector, float, float]
 """A face of a part that looks at another body: see `facing`."""
@@ -61,6 +66,21 @@ def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vec
         low, high = max(first.min(), second.min()), min(first.max(), second.max())
         room = [min(most, gap / arm) if arm > 0 else most for most, arm in zip(room, (-low, high), strict=True)]
     return float(sum(room))
+
+
+def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector) -> bool:
+    """Tell whether a hub is on a square, a hexagon or the like of a shaft about an axis: faces along it look at each
+    other in three directions or more, the nearest ones as far from the axis, and leave little play to turn."""
+    nearest: dict[tuple[float, ...], float] = {}
+    for normal, face, *_ in _beside([hub], [shaft], axis):
+        away = float((point - face.triangles[0, 0]) @ normal)
+        if away > 0:
+            direction = tuple(np.round(normal, 2) + 0.0)
+            nearest[direction] = min(away, nearest.get(direction, np.inf))
+    if len(nearest) < LEAST_SIDES:
+        return False
+    least, most = min(nearest.values()), max(nearest.values())
+    return most - least <= MAX_TURN * most and turns([hub], [shaft], point, axis) <= MAX_TURN
 
 
 def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:

@@ -3,9 +3,13 @@
 Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
 """
 
+import numpy as np
 import pytest
 
+from jaxkin.geometry.surfaces import Plane
 from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
+
+LEVER = part("lever", pin(2.0, 30, 60, (100.0, 60.0)), block((98, 40, 60), (102, 62, 70)))
 
 
 def of(seed, *parts):
@@ -51,3 +55,86 @@ def test_a_jaw_on_a_round_rail_slides_where_its_neck_is_in_a_slot(seed, play, sl
     jaw = part("jaw", pin(5.0 - play, -50, 50), block((4, -2.5, 20), (40, 2.5, 50)))
     _, mechanism = of(seed, base, jaw)
     assert kind_of(mechanism, "base", "jaw") == kind
+
+
+def square(half, low, high, hole=False):
+    """The sides of a square about z, which look inwards where it is a hole."""
+    sides = []
+    for normal in ((1.0, 0, 0), (-1.0, 0, 0), (0, 1.0, 0), (0, -1.0, 0)):
+        x, y, _ = half * np.array(normal)
+        along = (abs(y) > 0) * half, (abs(x) > 0) * half
+        corners = np.array([(x - s * along[0], y - s * along[1], z) for s, z in ((1, low), (-1, low), (-1, high))])
+        other = np.array([(x - s * along[0], y - s * along[1], z) for s, z in ((1, low), (-1, high), (1, high))])
+        sides.append((Plane(corners[0], np.array(normal) * (-1 if hole else 1)), np.array([corners, other])))
+    return sides
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("nut", [True, False])
+def test_a_crank_on_a_square_with_play_goes_with_its_shaft_where_a_nut_keeps_it(seed, nut):
+    """Without the nut it slides off."""
+    base = part("base", ring(8.0, 16.0, -40, -2), block((-60, -60, -60), (60, 60, -50)))
+    shaft = part("shaft", pin(8.0, -44, 0), square(3.5, 0, 8), pin(2.5, 8, 18))
+    crank = part("crank", square(3.6, 0, 8, hole=True), *crank_about(3.6, 12, 0, 8))
+    washer = part("washer", ring(2.7, 6.0, 8, 9))
+    held = [part("nut", ring(2.5, 5.0, 9, 14)[:-1])] if nut else []  # without its outside, which is not round
+    _, mechanism = of(seed, base, shaft, crank, washer, *held)
+    assert any("flat sides of 'shaft' keep 'crank' from turning" in note for note in mechanism.history) == nut
+
+
+def crank_about(inner, outer, low, high):
+    """The faces across the axis of a square hub, and a lever on it."""
+    plates = [
+        (Plane(np.array([0, 0, z]), np.array([0, 0, s])), frame_of(inner, outer, z))
+        for z, s in ((low, -1.0), (high, 1.0))
+    ]
+    return plates, block((outer - 1, -4, low), (60, 4, high))
+
+
+def frame_of(inner, outer, z):
+    """Triangles of a square of half an edge `outer` with a square hole."""
+    ends = [np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * half for half in (inner, outer)]
+    flat = [
+        triangle
+        for k in range(4)
+        for triangle in (
+            (ends[0][k], ends[1][k], ends[1][(k + 1) % 4]),
+            (ends[0][k], ends[1][(k + 1) % 4], ends[0][(k + 1) % 4]),
+        )
+    ]
+    return np.array([[(*corner, z) for corner in triangle] for triangle in flat])
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("wide", [True, False])
+def test_a_wheel_with_journals_on_both_sides_turns_in_its_housing(seed, wide):
+    """A pin of the same holes, no wider between them, is held."""
+    base = part("base", ring(4.0, 14.0, -16, -8), ring(3.0, 14.0, 8, 16), block((14, -4, -16), (20, 4, 16)))
+    middle = [pin(6.0, -7, 7)] if wide else []
+    drive = part("drive", pin(3.9, -16, -7 if wide else 0), *middle, pin(2.9, 7 if wide else 0, 16))
+    body, _ = of(seed, base, drive, LEVER)
+    assert (body["drive"] == body["base"]) != wide
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("pressed", [True, False])
+def test_a_ring_set_into_a_hub_and_clamped_on_its_axle_is_a_bearing(seed, pressed):
+    """One that is in no hub is a spacer, and goes with the axle."""
+    axle = part("base", pin(8.0, -40, 0), pin(4.0, 0, 24), block((-60, -60, -60), (60, 60, -50)), pin(5.0, -50, -40))
+    ring_ = part("ring", ring(4.0, 10.0, 0, 8))
+    hub = part("hub", ring(10.0 if pressed else 12.0, 18.0, 0, 8), block((17, -4, 0), (60, 4, 8)))
+    sleeve = [] if pressed else [part("sleeve", ring(8.0, 12.0, -20, -10), ring(12.0, 18.1, -30, -20))]
+    nut = part("nut", ring(4.0, 8.0, 8, 14)[:-1])  # without its outside, which is not round
+    body, _ = of(seed, axle, ring_, hub, *sleeve, nut, LEVER)
+    assert not pressed or body["ring"] == body["hub"] != body["base"]
+    assert pressed or body["ring"] == body["base"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("thick", "kind"), [(0.5, None), (6.0, "cylindrical")])
+def test_a_thin_disc_with_much_play_in_a_counterbore_guides_nothing(seed, thick, kind):
+    base = part("base", ring(4.0, 14.0, -2, 6), block((14, -4, -20), (20, 4, 6)))
+    disc = part("disc", pin(3.5, 6 - thick - 0.1, 5.9), pin(6.0, 5.9, 9), block((-3, -30, 9), (3, 30, 12)))
+    _, mechanism = of(seed, base, disc, LEVER)
+    joints = [joint for joint in mechanism.all_joints if {*joint.parts} == {"base", "disc"} and joint.freedoms]
+    assert (str(joints[0].kind) if joints else None) == kind
