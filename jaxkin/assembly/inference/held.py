@@ -39,14 +39,13 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Find bodies that have two or more parallel axes in common: what only touches a fastener, as a lever does that
-    pushes pins, has not its axis."""
+    pushes pins, has no hole on its axis."""
     body = known.body
 
     def of_bodies(stack: Stack) -> Stack:
-        pairs = [pair.parts for pair in known.axes if {*pair.parts} & {*stack.fasteners}]
-        on_axis = {body[part] for parts in (*pairs, stack.fasteners) for part in parts}
-        held = dict.fromkeys(body[part] for part in stack.held if body[part] in on_axis)
-        return Stack(stack.fasteners, tuple(held), stack.axis, stack.guides)
+        own = {body[part] for part in stack.fasteners}
+        held = (p for p in stack.held if any(bore.on_axis_of(stack.axis) for bore in known.bores[p]) or body[p] in own)
+        return Stack(stack.fasteners, tuple(dict.fromkeys(body[part] for part in held)), stack.axis, stack.guides)
 
     flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
     tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]
