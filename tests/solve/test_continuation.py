@@ -11,7 +11,7 @@ from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.continuation.predictor import hermite, predict_state
+from jaxkin.solve.continuation.predictor import Trail, hermite, predict_state
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.options import SolverOptions
@@ -38,6 +38,12 @@ def pose(theta):
     return State(x, no_balls), State(slope, no_balls)
 
 
+def trail(state, tangent, before, before_tangent, width, earlier=None):
+    """The last two poses of a branch; `earlier` is the slope of a third one and its distance from the second."""
+    slope, distance = (before_tangent, jnp.full_like(width, jnp.inf)) if earlier is None else earlier
+    return Trail(state, tangent, before, before_tangent, width, slope, distance)
+
+
 def assert_order(errors, order):
     """Halved steps divide the error by two to the order; the next order adds a few per cent at these steps."""
     np.testing.assert_allclose(np.log2(errors[:-1] / errors[1:]), order, atol=0.15)
@@ -49,9 +55,8 @@ def test_the_cubic_predictor_is_of_fourth_order():
     state, tangent = pose(here)
     before, before_tangent = pose(here - STEPS)
     never = jnp.zeros(len(STEPS), bool)
-    predicted = jax.jit(predict_state)(
-        state, tangent, before, before_tangent, jnp.asarray(STEPS), jnp.asarray(STEPS), never
-    )
+    width = jnp.asarray(STEPS)
+    predicted, _ = jax.jit(predict_state)(trail(state, tangent, before, before_tangent, width), width, never)
     assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 4)
 
 
@@ -60,9 +65,8 @@ def test_the_tangent_is_of_second_order_and_needs_no_pose_before():
     state, tangent = pose(here)
     nothing = jax.tree.map(jnp.zeros_like, state)
     always = jnp.ones(len(STEPS), bool)
-    predicted = jax.jit(predict_state)(
-        state, tangent, nothing, nothing, jnp.ones(len(STEPS)), jnp.asarray(STEPS), always
-    )
+    poses = trail(state, tangent, nothing, nothing, jnp.ones(len(STEPS)))
+    predicted, _ = jax.jit(predict_state)(poses, jnp.asarray(STEPS), always)
     assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 2)
 
 
@@ -78,8 +82,49 @@ def test_where_a_slope_says_nothing_the_secant_is_taken():
     state, before = (State(jnp.array([[x]]), jnp.zeros((0, 4, 1))) for x in (0.0, -0.1))
     wrong = State(jnp.array([[-1.0]]), jnp.zeros((0, 4, 1)))
     step, never = jnp.array([0.1]), jnp.array([False])
-    predicted = jax.jit(predict_state)(state, wrong, before, wrong, step, step, never)
+    predicted, bent = jax.jit(predict_state)(trail(state, wrong, before, wrong, step), step, never)
     np.testing.assert_allclose(predicted.x, 0.1, rtol=1e-15)
+    assert not bent.any()
+
+
+def test_where_the_slopes_agree_a_bend_is_followed():
+    """A coordinate about to turn back: the chord leads 0.25 too far, and the curve is right to the fourth power."""
+    here, width, never = jnp.array([-0.1]), jnp.array([0.5]), jnp.array([False])
+
+    def place(at):
+        return State(jnp.cos(at)[None], jnp.zeros((0, 4, 1))), State(-jnp.sin(at)[None], jnp.zeros((0, 4, 1)))
+
+    predicted, bent = jax.jit(predict_state)(trail(*place(here), *place(here - width), width), width, never)
+    np.testing.assert_allclose(predicted.x, jnp.cos(here + width)[None], atol=0.5**4 / 6)
+    assert bent.all()
+
+
+def spun(angle, poses):
+    """Quaternions of one ball that is turned about z, and their derivatives by the angle."""
+    turn = [jnp.cos(angle / 2), jnp.zeros(poses), jnp.zeros(poses), jnp.sin(angle / 2)]
+    rate = [-jnp.sin(angle / 2) / 2, jnp.zeros(poses), jnp.zeros(poses), jnp.cos(angle / 2) / 2]
+    none = jnp.zeros((1, poses))
+    return State(none, jnp.stack(turn)[None]), State(none, jnp.stack(rate)[None])
+
+
+def test_balls_are_predicted_by_slopes_alone_to_the_fourth_order():
+    """What an idle spin was before must not be extrapolated: no correction would bring it back."""
+    here, width = jnp.full(len(STEPS), 1.3), jnp.asarray(STEPS)
+    state, tangent = spun(here, len(STEPS))
+    before, before_tangent = spun(here - width, len(STEPS))
+    _, earlier_tangent = spun(here - 2.5 * width, len(STEPS))
+    other_spin, _ = spun(here - width + 1e-3, len(STEPS))
+    predict = jax.jit(
+        lambda before: (
+            predict_state(
+                trail(state, tangent, before, before_tangent, width, (earlier_tangent, 1.5 * width)), width, width < 0
+            )[0].turns
+        )
+    )
+    expected, _ = spun(here + width, len(STEPS))
+    errors = np.max(np.abs(predict(before) - expected.turns), axis=(0, 1))
+    assert_order(errors, 4)
+    np.testing.assert_array_equal(predict(before), predict(other_spin))
 
 
 @pytest.fixture(scope="module")

@@ -62,6 +62,10 @@ class Fronts(NamedTuple):
     """Derivative of `before` with respect to the distance along the path."""
     width: Float[Array, " fronts"]
     """Distance along the path, with its sign, from `before` to `state`."""
+    earlier_tangent: State
+    """Derivative of the state two accepted steps back."""
+    earlier_width: Float[Array, " fronts"]
+    """Distance along the path, with its sign, from that state to `before`; infinite if it is no pose of the branch."""
     determinant_ratio: Float[Array, "blocks fronts"]
     """Determinant of each block of the Jacobian at `state` over that at `before`."""
     has_before: Bool[Array, " fronts"]
@@ -90,6 +94,8 @@ def assembled_fronts(system: LoopSystem, fronts: int, dtype) -> Fronts:
         before=zeros,
         before_tangent=zeros,
         width=jnp.ones(fronts, dtype),
+        earlier_tangent=zeros,
+        earlier_width=jnp.full(fronts, jnp.inf, dtype),
         determinant_ratio=jnp.ones((len(equation_blocks(system)), fronts), dtype),
         has_before=jnp.zeros(fronts, bool),
         along_tangent=jnp.zeros(fronts, bool),

@@ -11,8 +11,8 @@ only the damped corrector goes on, towards poses of least residual (an unreachab
 Jump: where the loops close again behind an unreachable interval, the pose is JUMPED, because no motion of the input
 leads there. The sign of a determinant could not tell this: poses on two circuits can have the same sign.
 
-All fronts (`fronts`) step together, as the last axis of the arrays. The correctors of a step evaluate the closure of
-all fronts at one place in the code, which keeps the compiled program small.
+All fronts step together, as the last axis of the arrays. The correctors of a step evaluate the closure of all fronts at
+one place in the code, which keeps the compiled program small.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from jaxkin.solve.continuation.fronts import (
     assembled_fronts,
     stopped_at_limit,
 )
-from jaxkin.solve.continuation.predictor import predict_state
+from jaxkin.solve.continuation.predictor import Trail, predict_state
 from jaxkin.solve.correctors.levenberg_marquardt import (
     LevenbergMarquardtResult,
     damping_floor,
@@ -61,8 +61,7 @@ coordinates change as the square root of the distance from the limit, so they ar
 SHORTEST_FIRST_STEP = 1e-10
 """Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
-"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`, since nothing is predicted
-there and the corrector starts from the last pose."""
+"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`: none is predicted."""
 NEAR_LIMIT = 4 * SHORTEST_STEP
 """Largest distance, radians or characteristic lengths, from the last pose before a limit to a target that may still be
 on this side of the limit. The limit is about one refused step away; refused steps are shortened to a third
@@ -71,6 +70,9 @@ CROSSING = 1e-3
 """Longest step, radians or characteristic lengths, that is accepted although a determinant changes its sign or falls to
 zero. At a change point, where two branches cross, the determinant changes its sign on the branch itself. Lengths with
 relative errors of 1e-6 turn the crossing into two branches about 1e-3 apart, the root of the error."""
+LEAST_RATIO = 0.5
+"""Least ratio of the determinants of a block at both ends of a step that was predicted by a curve far from its chord.
+Near a limit poses in a long step cannot be interpolated: one in 34,400 of random mechanisms was JUMPED without this."""
 
 WANTED_DEVIATION = 0.1
 """Ratio of deviation to travel that the step length is chosen for, less than half of `MAX_DEVIATION`. The deviation is
@@ -117,11 +119,12 @@ class _Attempt(NamedTuple):
     """Derivative of the state with respect to that distance, at the beginning of the step."""
     predicted: State
     """State at the end of the step as predicted, with its inputs set."""
+    bent: Bool[Array, " fronts"]
+    """Whether the prediction follows a curve that is far from its chord (`predictor.AGREEMENT`)."""
     sloped: Bool[Array, " fronts"]
     """Whether the prediction used a slope; if not, the predicted state is that of the beginning with new inputs."""
     travel: Float[Array, " fronts"]
-    """Largest predicted change of a coordinate, or of a ball's turn as an angle, and at least the step length; where no
-    slope is known, `UNKNOWN_TRAVEL` times the step length."""
+    """Largest predicted change of a coordinate or of a ball's angle, at least the step length (`UNKNOWN_TRAVEL`)."""
 
 
 def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, " fronts"]) -> Fronts:
@@ -163,6 +166,8 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
         before=select_poses(good, fronts.state, fronts.before),
         before_tangent=select_poses(good, attempt.tangent, fronts.before_tangent),
         width=jnp.where(good & (attempt.moved != 0), attempt.moved, fronts.width),
+        earlier_tangent=select_poses(good, fronts.before_tangent, fronts.earlier_tangent),
+        earlier_width=jnp.where(good, jnp.where(fronts.has_before, fronts.width, jnp.inf), fronts.earlier_width),
         determinant_ratio=jnp.where(good, ratio, fronts.determinant_ratio),
         has_before=(fronts.has_before | good) & (stage == FOLLOWING) & ~entered,
         along_tangent=attempt.following & ~good & ~fronts.along_tangent,
@@ -187,20 +192,14 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
 
     tangent = rate(system, fronts.state, fronts.slope)
     sloped = fronts.has_before | fronts.along_tangent
-    predicted = predict_state(
-        fronts.state,
-        tangent,
-        fronts.before,
-        fronts.before_tangent,
-        fronts.width,
-        jnp.where(following & sloped, moved, 0.0),
-        fronts.along_tangent | ~fronts.has_before,
-    )
+    older = fronts.before, fronts.before_tangent, fronts.width, fronts.earlier_tangent, fronts.earlier_width
+    trail, predicted_distance = Trail(fronts.state, tangent, *older), jnp.where(following & sloped, moved, 0.0)
+    predicted, bent = predict_state(trail, predicted_distance, fronts.along_tangent | ~fronts.has_before)
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     travel = jnp.maximum(difference(predicted, fronts.state), distance)
     travel = jnp.where(sloped, travel, UNKNOWN_TRAVEL * distance)
-    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, sloped, travel)
+    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, bent, sloped, travel)
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
@@ -239,10 +238,11 @@ def _decision(
     distance = jnp.abs(attempt.moved)
     deviation = difference(state, attempt.predicted)
     slack = DEVIATION_ROUNDINGS * float(jnp.finfo(deviation.dtype).eps)
-    # Extrapolate each determinant linearly from the last two poses. If it falls to zero within the step, the step may
-    # have passed over an unreachable interval, with two changes of sign, although the signs at its ends agree.
+    # Extrapolate each determinant linearly. If it falls to zero within the step, the step may have passed over an
+    # unreachable interval, with two changes of sign, although the signs at its ends agree.
     falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.width < 0)
     crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
+    crossed |= attempt.bent & jnp.any(ratio < LEAST_RATIO, axis=0)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
     good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed
     return good, _next_step(fronts, attempt, good, deviation - slack)
