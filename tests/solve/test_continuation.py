@@ -11,7 +11,7 @@ from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.continuation.branch import trace_branch
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.continuation.predictor import Trail, hermite, predict_state
+from jaxkin.solve.continuation.predictor import History, hermite, predict_state
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.options import SolverOptions
@@ -20,6 +20,8 @@ from jaxkin.solve.system.state import State
 from reference.mechanisms import planar_fourbar
 
 STEPS = np.array([0.1, 0.05, 0.025])
+NEVER = np.zeros(len(STEPS), bool)
+PREDICT = jax.jit(predict_state)
 
 
 def rocker(theta):
@@ -38,10 +40,10 @@ def pose(theta):
     return State(x, no_balls), State(slope, no_balls)
 
 
-def trail(state, tangent, before, before_tangent, width, earlier=None):
-    """The last two poses of a branch; `earlier` is the slope of a third one and its distance from the second."""
-    slope, distance = (before_tangent, jnp.full_like(width, jnp.inf)) if earlier is None else earlier
-    return Trail(state, tangent, before, before_tangent, width, slope, distance)
+def history(before, before_tangent, width, earlier=None):
+    """The poses before the last; `earlier` is the slope of a third one and its distance from the second."""
+    tangent, distance = earlier or (before_tangent, jnp.full_like(width, jnp.inf))
+    return History(before, before_tangent, width, tangent, distance)
 
 
 def assert_order(errors, order):
@@ -50,23 +52,23 @@ def assert_order(errors, order):
 
 
 @pytest.mark.long
-def test_the_cubic_predictor_is_of_fourth_order():
-    here = jnp.full(len(STEPS), 1.3)
-    state, tangent = pose(here)
-    before, before_tangent = pose(here - STEPS)
-    never = jnp.zeros(len(STEPS), bool)
-    width = jnp.asarray(STEPS)
-    predicted, _ = jax.jit(predict_state)(trail(state, tangent, before, before_tangent, width), width, never)
-    assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 4)
+@pytest.mark.parametrize("slopes, order", [(2, 3), (3, 4)])
+def test_the_error_of_a_prediction_falls_with_the_power_of_the_step_that_follows_its_slopes(slopes, order):
+    """A polynomial through k slopes errs by the k-th power of the step, and its integral by one power more."""
+    here, width = jnp.full(len(STEPS), 1.3), jnp.asarray(STEPS)
+    _, earlier_tangent = pose(here - 2.5 * width)
+    (state, tangent), (before, before_tangent) = pose(here), pose(here - width)
+    passed = history(before, before_tangent, width, (earlier_tangent, 1.5 * width) if slopes == 3 else None)
+    predicted, _ = PREDICT(state, tangent, passed, width, NEVER, NEVER)
+    assert_order(np.abs(predicted.x[1] - rocker(here + width)), order)
 
 
 def test_the_tangent_is_of_second_order_and_needs_no_pose_before():
     here = jnp.full(len(STEPS), 1.3)
     state, tangent = pose(here)
     nothing = jax.tree.map(jnp.zeros_like, state)
-    always = jnp.ones(len(STEPS), bool)
-    poses = trail(state, tangent, nothing, nothing, jnp.ones(len(STEPS)))
-    predicted, _ = jax.jit(predict_state)(poses, jnp.asarray(STEPS), always)
+    passed = history(nothing, nothing, jnp.ones(len(STEPS)))
+    predicted, _ = PREDICT(state, tangent, passed, jnp.asarray(STEPS), ~NEVER, NEVER)
     assert_order(np.abs(predicted.x[1] - rocker(here + STEPS)), 2)
 
 
@@ -81,22 +83,27 @@ def test_where_a_slope_says_nothing_the_secant_is_taken():
     """At a change point the slope may be that of the other branch: here of the wrong sign."""
     state, before = (State(jnp.array([[x]]), jnp.zeros((0, 4, 1))) for x in (0.0, -0.1))
     wrong = State(jnp.array([[-1.0]]), jnp.zeros((0, 4, 1)))
-    step, never = jnp.array([0.1]), jnp.array([False])
-    predicted, bent = jax.jit(predict_state)(trail(state, wrong, before, wrong, step), step, never)
+    step = jnp.array([0.1])
+    predicted, bent = PREDICT(state, wrong, history(before, wrong, step), step, NEVER[:1], ~NEVER[:1])
     np.testing.assert_allclose(predicted.x, 0.1, rtol=1e-15)
     assert not bent.any()
 
 
-def test_where_the_slopes_agree_a_bend_is_followed():
+def test_where_the_slopes_agree_a_bend_is_followed_until_refused():
     """A coordinate about to turn back: the chord leads 0.25 too far, and the curve is right to the fourth power."""
-    here, width, never = jnp.array([-0.1]), jnp.array([0.5]), jnp.array([False])
+    here, width = jnp.array([-0.1]), jnp.array([0.5])
 
     def place(at):
         return State(jnp.cos(at)[None], jnp.zeros((0, 4, 1))), State(-jnp.sin(at)[None], jnp.zeros((0, 4, 1)))
 
-    predicted, bent = jax.jit(predict_state)(trail(*place(here), *place(here - width), width), width, never)
+    (state, tangent), (before, before_tangent) = place(here), place(here - width)
+    passed = history(before, before_tangent, width)
+    predicted, bent = PREDICT(state, tangent, passed, width, NEVER[:1], ~NEVER[:1])
     np.testing.assert_allclose(predicted.x, jnp.cos(here + width)[None], atol=0.5**4 / 6)
     assert bent.all()
+    chord, bent = PREDICT(state, tangent, passed, width, NEVER[:1], NEVER[:1])
+    np.testing.assert_allclose(chord.x, 2 * state.x - before.x, rtol=1e-15)
+    assert not bent.any()
 
 
 def spun(angle, poses):
@@ -114,13 +121,11 @@ def test_balls_are_predicted_by_slopes_alone_to_the_fourth_order():
     before, before_tangent = spun(here - width, len(STEPS))
     _, earlier_tangent = spun(here - 2.5 * width, len(STEPS))
     other_spin, _ = spun(here - width + 1e-3, len(STEPS))
-    predict = jax.jit(
-        lambda before: (
-            predict_state(
-                trail(state, tangent, before, before_tangent, width, (earlier_tangent, 1.5 * width)), width, width < 0
-            )[0].turns
-        )
-    )
+
+    def predict(before):
+        passed = history(before, before_tangent, width, (earlier_tangent, 1.5 * width))
+        return PREDICT(state, tangent, passed, width, NEVER, NEVER)[0].turns
+
     expected, _ = spun(here + width, len(STEPS))
     errors = np.max(np.abs(predict(before) - expected.turns), axis=(0, 1))
     assert_order(errors, 4)

@@ -24,35 +24,40 @@ agree with the last chord (`AGREEMENT`), the next step follows the curve all the
 AGREEMENT = 0.2
 """Largest distance of the chord of the last step from the mean of the slopes at its ends, over the length of the chord,
 up to which both slopes count as those of the branch. A path of several inputs turns within a few steps: there the curve
-leads far from the chord, and the chord is wrong. A closed curve of a platform on six legs takes 35 steps with 0.2, 38
+leads far from the chord, and the chord is wrong. Once such a curve was refused, the chord is tried: beside a change
+point rounding may be in both slopes, as in those of a parallelogram in float32. A closed curve of a platform on six legs takes 35 steps with 0.2, 38
 with 0.1, 48 with 0.05, and 76 without this test."""
 
 
-class Trail(NamedTuple):
-    """The last poses of the branch that each front follows; slopes are derivatives by the distance along the path."""
+class History(NamedTuple):
+    """The poses of the branch before the last one; slopes are derivatives by the distance along the path."""
 
     state: State
+    """The state one accepted step back."""
     tangent: State
-    before: State
-    """The state one step back."""
-    before_tangent: State
+    """Its slope."""
     width: Float[Array, " fronts"]
-    """Distance along the path, with its sign, from `before` to `state`."""
+    """Distance along the path, with its sign, from that state to the last one."""
     earlier_tangent: State
-    """Slope two steps back."""
+    """Slope of the state two accepted steps back."""
     earlier_width: Float[Array, " fronts"]
-    """Distance of that pose from `before`, with its sign; infinite if it is no pose of the branch."""
+    """Distance, with its sign, from that state to `state`; infinite if it is no pose of the branch."""
 
 
 def predict_state(
-    trail: Trail, moved: Float[Array, " fronts"], along_tangent: Bool[Array, " fronts"]
+    state: State,
+    tangent: State,
+    history: History,
+    moved: Float[Array, " fronts"],
+    along_tangent: Bool[Array, " fronts"],
+    may_bend: Bool[Array, " fronts"],
 ) -> tuple[State, Bool[Array, " fronts"]]:
-    """Extrapolate from the last state by the distance `moved` along the path.
+    """Extrapolate from `state` and its slope `tangent` by the distance `moved` along the path.
 
-    Where `along_tangent` holds, only that state and its tangent are used. The quaternions of balls are not normalised.
-    Returns also which fronts follow a curve that is far from its chord.
+    Where `along_tangent` holds, `history` is not used. The quaternions of balls are not normalised. Returns also which
+    fronts follow a curve that is far from its chord, as only those of `may_bend` do.
     """
-    state, tangent, before, before_tangent, width, earlier_tangent, earlier_width = trail
+    before, before_tangent, width, earlier_tangent, earlier_width = history
     s = moved / width
 
     def chord(x: Array, x_before: Array) -> Array:
@@ -70,7 +75,7 @@ def predict_state(
     curve = jax.tree.map(integral, state, tangent, before_tangent, earlier_tangent)
     smooth = difference(curve, straight) <= SMOOTH * difference(straight, state)
     by_slopes = jax.tree.map(mean_chord, state, tangent, before_tangent)
-    agree = difference(by_slopes, before) <= AGREEMENT * difference(state, before)
+    agree = may_bend & (difference(by_slopes, before) <= AGREEMENT * difference(state, before))
     linear = jax.tree.map(lambda x, d: x + moved * d, state, tangent)
     predicted = select_poses(along_tangent, linear, select_poses(smooth | agree, curve, straight))
     return predicted, agree & ~smooth & ~along_tangent

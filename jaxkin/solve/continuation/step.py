@@ -2,8 +2,8 @@
 
 Follow the branch: a step is accepted if the corrected pose is near its prediction and no determinant of a block of the
 closure Jacobian has changed its sign. Without the test of signs, a long step where two branches nearly meet would lead
-straight on to the other branch. A refused step is repeated with a shorter length. The curve through the last two poses
-and the tangent at the last pose predict in turn after refusals, since either may fail where the other does not.
+straight on to the other branch. A refused step is repeated with a shorter length. The tangent at the last pose and the
+curve or chord of the last poses predict in turn after refusals, since either may fail where the other does not.
 
 Meet a limit: where a step along the tangent is refused at the shortest length, the motion has a limit. Beyond the limit
 only the damped corrector goes on, towards poses of least residual (an unreachable interval).
@@ -23,7 +23,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure.closure import Closure, Geometry, closure
+from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.fronts import (
     BEYOND_LIMIT,
@@ -37,21 +37,20 @@ from jaxkin.solve.continuation.fronts import (
     assembled_fronts,
     stopped_at_limit,
 )
-from jaxkin.solve.continuation.predictor import Trail, predict_state
+from jaxkin.solve.continuation.input_slopes import input_slopes
+from jaxkin.solve.continuation.predictor import History, predict_state
 from jaxkin.solve.correctors.levenberg_marquardt import (
     LevenbergMarquardtResult,
-    damping_floor,
     levenberg_marquardt,
     select_poses,
 )
 from jaxkin.solve.correctors.newton import newton
-from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, difference, drive, driven_rate, rate, retract
+from jaxkin.solve.system.state import State, difference, drive, rate, retract
 
 LONGEST_STEP = 0.3
 """Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""
@@ -119,6 +118,8 @@ class _Attempt(NamedTuple):
     """Derivative of the state with respect to that distance, at the beginning of the step."""
     predicted: State
     """State at the end of the step as predicted, with its inputs set."""
+    along_tangent: Bool[Array, " fronts"]
+    """Whether the step is predicted along the tangent, because another prediction was refused."""
     bent: Bool[Array, " fronts"]
     """Whether the prediction follows a curve that is far from its chord (`predictor.AGREEMENT`)."""
     sloped: Bool[Array, " fronts"]
@@ -149,13 +150,17 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
         lambda moved: _decision(fronts, attempt._replace(moved=moved), found.state, closed, ratio), attempt.moved
     )
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
-    lost = attempt.following & ~good & fronts.along_tangent & (distance <= shortest)
+    lost = attempt.following & ~good & attempt.along_tangent & (distance <= shortest)
 
     uncertain = attempt.closing | attempt.beyond  # fronts not on the branch: each step decides their status anew
     entered = uncertain & closed
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
+    last = fronts.history
+    width = jnp.where(attempt.moved != 0, attempt.moved, last.width)
+    earlier_width = jnp.where(fronts.has_before, last.width, jnp.inf)
+    passed = History(fronts.state, attempt.tangent, width, last.tangent, earlier_width)
     return Fronts(
         state=select_poses(final, found.state, fronts.state),
         status=jnp.where(uncertain, status, fronts.status),  # a front on the branch stays CLOSED or JUMPED
@@ -163,14 +168,10 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
         jacobian=jnp.where(final, found.closure.jacobian, fronts.jacobian),
         at=jnp.where(final, attempt.at, fronts.at),
         slope=jnp.where(final, slope, fronts.slope),
-        before=select_poses(good, fronts.state, fronts.before),
-        before_tangent=select_poses(good, attempt.tangent, fronts.before_tangent),
-        width=jnp.where(good & (attempt.moved != 0), attempt.moved, fronts.width),
-        earlier_tangent=select_poses(good, fronts.before_tangent, fronts.earlier_tangent),
-        earlier_width=jnp.where(good, jnp.where(fronts.has_before, fronts.width, jnp.inf), fronts.earlier_width),
+        history=select_poses(good, passed, fronts.history),
         determinant_ratio=jnp.where(good, ratio, fronts.determinant_ratio),
         has_before=(fronts.has_before | good) & (stage == FOLLOWING) & ~entered,
-        along_tangent=attempt.following & ~good & ~fronts.along_tangent,
+        refusals=jnp.where(attempt.following & ~good, fronts.refusals + 1, 0),
         step=jnp.where(entered, FIRST_STEP, step),
         stage=stage.astype(jnp.int32),
         anchored=fronts.anchored | entered,
@@ -191,15 +192,23 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     inputs, direction = problem.path(at)
 
     tangent = rate(system, fronts.state, fronts.slope)
-    sloped = fronts.has_before | fronts.along_tangent
-    older = fronts.before, fronts.before_tangent, fronts.width, fronts.earlier_tangent, fronts.earlier_width
-    trail, predicted_distance = Trail(fronts.state, tangent, *older), jnp.where(following & sloped, moved, 0.0)
-    predicted, bent = predict_state(trail, predicted_distance, fronts.along_tangent | ~fronts.has_before)
+    along_tangent = fronts.refusals % 2 == 1
+    sloped = fronts.has_before | along_tangent
+    predicted, bent = predict_state(
+        fronts.state,
+        tangent,
+        fronts.history,
+        jnp.where(following & sloped, moved, 0.0),
+        along_tangent | ~fronts.has_before,
+        may_bend=fronts.refusals == 0,
+    )
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     travel = jnp.maximum(difference(predicted, fronts.state), distance)
     travel = jnp.where(sloped, travel, UNKNOWN_TRAVEL * distance)
-    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, bent, sloped, travel)
+    return _Attempt(
+        closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, bent, sloped, travel
+    )
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
@@ -240,7 +249,7 @@ def _decision(
     slack = DEVIATION_ROUNDINGS * float(jnp.finfo(deviation.dtype).eps)
     # Extrapolate each determinant linearly. If it falls to zero within the step, the step may have passed over an
     # unreachable interval, with two changes of sign, although the signs at its ends agree.
-    falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.width < 0)
+    falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.history.width < 0)
     crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
     crossed |= attempt.bent & jnp.any(ratio < LEAST_RATIO, axis=0)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
@@ -284,17 +293,3 @@ def reach(
         assembled_fronts(system, targets.shape[-1], targets.dtype),
     )
     return fronts.state, fronts.status, closure(system, geometry, fronts.state).residual_norm
-
-
-def input_slopes(
-    system: LoopSystem, state: State, closed: Closure, direction: Float[Array, "driven poses"]
-) -> Float[Array, "columns poses"]:
-    """Differentiate the coordinates of closed states with respect to the distance along the input path.
-
-    `direction` is the derivative of the inputs with respect to that distance, and `closed` the closure at `state`. With
-    the driven part `dx_d` of the derivative given, the rest solves `J dx = -J dx_d` with least norm: coordinates that
-    the loops leave undetermined stay at rest. Rows of free balls are rotation vectors, as in `retract`.
-    """
-    change, columns = driven_rate(system, state, direction)
-    right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - solve_blocks(closed.jacobian, right, damping_floor(right.dtype), equation_blocks(system))
