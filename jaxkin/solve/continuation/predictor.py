@@ -18,15 +18,15 @@ from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.system.state import State, difference
 
 SMOOTH = 0.25
-"""Distance of a curve from its chord, over the length of the chord, above which the chord replaces the cubic. At a
+"""Distance of a curve from its chord, over the length of the chord, above which the chord replaces the curve. At a
 change point the tangent is not unique, and the slope computed there may be that of the other branch. Where the slopes
 agree with the last chord (`AGREEMENT`), the next step follows the curve all the same."""
 AGREEMENT = 0.2
 """Largest distance of the chord of the last step from the mean of the slopes at its ends, over the length of the chord,
 up to which both slopes count as those of the branch. A path of several inputs turns within a few steps: there the curve
-leads far from the chord, and the chord is wrong. Once such a curve was refused, the chord is tried: beside a change
-point rounding may be in both slopes, as in those of a parallelogram in float32. A closed curve of a platform on six legs takes 35 steps with 0.2, 38
-with 0.1, 48 with 0.05, and 76 without this test."""
+leads far from the chord, and the chord is wrong. A closed curve of a platform on six legs takes 35 steps with 0.2, 38
+with 0.1, 48 with 0.05, and 76 without this test. Once such a curve was refused, the chord is tried: beside a change
+point rounding may be in both slopes, as in those of a parallelogram in float32."""
 
 
 class History(NamedTuple):
