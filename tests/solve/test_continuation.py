@@ -10,6 +10,7 @@ import pytest
 from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.continuation.branch import trace_branch
+from jaxkin.solve.continuation.branch_samples import Sample, quintic_bend
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.predictor import History, hermite, predict_state
 from jaxkin.solve.continuation.step import NEAR_LIMIT
@@ -77,6 +78,24 @@ def test_interpolation_between_samples_is_of_fourth_order():
     (left, left_slope), (right, right_slope) = pose(here), pose(here + STEPS)
     middle = jax.jit(hermite)(left, left_slope, right, right_slope, width, jnp.full(len(STEPS), 0.5))
     assert_order(np.abs(middle.x[1] - rocker(here + 0.5 * STEPS)), 4)
+
+
+@pytest.mark.parametrize("end", [-0.7, 2.5])
+def test_a_quintic_is_interpolated_exactly_through_a_third_sample(end):
+    """The third sample lies before the first one, or behind the second one; a cubic misses the quintic."""
+    quintic, t = np.polynomial.Polynomial([0.3, -1.0, 2.0, 0.7, -1.1, 0.4]), jnp.linspace(0.0, 1.0, 5)
+    begin, width, none = jnp.full(5, 0.2), jnp.full(5, 0.8), jnp.zeros((0, 4, 5))
+
+    def sample(at):
+        state, slope = (State(jnp.asarray(p(at))[None], none) for p in (quintic, quintic.deriv()))
+        return Sample(at, state, slope, jnp.zeros(5, jnp.int32))
+
+    left, right, third = sample(begin), sample(begin + width), sample(begin + end * width)
+    cubic = hermite(left.state, left.slope, right.state, right.slope, width, t)
+    bend = quintic_bend(left, right, third, jnp.full(5, end), t)
+    expected = quintic(begin + t * width)
+    np.testing.assert_allclose(cubic.x[0] + bend.x[0], expected, atol=1e-14)
+    assert np.abs(cubic.x[0] - expected)[1:-1].min() > 1e-3
 
 
 def test_where_a_slope_says_nothing_the_secant_is_taken():
