@@ -83,7 +83,7 @@ def test_interpolation_between_samples_is_of_fourth_order():
 @pytest.mark.parametrize("end", [-0.7, 2.5])
 def test_a_quintic_is_interpolated_exactly_through_a_third_sample(end):
     """The third sample lies before the first one, or behind the second one; a cubic misses the quintic."""
-    quintic, t = np.polynomial.Polynomial([0.3, -1.0, 2.0, 0.7, -1.1, 0.4]), jnp.linspace(0.0, 1.0, 5)
+    quintic, t = np.polynomial.Polynomial([0.3, 3.0, 0.5, 0.7, -1.1, 0.4]), jnp.linspace(0.0, 1.0, 5)
     begin, width, none = jnp.full(5, 0.2), jnp.full(5, 0.8), jnp.zeros((0, 4, 5))
 
     def sample(at):
@@ -95,7 +95,7 @@ def test_a_quintic_is_interpolated_exactly_through_a_third_sample(end):
     bend = quintic_bend(left, right, third, jnp.full(5, end), t)
     expected = quintic(begin + t * width)
     np.testing.assert_allclose(cubic.x[0] + bend.x[0], expected, atol=1e-14)
-    assert np.abs(cubic.x[0] - expected)[1:-1].min() > 1e-3
+    assert np.abs(cubic.x[0] - expected)[1:-1].min() > 1e-4
 
 
 def test_where_a_slope_says_nothing_the_secant_is_taken():
