@@ -1,4 +1,4 @@
-"""Keep samples of the branch, poses with slopes, and predict any pose between them by cubic interpolation.
+"""Keep samples of the branch, poses with slopes, and predict any pose between them by a cubic or a quintic.
 
 An input that is an angle repeats after a full turn. If the mechanism repeats with it, one turn of samples serves all
 turns. And an input beyond an unreachable interval that differs by whole turns from an input that was reached without
