@@ -262,8 +262,8 @@ def _next_step(
 ) -> Float[Array, " fronts"]:
     """Choose the length of the next step such that the ratio of deviation to travel becomes `WANTED_DEVIATION`.
 
-    `deviation` is without rounding. The deviation of a prediction by three slopes is proportional to the fourth power of the step
-    length and the travel to the first, so their ratio to the third.
+    `deviation` is without rounding. The deviation of a prediction by three slopes is proportional to the fourth power
+    of the step length and the travel to the first, so their ratio to the third.
     """
     growth = jnp.cbrt(WANTED_DEVIATION * attempt.travel / jnp.maximum(deviation, 1e-30))
     growth = jnp.clip(jnp.where(attempt.sloped, growth, 2.0), *GROWTH)
