@@ -21,7 +21,9 @@ from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import SMOOTH, hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
+from jaxkin.solve.linear.blocks import is_costly
 from jaxkin.solve.status import Status, is_closed
+from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, difference, rate, retract, turning
@@ -136,7 +138,8 @@ def predict(system: LoopSystem, samples: BranchSamples, values: Float[Array, " p
     nearest = select_poses(beyond, _weighted(system, left, right, values), nearest)
     width, t = _fraction(left, right, values)
     curve = hermite(left.state, left.slope, right.state, right.slope, width, t)
-    if len(system.driven) == 1:  # a path of several inputs is bent anew at each pose: a quintic is no better there
+    # a path of several inputs is bent anew at each pose: a quintic is no better there
+    if len(system.driven) == 1 and is_costly(equation_blocks(system)):
         curve = _through_third(curve, left, right, _sample(system, samples, _third(samples, number, values)), t)
     state = select_poses(between, retract(system, curve, jnp.zeros_like(curve.x)), nearest)
     status = jnp.where(trusted, jnp.where(from_left, left.status, right.status), Status.JUMPED.value)
