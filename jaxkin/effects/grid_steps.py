@@ -20,7 +20,8 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.mechanism.drive_plan import DrivenLoopGroup
 from jaxkin.solve.closure.closure import closure, scaled_geometry
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
-from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL, input_slopes
+from jaxkin.solve.continuation.input_slopes import input_slopes
+from jaxkin.solve.continuation.step import MAX_DEVIATION, MAX_TRAVEL
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem

@@ -13,7 +13,7 @@ function is called by the nearest one above it that is indented less. What happe
  4.       `closure/closure.py` `scaled_geometry`            scale lengths, compute constants of the loops from frames
  5.       `continuation/branch.py` `trace_branch`           trace the branch from the assembled pose to both ends
  6.         `continuation/step.py` `substep`                take one step: predict, correct, accept or refuse
- 7.           `continuation/predictor.py` `predict_state`   extrapolate by a cubic through two poses, or the tangent
+ 7.           `continuation/predictor.py` `predict_state`   extrapolate along the last slopes, by chord or tangent
  8.           `correctors/newton.py` `newton`               correct by Newton's method, all poses at once
  9.             `closure/closure.py` `closure`              evaluate residual and Jacobian (Eq. 10, 11): planar, spatial
 10.             `linear/blocks.py` `solve_blocks`           solve J delta = -r, block after block

@@ -183,8 +183,13 @@ def _travel(
     )
     if screw.any():
         advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
-    q = sign * jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])[table.column]
-    (cos, sin), travel = cos_sin(turn * q), jnp.asarray(advance) * q
+    # once a coordinate, and not for each chain that it is in
+    turning, place = np.unique(np.where(table.turn > 0, table.column, system.columns), return_inverse=True)
+    place = place.reshape(table.turn.shape)
+    x = jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])
+    travel = jnp.asarray(advance * sign) * x[table.column]
+    cos, sin = cos_sin(x[turning])
+    cos, sin = cos[place], sign * sin[place]
     rates: Array | None = None
     if geometry.curves:
         cos, sin, travel, rates = along_curves(system, geometry.curves, state, (cos, sin, travel))
@@ -226,10 +231,10 @@ def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 cha
     """Compute the rotation matrix [column, row] of each step that is a ball; the identity for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
-    turns = jnp.concatenate([state.turns, still])[table.ball]
-    back = np.where(table.sign[..., None] < 0, np.array([1.0, -1.0, -1.0, -1.0]), 1.0)[..., None]
-    w_x_y_z = jnp.moveaxis(turns * jnp.asarray(back, turns.dtype), 2, 0)
-    return jnp.moveaxis(jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)]), 2, 0)
+    w_x_y_z = jnp.moveaxis(jnp.concatenate([state.turns, still]), 1, 0)
+    there = jnp.stack([jnp.stack(column) for column in rotation_matrix(w_x_y_z)])
+    both = jnp.stack([there, there.swapaxes(0, 1)], axis=2)
+    return jnp.moveaxis(both[:, :, (table.sign < 0).astype(int), table.ball], 2, 0)
 
 
 def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains 4 4"]) -> tuple[Rotation, Vector]:

@@ -13,6 +13,7 @@ import jax.numpy as jnp
 from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.solve.continuation.input_path import InputPath
+from jaxkin.solve.continuation.predictor import History
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -56,18 +57,14 @@ class Fronts(NamedTuple):
     """Distance along the path: the input itself if it is a single one."""
     slope: Float[Array, "columns fronts"]
     """Derivative of the coordinates with respect to the distance along the path."""
-    before: State
-    """The state one accepted step back."""
-    before_tangent: State
-    """Derivative of `before` with respect to the distance along the path."""
-    width: Float[Array, " fronts"]
-    """Distance along the path, with its sign, from `before` to `state`."""
+    history: History
+    """The states before, from which the next one is predicted."""
     determinant_ratio: Float[Array, "blocks fronts"]
-    """Determinant of each block of the Jacobian at `state` over that at `before`."""
+    """Determinant of each block of the Jacobian at `state` over that one accepted step back."""
     has_before: Bool[Array, " fronts"]
-    """Whether `before` is a pose of the same branch, from which to predict."""
-    along_tangent: Bool[Array, " fronts"]
-    """Whether the next step is predicted along the tangent, because the curve through two states was refused."""
+    """Whether the state one step back is a pose of the same branch, from which to predict."""
+    refusals: Int[Array, " fronts"]
+    """How many steps have been refused since the last one that was accepted."""
     step: Float[Array, " fronts"]
     """Length of the next step."""
     stage: Int[Array, " fronts"]
@@ -87,12 +84,10 @@ def assembled_fronts(system: LoopSystem, fronts: int, dtype) -> Fronts:
         jacobian=jnp.zeros((system.equations, system.columns, fronts), dtype),
         at=jnp.zeros(fronts, dtype),
         slope=zeros.x,
-        before=zeros,
-        before_tangent=zeros,
-        width=jnp.ones(fronts, dtype),
+        history=History(zeros, zeros, jnp.ones(fronts, dtype), zeros, jnp.full(fronts, jnp.inf, dtype)),
         determinant_ratio=jnp.ones((len(equation_blocks(system)), fronts), dtype),
         has_before=jnp.zeros(fronts, bool),
-        along_tangent=jnp.zeros(fronts, bool),
+        refusals=jnp.zeros(fronts, jnp.int32),
         step=jnp.full(fronts, FIRST_STEP, dtype),
         stage=jnp.full(fronts, CLOSING, jnp.int32),
         anchored=jnp.zeros(fronts, bool),

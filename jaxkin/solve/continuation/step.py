@@ -2,8 +2,8 @@
 
 Follow the branch: a step is accepted if the corrected pose is near its prediction and no determinant of a block of the
 closure Jacobian has changed its sign. Without the test of signs, a long step where two branches nearly meet would lead
-straight on to the other branch. A refused step is repeated with a shorter length. The curve through the last two poses
-and the tangent at the last pose predict in turn after refusals, since either may fail where the other does not.
+straight on to the other branch. A refused step is repeated with a shorter length. The tangent at the last pose and the
+curve or chord of the last poses predict in turn after refusals, since either may fail where the other does not.
 
 Meet a limit: where a step along the tangent is refused at the shortest length, the motion has a limit. Beyond the limit
 only the damped corrector goes on, towards poses of least residual (an unreachable interval).
@@ -11,8 +11,8 @@ only the damped corrector goes on, towards poses of least residual (an unreachab
 Jump: where the loops close again behind an unreachable interval, the pose is JUMPED, because no motion of the input
 leads there. The sign of a determinant could not tell this: poses on two circuits can have the same sign.
 
-All fronts (`fronts`) step together, as the last axis of the arrays. The correctors of a step evaluate the closure of
-all fronts at one place in the code, which keeps the compiled program small.
+All fronts step together, as the last axis of the arrays. The correctors of a step evaluate the closure of all fronts at
+one place in the code, which keeps the compiled program small.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int
 
-from jaxkin.solve.closure.closure import Closure, Geometry, closure
+from jaxkin.solve.closure.closure import Geometry, closure
 from jaxkin.solve.continuation.determinant_sign import determinant_ratio
 from jaxkin.solve.continuation.fronts import (
     BEYOND_LIMIT,
@@ -37,21 +37,20 @@ from jaxkin.solve.continuation.fronts import (
     assembled_fronts,
     stopped_at_limit,
 )
-from jaxkin.solve.continuation.predictor import predict_state
+from jaxkin.solve.continuation.input_slopes import input_slopes
+from jaxkin.solve.continuation.predictor import History, predict_state
 from jaxkin.solve.correctors.levenberg_marquardt import (
     LevenbergMarquardtResult,
-    damping_floor,
     levenberg_marquardt,
     select_poses,
 )
 from jaxkin.solve.correctors.newton import newton
-from jaxkin.solve.linear.blocks import solve_blocks
 from jaxkin.solve.lockstep import any_in_lockstep, computed_once
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.loop_system import LoopSystem
-from jaxkin.solve.system.state import State, difference, drive, driven_rate, rate, retract
+from jaxkin.solve.system.state import State, difference, drive, rate, retract
 
 LONGEST_STEP = 0.3
 """Longest step of the continuation, radians or characteristic lengths: a full turn takes twenty-one such steps."""
@@ -61,8 +60,7 @@ coordinates change as the square root of the distance from the limit, so they ar
 SHORTEST_FIRST_STEP = 1e-10
 """Shortest step from the assembled pose, in place of `SHORTEST_STEP`: that pose may lie as near to a limit as this."""
 BEYOND_LIMIT_STEP = 0.15
-"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`, since nothing is predicted
-there and the corrector starts from the last pose."""
+"""Length of steps beyond a limit, radians or characteristic lengths: half of `LONGEST_STEP`: none is predicted."""
 NEAR_LIMIT = 4 * SHORTEST_STEP
 """Largest distance, radians or characteristic lengths, from the last pose before a limit to a target that may still be
 on this side of the limit. The limit is about one refused step away; refused steps are shortened to a third
@@ -71,6 +69,9 @@ CROSSING = 1e-3
 """Longest step, radians or characteristic lengths, that is accepted although a determinant changes its sign or falls to
 zero. At a change point, where two branches cross, the determinant changes its sign on the branch itself. Lengths with
 relative errors of 1e-6 turn the crossing into two branches about 1e-3 apart, the root of the error."""
+LEAST_RATIO = 0.5
+"""Least ratio of the determinants of a block at both ends of a step that was predicted by a curve far from its chord.
+Near a limit poses in a long step cannot be interpolated: one in 34,400 of random mechanisms was JUMPED without this."""
 
 WANTED_DEVIATION = 0.1
 """Ratio of deviation to travel that the step length is chosen for, less than half of `MAX_DEVIATION`. The deviation is
@@ -117,11 +118,14 @@ class _Attempt(NamedTuple):
     """Derivative of the state with respect to that distance, at the beginning of the step."""
     predicted: State
     """State at the end of the step as predicted, with its inputs set."""
+    along_tangent: Bool[Array, " fronts"]
+    """Whether the step is predicted along the tangent, because another prediction was refused."""
+    bent: Bool[Array, " fronts"]
+    """Whether the prediction follows a curve that is far from its chord (`predictor.AGREEMENT`)."""
     sloped: Bool[Array, " fronts"]
     """Whether the prediction used a slope; if not, the predicted state is that of the beginning with new inputs."""
     travel: Float[Array, " fronts"]
-    """Largest predicted change of a coordinate, or of a ball's turn as an angle, and at least the step length; where no
-    slope is known, `UNKNOWN_TRAVEL` times the step length."""
+    """Largest predicted change of a coordinate or of a ball's angle, at least the step length (`UNKNOWN_TRAVEL`)."""
 
 
 def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, " fronts"]) -> Fronts:
@@ -146,13 +150,17 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
         lambda moved: _decision(fronts, attempt._replace(moved=moved), found.state, closed, ratio), attempt.moved
     )
     shortest = jnp.where(fronts.at == 0, SHORTEST_FIRST_STEP, SHORTEST_STEP)
-    lost = attempt.following & ~good & fronts.along_tangent & (distance <= shortest)
+    lost = attempt.following & ~good & attempt.along_tangent & (distance <= shortest)
 
     uncertain = attempt.closing | attempt.beyond  # fronts not on the branch: each step decides their status anew
     entered = uncertain & closed
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
+    last = fronts.history
+    width = jnp.where(attempt.moved != 0, attempt.moved, last.width)
+    earlier_width = jnp.where(fronts.has_before, last.width, jnp.inf)
+    passed = History(fronts.state, attempt.tangent, width, last.tangent, earlier_width)
     return Fronts(
         state=select_poses(final, found.state, fronts.state),
         status=jnp.where(uncertain, status, fronts.status),  # a front on the branch stays CLOSED or JUMPED
@@ -160,12 +168,10 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
         jacobian=jnp.where(final, found.closure.jacobian, fronts.jacobian),
         at=jnp.where(final, attempt.at, fronts.at),
         slope=jnp.where(final, slope, fronts.slope),
-        before=select_poses(good, fronts.state, fronts.before),
-        before_tangent=select_poses(good, attempt.tangent, fronts.before_tangent),
-        width=jnp.where(good & (attempt.moved != 0), attempt.moved, fronts.width),
+        history=select_poses(good, passed, fronts.history),
         determinant_ratio=jnp.where(good, ratio, fronts.determinant_ratio),
         has_before=(fronts.has_before | good) & (stage == FOLLOWING) & ~entered,
-        along_tangent=attempt.following & ~good & ~fronts.along_tangent,
+        refusals=jnp.where(attempt.following & ~good, fronts.refusals + 1, 0),
         step=jnp.where(entered, FIRST_STEP, step),
         stage=stage.astype(jnp.int32),
         anchored=fronts.anchored | entered,
@@ -186,21 +192,23 @@ def _attempt(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, 
     inputs, direction = problem.path(at)
 
     tangent = rate(system, fronts.state, fronts.slope)
-    sloped = fronts.has_before | fronts.along_tangent
-    predicted = predict_state(
+    along_tangent = fronts.refusals % 2 == 1
+    sloped = fronts.has_before | along_tangent
+    predicted, bent = predict_state(
         fronts.state,
         tangent,
-        fronts.before,
-        fronts.before_tangent,
-        fronts.width,
+        fronts.history,
         jnp.where(following & sloped, moved, 0.0),
-        fronts.along_tangent | ~fronts.has_before,
+        along_tangent | ~fronts.has_before,
+        may_bend=fronts.refusals == 0,
     )
     predicted = drive(system, retract(system, predicted, jnp.zeros_like(predicted.x)), inputs)
     distance = jnp.abs(moved)
     travel = jnp.maximum(difference(predicted, fronts.state), distance)
     travel = jnp.where(sloped, travel, UNKNOWN_TRAVEL * distance)
-    return _Attempt(closing, following, beyond, moved, at, direction, tangent, predicted, sloped, travel)
+    return _Attempt(
+        closing, following, beyond, moved, at, direction, tangent, predicted, along_tangent, bent, sloped, travel
+    )
 
 
 def _corrected(problem: ContinuationProblem, attempt: _Attempt) -> LevenbergMarquardtResult:
@@ -239,10 +247,11 @@ def _decision(
     distance = jnp.abs(attempt.moved)
     deviation = difference(state, attempt.predicted)
     slack = DEVIATION_ROUNDINGS * float(jnp.finfo(deviation.dtype).eps)
-    # Extrapolate each determinant linearly from the last two poses. If it falls to zero within the step, the step may
-    # have passed over an unreachable interval, with two changes of sign, although the signs at its ends agree.
-    falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.width < 0)
+    # Extrapolate each determinant linearly. If it falls to zero within the step, the step may have passed over an
+    # unreachable interval, with two changes of sign, although the signs at its ends agree.
+    falls = fronts.has_before & (1 + (1 - 1 / fronts.determinant_ratio) * attempt.moved / fronts.history.width < 0)
     crossed = jnp.any((ratio < 0) | falls, axis=0) & (distance > CROSSING)
+    crossed |= attempt.bent & jnp.any(ratio < LEAST_RATIO, axis=0)
     near = deviation <= MAX_DEVIATION * attempt.travel + slack
     good = attempt.following & closed & near & (attempt.travel <= MAX_TRAVEL) & ~crossed
     return good, _next_step(fronts, attempt, good, deviation - slack)
@@ -253,8 +262,8 @@ def _next_step(
 ) -> Float[Array, " fronts"]:
     """Choose the length of the next step such that the ratio of deviation to travel becomes `WANTED_DEVIATION`.
 
-    `deviation` is without rounding. The deviation of a cubic predictor is proportional to the fourth power of the step
-    length and the travel to the first, so their ratio to the third.
+    `deviation` is without rounding. The deviation of a prediction by three slopes is proportional to the fourth power
+    of the step length and the travel to the first, so their ratio to the third.
     """
     growth = jnp.cbrt(WANTED_DEVIATION * attempt.travel / jnp.maximum(deviation, 1e-30))
     growth = jnp.clip(jnp.where(attempt.sloped, growth, 2.0), *GROWTH)
@@ -284,17 +293,3 @@ def reach(
         assembled_fronts(system, targets.shape[-1], targets.dtype),
     )
     return fronts.state, fronts.status, closure(system, geometry, fronts.state).residual_norm
-
-
-def input_slopes(
-    system: LoopSystem, state: State, closed: Closure, direction: Float[Array, "driven poses"]
-) -> Float[Array, "columns poses"]:
-    """Differentiate the coordinates of closed states with respect to the distance along the input path.
-
-    `direction` is the derivative of the inputs with respect to that distance, and `closed` the closure at `state`. With
-    the driven part `dx_d` of the derivative given, the rest solves `J dx = -J dx_d` with least norm: coordinates that
-    the loops leave undetermined stay at rest. Rows of free balls are rotation vectors, as in `retract`.
-    """
-    change, columns = driven_rate(system, state, direction)
-    right = jnp.sum(closed.jacobian * columns[None], axis=1)
-    return change - solve_blocks(closed.jacobian, right, damping_floor(right.dtype), equation_blocks(system))

@@ -15,8 +15,7 @@ from jaxtyping import Array, Bool, Float
 from jaxkin.solve.closure.closure import Closure, closure
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
-from jaxkin.solve.linear.blocks import solve_blocks
-from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS
+from jaxkin.solve.linear.blocks import is_costly, solve_blocks
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.status import Scalar, default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
@@ -60,7 +59,7 @@ def newton(
     system, geometry = problem.system, problem.geometry
     poses, dtype = state.x.shape[-1], state.x.dtype
     infinite = jnp.full(poses, jnp.inf, dtype)
-    costly = any(len(block.rows) > MAX_UNROLLED_ROWS for block in equation_blocks(system))
+    costly = is_costly(equation_blocks(system))
 
     def running(at: _Iterate) -> Array:
         return (at.count <= problem.options.newton_iterations) & any_in_lockstep(

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Array, Float
 
 from jaxkin.solve.linear.gram import Matrix, Vector, column_products
-from jaxkin.solve.linear.least_norm import factor_normal_equations
+from jaxkin.solve.linear.least_norm import MAX_UNROLLED_ROWS, factor_normal_equations
 from jaxkin.solve.system.equation_blocks import EquationBlock
 from jaxkin.solve.system.scatter import scatter_rows
 
@@ -27,6 +27,11 @@ def solve_blocks(
     blocks of three equations in three unknowns are solved undamped by Cramer's rule, which costs less.
     """
     return _substitute_forward(jacobian, right[:, None], damping, blocks, regular)[:, 0]
+
+
+def is_costly(blocks: Sequence[EquationBlock]) -> bool:
+    """Tell whether a block has more equations than straight-line code solves: it pays to save an elimination then."""
+    return any(len(block.rows) > MAX_UNROLLED_ROWS for block in blocks)
 
 
 def inverse_jacobian(

@@ -22,7 +22,7 @@ from jaxkin.solve.closure.closure import closure
 from jaxkin.solve.closure.joint_coordinates import remove_idle_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
-from jaxkin.solve.continuation.step import input_slopes
+from jaxkin.solve.continuation.input_slopes import input_slopes
 from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS, newton
 from jaxkin.solve.correctors.problem import ClosureProblem
