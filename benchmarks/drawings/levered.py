@@ -188,12 +188,12 @@ def brake_caliper(random):
     drawing.add("hub washer", tube(-43 * X, -X, 15.2, 23, 3))
     drawing.add("hub nut", hexagon(-46 * X, -X, 20, 12, 15))
     disc = cut(cyl(8 * X, X, 110, 10), bore(0 * X, X, 20 + play, 60), *(bore(p, X, 6.3, 60) for p in studs))
-    disc = cut(disc, *(bore(p, X, 2.7, 60) for p in sunk), *(cyl(p + 14 * X, X, 4.2, 9) for p in sunk))
+    disc = cut(disc, *(bore(p, X, 2.7, 60) for p in sunk), *(cyl(p + 12.5 * X, X, 4.2, 9) for p in sunk))
     drawing.add("disc", disc)
     for number, p in enumerate(studs):
         drawing.add(f"stud {number}", union(cyl(p, X, 6, 38), cyl(p, -X, 8, 4)))
     for number, p in enumerate(sunk):
-        drawing.add(f"disc screw {number}", screw(p + 14 * X, -X, 2.5, 13))
+        drawing.add(f"disc screw {number}", screw(p + 12.5 * X, -X, 2.5, 11.5))
     pins = {"front": at(0, -62, 105), "rear": at(0, 62, 105)}
     carrier = box((-28, -75, 45), (-16, 75, 125))
     carrier = union(

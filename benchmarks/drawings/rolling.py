@@ -244,5 +244,5 @@ def locomotive_rods(random):
     drawing.joint("Revolute", "connecting rod", "crosshead", cross, Z)
     drawing.joint("Weld", "piston rod", "crosshead")
     drawing.joint("Weld", "piston", "piston rod")
-    drawing.joint("Prismatic", "crosshead", "bracket", 0 * X, X)
+    drawing.joint("Prismatic", "crosshead", "bracket", axis, X)
     return drawing
