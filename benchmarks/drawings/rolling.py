@@ -196,7 +196,7 @@ def locomotive_rods(random):
         drawing.joint("Weld", f"{name} crank pin", f"{name} wheel")
         drawing.joint("Revolute", f"{name} axle", "frame", p, Z)
     ends = [p + throw for p in wheels.values()]
-    rod = bar(*ends, 5, 12.2, 19.2)
+    rod = bar(ends[0], ends[1], 5, 12.2, 19.2)
     rod = union(rod, *(cyl((p[0], p[1], 12.2), Z, 10, 7) for p in ends))
     drawing.add("coupling rod", cut(rod, *(bore(p, Z, 5 + play, 40) for p in ends)))
     rod = union(bar(ends[1], cross, 5, 19.5, 26.2), *(cyl((p[0], p[1], 19.5), Z, 9, 6.7) for p in (ends[1], cross)))
