@@ -17,6 +17,7 @@ from drawings import handheld as handheld
 from drawings import hoisting as hoisting
 from drawings import household as household
 from drawings import legs as legs
+from drawings import levered as levered
 from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import mounted as mounted
@@ -25,6 +26,8 @@ from drawings import powered as powered
 from drawings import reciprocating as reciprocating
 from drawings import road as road
 from drawings import robotics as robotics
+from drawings import rolling as rolling
+from drawings import standing as standing
 from drawings import swivelling as swivelling
 from drawings import threaded as threaded
 from drawings import turning as turning
