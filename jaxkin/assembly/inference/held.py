@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,13 +15,16 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.moving_pins import moves_in_holes
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round, is_round_about
-from jaxkin.assembly.inference.stop_faces import MAX_PLAY, play
+from jaxkin.assembly.inference.stop_faces import MAX_PLAY, nearest, play
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
 """Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
+LIFTED = 0.15
+"""Distance from a face, over the radius of a hole, up to which a bolt of a pattern clamps there: plates are drawn with
+gaps of a tenth of a millimetre, and guide pins end a millimetre before the floor of their holes."""
 
 
 def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
@@ -39,18 +43,33 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
     """Find bodies that have two or more parallel axes in common: what only touches a fastener, as a lever does that
-    pushes pins, has no hole on its axis."""
+    pushes pins, has no hole on its axis, and what slides on guide pins meets no face that would clamp it."""
     body = known.body
 
     def of_bodies(stack: Stack) -> Stack:
         own = {body[part] for part in stack.fasteners}
-        held = (p for p in stack.held if any(bore.on_axis_of(stack.axis) for bore in known.bores[p]) or body[p] in own)
+        held = [p for p in stack.held if any(bore.on_axis_of(stack.axis) for bore in known.bores[p]) or body[p] in own]
+        held = [part for part in held if body[part] in own or not _is_guided(known, stack, part, held)]
         return Stack(stack.fasteners, tuple(dict.fromkeys(body[part] for part in held)), stack.axis, stack.guides)
 
     flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
     tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]
     shared = patterns([*known.axes, *tapped], list(map(of_bodies, every)), body)
     return [each for each in bolted(shared, known.order) if len({body[part] for part in each.parts}) > 1]
+
+
+def _is_guided(known: Known, stack: Stack, part: str, held: Sequence[str]) -> bool:
+    """Tell whether a part has play on a stack, and neither fasteners nor other parts on it stand near a face of it."""
+    pairs = [each for each in known.axes if each.other.part == part and each.one.part in stack.fasteners]
+    if not pairs or any(each.virtual or each.clearance <= SAME_FIT * each.other.radius for each in pairs):
+        return False
+    radius = max(each.other.radius for each in pairs)
+    own = known.measured.stops(known.solids[part], stack.axis)
+    others = (
+        known.measured.stops(known.solids[each], stack.axis) for each in (*stack.fasteners, *held) if each != part
+    )
+    gaps = (nearest(own, other, stack.axis.radius) for other in others)
+    return all(gap is None or gap > LIFTED * radius for gap in gaps)
 
 
 def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
@@ -66,7 +85,9 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
         several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         slides = stack.guides and several and not is_headed(known, stack)
-        holder, where = (hosts[0], "already") if hosts else _holder(known, stack, body, slides)
+        clamped = tuple(part for part in stack.held if not _is_guided(known, stack, part, stack.held))
+        on = replace(stack, held=clamped) if clamped else stack
+        holder, where = (hosts[0], "already") if hosts else _holder(known, on, body, slides)
         turning = all(part in fastening or is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
             holder, where = crank, "alone, as it turns in bushes of others"

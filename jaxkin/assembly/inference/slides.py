@@ -79,9 +79,14 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             for wall in between_faces(part, *second)
             if abs(float(wall[0] @ normals[0])) < ACROSS
         ]
+        found = None
         if walls and not any(_are_across(wall, walls[0][1]) for _, wall, _ in walls):
             part, wall, play = min(walls, key=lambda each: each[2])
-            axis = np.cross(wall, normals[0])
+            found = part, np.cross(wall, normals[0]), play
+        elif not walls:
+            found = _in_dovetail(one, other, normals[0])
+        if found is not None:
+            part, axis, play = found
             parts = known.in_order(owners)
             text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
@@ -90,6 +95,15 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             driven = all(any(owner in pair and not pair <= owners for pair in about) for owner in loose)
             result.append(Hinge(Inference.of(joint, evidence), Stop.NONE if driven else Stop.FACES))
     return result
+
+
+def _in_dovetail(ones: Sequence[Part], others: Sequence[Part], normal: Vector) -> tuple[Part, Vector, float] | None:
+    """Find a part of a body that lies on the floor of a dovetail of another one, with its slide and the play."""
+    for part, around in [*((part, others) for part in ones), *((part, ones) for part in others)]:
+        found = _dovetail(part, around)
+        if found is not None and abs(float(found[0] @ normal)) < ACROSS:
+            return part, *found
+    return None
 
 
 def _are_across(one: Vector, other: Vector) -> bool:

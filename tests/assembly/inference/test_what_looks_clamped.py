@@ -138,3 +138,53 @@ def test_a_thin_disc_with_much_play_in_a_counterbore_guides_nothing(seed, thick,
     _, mechanism = of(seed, base, disc, LEVER)
     joints = [joint for joint in mechanism.all_joints if {*joint.parts} == {"base", "disc"} and joint.freedoms]
     assert (str(joints[0].kind) if joints else None) == kind
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("lift", [20.0, 0.0])
+def test_what_slides_on_guide_pins_is_not_bolted_to_what_they_are_in(seed, lift):
+    """As a brake caliper; down on the base, its screws would clamp it there."""
+    at = [(-30.0, 0.0), (30.0, 0.0)]
+    base = part("base", *(ring(5.1, 10.0, 0, 40, each) for each in at), block((-20, -8, 0), (20, 8, 40)))
+    eyes = [ring(3.2, 10.0, 40 + lift, 46 + lift, each) for each in at]
+    caliper = part("caliper", *eyes, block((-20, -8, 40 + lift), (20, 8, 46 + lift)))
+    pins = [part(f"pin {k}", pin(5.0, 5, 30, each), ring(3.0, 5.0, 30, 40 + lift, each)) for k, each in enumerate(at)]
+    screws = [
+        part(f"screw {k}", pin(3.0, 30, 46 + lift, each), pin(5.0, 46 + lift, 50 + lift, each))
+        for k, each in enumerate(at)
+    ]
+    body, mechanism = of(seed, base, caliper, *pins, *screws, LEVER)
+    assert (body["caliper"] == body["base"]) == (lift == 0)
+    if lift:
+        assert kind_of(mechanism, "base", "caliper") == "prismatic"
+        assert body["pin 0"] == body["pin 1"] == body["caliper"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("play", [0.2, 8.0])
+def test_a_plate_on_the_floor_of_a_dovetail_slides_along_it(seed, play):
+    """Flanks that are far away do not guide it."""
+    floor = block((-30, -60, -10), (30, 60, 0))
+    base = part("base", floor, flank(12 + play, 1), flank(12 + play, -1))
+    _, mechanism = of(
+        seed,
+        base,
+        part("plate", block((-6, -20, 0), (6, 20, 9)), flank(12, 1, out=False), flank(12, -1, out=False)),
+        LEVER,
+    )
+    assert kind_of(mechanism, "base", "plate") == ("prismatic" if play < 1 else "planar")
+
+
+def flank(half, side, out=True):
+    """A flank of a dovetail along y, inclined by 45 degrees, `half` from the middle at the floor."""
+    length, top = (60, 8) if out else (20, 8)
+    corners = np.array(
+        [
+            (side * half, -length, 0.0),
+            (side * half, length, 0.0),
+            (side * (half - top), length, top),
+            (side * (half - top), -length, top),
+        ]
+    )
+    normal = np.array([side, 0.0, 1.0]) / np.sqrt(2) * (-1 if out else 1)
+    return [(Plane(corners[0], normal), corners[np.array([[0, 1, 2], [0, 2, 3]])])]
