@@ -15,8 +15,9 @@ from jaxkin.geometry.outline import roundness
 from jaxkin.geometry.part import Part
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MAX_HEAD = 4.5
-"""Farthest a fastener reaches from its axis, over its smallest radius: flanges and large washers are within."""
+MAX_HEAD = 4.02
+"""Farthest a fastener reaches from its axis, over its smallest radius: flanges, large washers and knobs of four radii
+are within, as rounded by files."""
 MAX_NUT = 3.0
 """The same of parts with a hole only, nuts and thin rings: larger ones are plates with a bore."""
 MIN_THREADED = 0.2

@@ -37,6 +37,7 @@ def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
     body = known.body
     slides = {frozenset(body[part] for part in each.inference.parts) for each in guided}
     around: dict[str, dict[str, list[Vector]]] = {}
+    met: dict[tuple[str, str], tuple[str, str]] = {}
     # in the order of the file: the first of several bodies that could be added decides what the others touch
     contacts = sorted(known.contacts, key=lambda each: sorted(known.order[part] for part in each.parts))
     jointed = [each.parts for each in known.found if each.joint] + [tuple(pair) for pair in known.by_hand]
@@ -45,6 +46,7 @@ def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
             surface, other = contact.surfaces[k], body[contact.parts[1 - k]]
             normal = surface.normal if isinstance(surface, Plane) else np.zeros(3)
             around.setdefault(body[part], {}).setdefault(other, []).append(normal)
+            met.setdefault((body[part], other), (part, contact.parts[1 - k]))
     for parts in jointed:
         one, other = (body[part] for part in parts)
         around.setdefault(one, {}).setdefault(other, []).append(np.zeros(3))
@@ -58,15 +60,17 @@ def lying_on_one(known: Known, guided: Sequence[Hinge] = ()) -> list[Inference]:
             (other,) = others.keys() - {one}
             if {one, other} in slides:
                 continue
-            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{one!r} touches {other!r} only, and that on one plane")
+            part, base = met[one, other]
+            evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{part!r} touches {base!r} only, and that on one plane")
         else:
             mates = [other for other in others if other != one and _together(known, body, one, other)]
             if len(mates) != 1:
                 continue
             (other,) = mates
-            text = f"{one!r} only lies on others, of which {other!r} is in its sub-assembly"
+            part, base = met[one, other]
+            text = f"{part!r} only lies on others, of which {base!r} is in its sub-assembly"
             evidence = Evidence(EvidenceKind.SUBASSEMBLY, (), text)
-        result.append(Inference(known.in_order((one, other)), evidence))
+        result.append(Inference(known.in_order((part, base)), evidence))
     return result
 
 
