@@ -61,15 +61,16 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
 def _is_guided(known: Known, stack: Stack, part: str, held: Sequence[str]) -> bool:
     """Tell whether a part has play on a stack, and neither fasteners nor other parts on it stand near a face of it."""
     pairs = [each for each in known.axes if each.other.part == part and each.one.part in stack.fasteners]
-    if not pairs or any(each.virtual or each.clearance <= SAME_FIT * each.other.radius for each in pairs):
-        return False
-    radius = max(each.other.radius for each in pairs)
+    loose = pairs and not any(each.virtual or each.clearance <= SAME_FIT * each.other.radius for each in pairs)
+    return bool(loose) and not _is_met(known, stack, part, [*stack.fasteners, *held])
+
+
+def _is_met(known: Known, stack: Stack, part: str, others: Sequence[str]) -> bool:
+    """Tell whether a face of a part across the axis of a stack is near to one of others."""
     own = known.measured.stops(known.solids[part], stack.axis)
-    others = (
-        known.measured.stops(known.solids[each], stack.axis) for each in (*stack.fasteners, *held) if each != part
-    )
-    gaps = (nearest(own, other, stack.axis.radius) for other in others)
-    return all(gap is None or gap > LIFTED * radius for gap in gaps)
+    faces = (known.measured.stops(known.solids[each], stack.axis) for each in others if each != part)
+    gaps = (nearest(own, other, stack.axis.radius) for other in faces)
+    return any(gap is not None and gap <= LIFTED * stack.axis.radius for gap in gaps)
 
 
 def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
@@ -85,8 +86,9 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
         several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         slides = stack.guides and several and not is_headed(known, stack)
-        clamped = tuple(part for part in stack.held if not _is_guided(known, stack, part, stack.held))
-        on = replace(stack, held=clamped) if clamped else stack
+        clamped = tuple(part for part in stack.held if _is_met(known, stack, part, stack.fasteners))
+        guides = any(_is_guided(known, stack, part, stack.held) for part in stack.held)
+        on = replace(stack, held=clamped) if guides and clamped else stack
         holder, where = (hosts[0], "already") if hosts else _holder(known, on, body, slides)
         turning = all(part in fastening or is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):
