@@ -85,7 +85,7 @@ def test_a_crank_on_a_square_with_play_goes_with_its_shaft_where_a_nut_keeps_it(
 def crank_about(inner, outer, low, high):
     """The faces across the axis of a square hub, and a lever on it."""
     plates = [
-        (Plane(np.array([0, 0, z]), np.array([0, 0, s])), frame_of(inner, outer, z))
+        (Plane(np.array([0.0, 0.0, z]), np.array([0.0, 0.0, s])), frame_of(inner, outer, z))
         for z, s in ((low, -1.0), (high, 1.0))
     ]
     return plates, block((outer - 1, -4, low), (60, 4, high))
