@@ -23,7 +23,7 @@ LONG = 2.5
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
 LIFTED = 0.15
-"""Distance from a face, over the radius of a hole, up to which a bolt of a pattern clamps there: plates are drawn with
+"""Distance from a face, over the radius of a pin, up to which a bolt of a pattern clamps there: plates are drawn with
 gaps of a tenth of a millimetre, and guide pins end a millimetre before the floor of their holes."""
 
 
@@ -86,9 +86,9 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
         hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
         several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         slides = stack.guides and several and not is_headed(known, stack)
-        clamped = tuple(part for part in stack.held if _is_met(known, stack, part, stack.fasteners))
+        met = tuple(part for part in stack.held if _is_met(known, stack, part, stack.fasteners))
         guides = any(_is_guided(known, stack, part, stack.held) for part in stack.held)
-        on = replace(stack, held=clamped) if guides and clamped else stack
+        on = replace(stack, held=met) if guides and met else stack
         holder, where = (hosts[0], "already") if hosts else _holder(known, on, body, slides)
         turning = all(part in fastening or is_round_about(known, part, stack.axis) for part in hosts)
         if turning and (crank := _carried(known, stack, body)):

@@ -3,7 +3,7 @@ shafts."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -61,25 +61,26 @@ def squared_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Join hubs with the shafts whose square or hexagon they are on with play, where a nut or a screw on the axis of
     the shaft and a shoulder keep them from sliding."""
     result = []
-    for pair in known.axes:
-        if pair.virtual or pair.clearance > SAME_FIT * pair.other.radius:
-            continue
+    tight = [pair for pair in known.axes if not pair.virtual and pair.clearance <= SAME_FIT * pair.other.radius]
+    for pair in tight:
         for shaft, end in (pair.parts, pair.parts[::-1]):
-            if end not in fastening:
-                continue
-            held = {part for each in known.axes if shaft in each.parts for part in each.parts if part in fastening}
-            stops = [stop for part in {shaft, *held} for stop in known.measured.stops(known.solids[part], pair.other)]
-            for hub in known.measured.beside(known.solids[shaft]):
-                point, axis = pair.other.point, pair.other.axis
-                if hub.name in held or not is_on_polygon(hub, known.solids[shaft], point, axis):
-                    continue
-                room = play(stops, known.measured.stops(hub, pair.other), pair.other.radius)
-                if room is not None and room <= MAX_LIFT * pair.other.radius:
-                    text = f"flat sides of {shaft!r} keep {hub.name!r} from turning on it, and {end!r} from sliding off"
-                    sizes = (("radius", pair.one.radius), ("play", room))
-                    parts = known.in_order((shaft, hub.name, end))
-                    result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
+            for hub, room in _on_polygon(known, shaft, pair, fastening) if end in fastening else ():
+                text = f"flat sides of {shaft!r} keep {hub!r} from turning on it, and {end!r} from sliding off"
+                sizes = (("radius", pair.one.radius), ("play", room))
+                parts = known.in_order((shaft, hub, end))
+                result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, sizes, text)))
     return result
+
+
+def _on_polygon(known: Known, shaft: str, axis: CommonAxis, fastening: Collection[str]) -> Iterator[tuple[str, float]]:
+    """Yield the hubs on a polygon of a shaft, between faces of the shaft and of fasteners on it, with their play."""
+    on = {part for each in known.axes if shaft in each.parts for part in each.parts if part in fastening}
+    ends = [stop for part in {shaft, *on} for stop in known.measured.stops(known.solids[part], axis.other)]
+    for hub in known.measured.beside(known.solids[shaft]):
+        if hub.name not in on and is_on_polygon(hub, known.solids[shaft], axis.other.point, axis.other.axis):
+            room = play(ends, known.measured.stops(hub, axis.other), axis.other.radius)
+            if room is not None and room <= MAX_LIFT * axis.other.radius:
+                yield hub.name, room
 
 
 def keyed_hubs(known: Known) -> list[Inference]:
