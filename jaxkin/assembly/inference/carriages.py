@@ -63,7 +63,7 @@ def carriages(known: Known) -> list[Inference]:
         pair: Pair = frozenset((carrier, rail))
         axis = None if pair in tied else _way(found)
         if axis is not None:
-            wheels = sorted({run.wheel.part.name for run in found}, key=known.order.__getitem__)
+            wheels = known.in_order({run.wheel.part.name for run in found})
             gap = max((run.gap for run in found), key=abs)
             how = "gaps" if gap >= 0 else "overlaps"
             largest = [

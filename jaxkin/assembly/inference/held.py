@@ -36,8 +36,8 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
     result = []
     for stack in every:
         hosts = {part for each in stack.fasteners for part in members[body[each]]} - {*stack.fasteners}
-        held = sorted({*stack.held, *hosts}, key=known.order.__getitem__)
-        result.append(Stack(stack.fasteners, tuple(held), stack.axis, stack.guides and is_exposed(known, stack)))
+        held = known.in_order({*stack.held, *hosts})
+        result.append(replace(stack, held=held, guides=stack.guides and is_exposed(known, stack)))
     return result
 
 
@@ -50,7 +50,7 @@ def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
         own = {body[part] for part in stack.fasteners}
         held = [p for p in stack.held if any(bore.on_axis_of(stack.axis) for bore in known.bores[p]) or body[p] in own]
         held = [part for part in held if body[part] in own or not _is_guided(known, stack, part, held)]
-        return Stack(stack.fasteners, tuple(dict.fromkeys(body[part] for part in held)), stack.axis, stack.guides)
+        return replace(stack, held=tuple(dict.fromkeys(body[part] for part in held)))
 
     flat = {frozenset(each.parts) for each in known.contacts if each.contact_state.is_flat}
     tapped = [pair for pair in known.tapped if frozenset(pair.parts) in flat]

@@ -39,7 +39,7 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
             each.other.part for each in known.axes if not each.virtual and any(each.one is bore for bore in thicker)
         }
         if seats - between - {shaft}:
-            pressed = sorted(between - {nut}, key=known.order.__getitem__)
+            pressed = known.in_order(between - {nut})
             text = f"{nut!r} presses {', '.join(map(repr, pressed))} against a shoulder of {shaft!r}"
             parts = known.in_order({shaft, *between})
             result.append(Inference(parts, Evidence(EvidenceKind.FASTENER, (("radius", thread.radius),), text)))

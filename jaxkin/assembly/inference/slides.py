@@ -79,7 +79,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
             for wall in between_faces(part, *second)
             if abs(float(wall[0] @ normals[0])) < ACROSS
         ]
-        found = None
+        found, beside = None, "flanks of a dovetail" if not walls else "walls beside them"
         if walls and not any(_are_across(wall, walls[0][1]) for _, wall, _ in walls):
             part, wall, play = min(walls, key=lambda each: each[2])
             found = part, np.cross(wall, normals[0]), play
@@ -88,7 +88,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
         if found is not None:
             part, axis, play = found
             parts = known.in_order(owners)
-            text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and walls beside them with a play of {play:.2g}"
+            text = f"faces that {parts[0]!r} and {parts[1]!r} lie on, and {beside} with a play of {play:.2g}"
             evidence = Evidence(EvidenceKind.CLEARANCE, (("play", play),), text)
             joint = pairs.prismatic("-".join(parts), *parts, point=part.box.mean(axis=0), axis=axis)
             loose = owners - {body[part] for part in known.fixed}  # a pin drives what has an axis with a third body

@@ -173,6 +173,8 @@ def test_a_plate_on_the_floor_of_a_dovetail_slides_along_it(seed, play):
         LEVER,
     )
     assert kind_of(mechanism, "base", "plate") == ("prismatic" if play < 1 else "planar")
+    told = [each.evidence.text for each in mechanism.all_joints if each.evidence]
+    assert any("flanks of a dovetail" in text for text in told) == (play < 1)
 
 
 def flank(half, side, out=True):
