@@ -11,7 +11,7 @@
 `classify` gives a pose the status of the first row that holds. The status is then changed in these cases, in turn:
 
 - STALLED, whatever the residual: the trace of the branch ran out of steps before it got to the input of the pose
-  (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`continuation.step.reach`).
+  (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`range.straight_lines`).
 - STALLED in place of CLOSED or JUMPED: the pose is that of a formula, and whether the motion leads to it is in doubt
   (`closed_form.range_by_formula`). Where JAX traces nothing, the continuation solves the range instead.
 - MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and

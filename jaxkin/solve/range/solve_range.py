@@ -25,7 +25,6 @@ from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_path import curve_through
 from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
-from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.lockstep import any_in_lockstep
@@ -34,6 +33,7 @@ from jaxkin.solve.range.implicit_derivative import attach_derivative
 from jaxkin.solve.range.interpolation import SHARP_ROUNDINGS, interpolate
 from jaxkin.solve.range.polish import correct_poses
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses, group_size, in_groups
+from jaxkin.solve.range.straight_lines import try_straight_lines
 from jaxkin.solve.reference_methods.minimise import minimise_each
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
@@ -168,23 +168,17 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
 
     def corrected(group: tuple[Array, Array]) -> Poses:
         at, inputs = group
-        found = correct_poses(problem, samples, at, inputs, asked.tolerance)
-        if follow_limits is False:  # known when the program is made: it holds no second continuation
-            return found
-        failed = found.status != Status.CLOSED.value
-
-        def straight() -> Poses:
-            other = Poses(*reach(system, geometry, jnp.where(failed, inputs, 0.0), options))
-            better = failed & ((other.status == Status.CLOSED.value) | (found.status == Status.STALLED.value))
-            return select_poses(better, other, found)
-
-        return lax.cond(any_in_lockstep(failed) & follow_limits, straight, lambda: found)
+        return correct_poses(problem, samples, at, inputs, asked.tolerance)
 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
     if len(at) < options.interpolate_from:
-        return _stalled_unless(kept, one_by_one((at, inputs)))
-    neighbours = partial(_of_neighbours, problem, samples, one_by_one)
-    return _stalled_unless(kept, in_groups(neighbours, (at, inputs), CHORD_BATCH))
+        found = one_by_one((at, inputs))
+    else:
+        found = in_groups(partial(_of_neighbours, problem, samples, one_by_one), (at, inputs), CHORD_BATCH)
+    if follow_limits is not False:  # known when the program is made: else it holds no second continuation
+        failed = any_in_lockstep(found.status != Status.CLOSED.value) & follow_limits
+        found = lax.cond(failed, lambda: try_straight_lines(problem, at, inputs, found), lambda: found)
+    return _stalled_unless(kept, found)
 
 
 def _of_neighbours(problem: ClosureProblem, samples: BranchSamples, one_by_one, group: tuple[Array, Array]) -> Poses:
