@@ -77,8 +77,8 @@ def by_hand(bars, theta, point):
 
 
 def gradient() -> None:
-    """Gradient of a path error with respect to all four bars, over 360 and 10,000 poses."""
-    for poses in (360, 10_000):
+    """Gradient of a path error with respect to all four bars, over 360, 10,000 and 100,000 poses."""
+    for poses in (360, 10_000, 100_000):
         gradient_over(poses)
 
 

@@ -21,6 +21,7 @@ from jaxkin.effects.pin_play import with_pins_moved
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.pose import Pose
+from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.cores import available_cores
 from jaxkin.solve.options import SolverOptions
 
@@ -104,7 +105,7 @@ def evaluate(
     poses: int,
 ) -> tuple[Float[np.ndarray, " designs"], Bool[np.ndarray, " designs"]]:
     """Evaluate many designs: values, NaN where a design is not reached, and which are."""
-    cpu = jax.default_backend() == "cpu"
+    cpu = on_cpu()
     length = min(len(designs), max(1, (BATCH_POSES if cpu else DEVICE_POSES) // max(poses, 1)))
     count = -(-len(designs) // length)
     padded = np.concatenate([designs, np.repeat(designs[-1:], count * length - len(designs), axis=0)])

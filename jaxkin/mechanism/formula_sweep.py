@@ -1,7 +1,8 @@
 """The sweep of a drive whose loop groups all have formulas: one program from the inputs to all displacements.
 
 The program is compiled for a single pose and for `CHUNK` of them, and serves ranges of any length: short ones are
-padded, long ones cut into chunks. What it finds is joined, cut to length and dealt out to the joints afterwards.
+padded, long ones cut into chunks, of `DEVICE_GROUP` poses on a device that is no CPU. What it finds is joined, cut to
+length and dealt out to the joints afterwards.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from jaxkin.solve.closed_form.range_by_formula import (
     joint_displacements,
     line_of,
 )
+from jaxkin.solve.device import group_for_device
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.status import ClosureTolerance, Status
 from jaxkin.solve.system.joints import Joints
@@ -33,7 +35,8 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import turning
 
 CHUNK = 384
-"""Poses of one call of the program, enough for one a degree. A call costs as much as some 200 poses of a four-bar."""
+"""Poses of one call of the program, enough for one a degree. A call costs a CPU as much as some 200 poses of a
+four-bar."""
 OFTEN = 3
 """Calls with the same number of poses from which on a program of its own deals out what is found. To do that on the
 host takes 0.1 ms longer, to compile that program some 40."""
@@ -119,8 +122,9 @@ class FormulaSweep:
         if poses == 1:
             dealt, *proven = self.single(self.numbers, lines, rows, finite, on_device)
         else:
-            begins = range(0, poses, CHUNK)
-            chunks = [self.program(self.numbers, lines, _chunk(rows, begin), on_device) for begin in begins]
+            length = CHUNK if poses <= CHUNK else group_for_device(CHUNK)
+            pieces = [_chunk(rows, begin, length) for begin in range(0, poses, length)]
+            chunks = [self.program(self.numbers, lines, piece, on_device) for piece in pieces]
             proven = [chunk.proven for chunk in chunks]
             # before it is known whether all are closed: the processor is at it while Python waits for that
             dealt = None if traced(proven) else self._dealt(chunks, rows, finite)
@@ -149,10 +153,10 @@ def _known_line(system: LoopSystem, line: Line) -> _KnownLine:
     return _KnownLine(line, PassedLine(line.signs, line.windings), *passed_range(system, line))
 
 
-def _chunk(rows: np.ndarray, begin: int) -> np.ndarray:
-    """Cut `CHUNK` poses out of the inputs from `begin` on, the last pose repeated."""
-    chunk = rows[:, begin : begin + CHUNK]
-    padded = np.empty((len(rows), CHUNK), rows.dtype)
+def _chunk(rows: np.ndarray, begin: int, length: int) -> np.ndarray:
+    """Cut `length` poses out of the inputs from `begin` on, the last pose repeated."""
+    chunk = rows[:, begin : begin + length]
+    padded = np.empty((len(rows), length), rows.dtype)
     padded[:, : chunk.shape[1]], padded[:, chunk.shape[1] :] = chunk, chunk[:, -1:]
     return padded
 

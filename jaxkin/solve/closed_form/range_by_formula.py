@@ -47,10 +47,17 @@ from jaxkin.solve.closure.closure import scaled_geometry
 from jaxkin.solve.closure.joint_coordinates import ball_turns, joint_coordinates, unwrap_ball_angles
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.lockstep import any_in_lockstep
+from jaxkin.solve.range.poses import in_groups
 from jaxkin.solve.status import ClosureTolerance, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.joints import Joints
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
+
+SLOPE_GROUP = 2048
+"""Number of poses whose derivatives are computed at once, in long ranges on CPUs."""
+LONG_RANGE = 2**14
+"""Number of poses above which their derivatives are computed in groups, and again in a reverse pass: what that needs of
+100,000 poses is read from memory in place of the cache, which takes two to four times as long."""
 
 
 class FormulaPoses(NamedTuple):
@@ -184,8 +191,16 @@ def _derivative_of_formulas(system: LoopSystem, primals, tangents):
         # what was found is a function of axes and inputs, too, for the next derivative
         rows = _with_derivative(system, *primals)
         d_axes, d_values, _ = tangents
-        slopes = planar_slopes(system, axes, rows, d_axes, d_values)
-        return rows, tuple(jnp.where(closed, slope, 0.0) for slope in slopes)
+
+        def slopes_of(group: tuple[Array, ...]) -> list[Float[Array, " group"]]:
+            d_values, closed, *rows = group
+            slopes = planar_slopes(system, axes, rows, d_axes, d_values)
+            return [jnp.where(closed, slope, 0.0) for slope in slopes]
+
+        poses = (d_values, closed, *rows)
+        if len(closed) > LONG_RANGE:
+            return rows, tuple(in_groups(jax.checkpoint(slopes_of), poses, SLOPE_GROUP))
+        return rows, tuple(slopes_of(poses))
 
     def formulas(axes: Axes, values: Float[Array, "1 poses"]) -> tuple[Float[Array, " poses"], ...]:
         solved = solve_groups(system, axes, list(found.signs), jnp.where(closed, values, 0.0))

@@ -20,6 +20,7 @@ from jax import dtypes
 from jaxtyping import Float
 
 from jaxkin.geometry.trig import TURN
+from jaxkin.solve.device import on_cpu
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import turning
@@ -27,8 +28,7 @@ from jaxkin.solve.system.state import turning
 
 def shard_count(system: LoopSystem, poses: int, options: SolverOptions) -> int:
     """Return the number of shards for a range of `poses`: one if the device is no CPU or nothing is driven."""
-    device = getattr(jax.config, "jax_default_device", None) or jax.default_backend()
-    if not system.driven or getattr(device, "platform", device) != "cpu":
+    if not system.driven or not on_cpu():
         return 1
     return max(1, min(options.cores or available_cores(), poses // options.min_shard_poses))
 

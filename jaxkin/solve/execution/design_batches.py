@@ -15,11 +15,14 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Int
 
+from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import in_lockstep
 
 Result = TypeVar("Result")
 DESIGN_GROUP = 32
-"""Largest number of designs that run in lockstep: so many samples of branches stay in the cache."""
+"""Largest number of designs that run in lockstep on a CPU: so many samples of branches stay in the cache."""
+DEVICE_DESIGNS = 2**12
+"""The same on other devices, which compute poses of all of them side by side."""
 
 
 class _Batch(NamedTuple):
@@ -85,7 +88,7 @@ def _mapped(batch: _Batch) -> Callable:
 
 def _in_groups(batch: _Batch, leaves: tuple[Array, ...]):
     """Solve all designs in groups of equal length, and then again, with limits, the designs that are not done."""
-    groups = -(-batch.size // DESIGN_GROUP)
+    groups = -(-batch.size // group_for_device(DESIGN_GROUP, DEVICE_DESIGNS))
     length = -(-batch.size // groups)
     group_of = in_lockstep(batch.function, (None, *(0 if each else None for each in batch.is_mapped)))
     if groups == 1:
@@ -136,10 +139,9 @@ def by_formulas_in_groups(function: Callable[..., Result]) -> Callable[..., Resu
     def batch(size: int, batched, *args):
         leaves, tree = jax.tree.flatten(args)
         mapped = jax.tree.leaves(tuple(batched))
-        groups = next(
-            (count for count in range(-(-size // DESIGN_GROUP), 2 * size // DESIGN_GROUP + 1) if size % count == 0),
-            -(-size // DESIGN_GROUP),
-        )
+        together = group_for_device(DESIGN_GROUP, DEVICE_DESIGNS)
+        least = -(-size // together)
+        groups = next((count for count in range(least, 2 * size // together + 1) if size % count == 0), least)
         length = -(-size // groups)
 
         def grouped(array: Array) -> Array:

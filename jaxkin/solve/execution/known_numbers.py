@@ -15,6 +15,7 @@ import numpy as np
 from jaxtyping import Array, Float, Int
 
 from jaxkin._traced import traced
+from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.cores import available_cores, run_on_cores, shard_count
 from jaxkin.solve.options import CONTINUATION, SolverOptions
@@ -135,7 +136,7 @@ def _solve(
 
 def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np.ndarray | None]:
     """Sort many poses of a single input, as interpolation needs them, and tell where each is to be put back."""
-    if len(inputs) != 1 or inputs.shape[1] < interpolate_from:
+    if len(inputs) != 1 or inputs.shape[1] < interpolate_from or not on_cpu():
         return inputs, None
     before, after = inputs[0, :-1], inputs[0, 1:]
     if np.all(after >= before) or np.all(after <= before):

@@ -27,6 +27,7 @@ from jaxkin.solve.closed_form.range_by_formula import (
     line_of,
 )
 from jaxkin.solve.correctors.nearest_pose import NearestPoses, nearest_poses
+from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
 from jaxkin.solve.execution.design_batches import all_designs, by_formulas_in_groups
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, solve_numbers
@@ -100,9 +101,9 @@ def project(
 
 
 def by_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:
-    """Tell whether a range is short enough for formulas, where there are some: longer ones are interpolated, which
+    """Tell whether a range is short enough for formulas, where there are some: CPUs interpolate longer ones, which
     costs less a pose."""
-    return _asks_for_formulas(options, inputs) and inputs.shape[-1] < options.interpolate_from
+    return _asks_for_formulas(options, inputs) and (inputs.shape[-1] < options.interpolate_from or not on_cpu())
 
 
 def _asks_for_formulas(options: SolverOptions, inputs: Float[Array | np.ndarray, "*driven poses"]) -> bool:

@@ -15,13 +15,15 @@ from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.correctors.levenberg_marquardt import levenberg_marquardt, select_poses
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS, newton
+from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.status import ClosureTolerance, Scalar, Status, classify, is_closed, rounding_residual
 from jaxkin.solve.system.state import State, difference, drive
 
 DAMPED_GROUP = 32
-"""Number of poses that the damped corrector works on at once: in most groups Newton's method leaves no more open."""
+"""Number of poses that the damped corrector works on at once on CPUs: in most groups Newton's method leaves no more
+open."""
 
 
 def correct_poses(
@@ -62,13 +64,13 @@ def correct_poses(
 def _correct_some(
     problem: ContinuationProblem, state: State, chosen: Bool[Array, " poses"], target_residual: Scalar | float
 ) -> tuple[State, Float[Array, " poses"], Bool[Array, " poses"]]:
-    """Correct the `chosen` poses by damped steps, `DAMPED_GROUP` poses at a time.
+    """Correct the `chosen` poses by damped steps, `DAMPED_GROUP` poses at a time on CPUs.
 
     Returns states, residual norms and which poses are stationary; the entries of poses that are not chosen are
     undefined.
     """
     poses = chosen.shape[0]
-    size = min(DAMPED_GROUP, poses)
+    size = min(group_for_device(DAMPED_GROUP), poses)
     order = jnp.argsort(~chosen)
     count = jnp.sum(chosen)
     begin = jax.tree.map(lambda array: array[..., order], state)

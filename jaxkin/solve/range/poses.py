@@ -10,6 +10,7 @@ import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Float, Int
 
+from jaxkin.solve.device import group_for_device
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State
 
@@ -40,13 +41,15 @@ def group_size(system: LoopSystem) -> int:
 
 
 def in_groups(function: Callable, poses, size: int, axis: int = -1):
-    """Apply a function of poses to all `poses`, in groups of equal length of at most `size` poses.
+    """Apply a function of poses to all `poses`, in groups of equal length of at most `size` poses on a CPU.
+
+    Other devices take all at once, `DEVICE_GROUP` poses at most.
 
     `poses` is a pytree of arrays whose axis `axis`, the last or the first (0), is the poses; the function takes and
     returns such pytrees. With the poses first, groups are cut and joined without a copy of the arrays.
     """
     count = jax.tree.leaves(poses)[0].shape[axis]
-    groups = -(-count // size)
+    groups = -(-count // group_for_device(size))
     if groups <= 1:
         return function(poses)
     length = -(-count // groups)

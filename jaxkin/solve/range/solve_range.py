@@ -12,7 +12,6 @@ from __future__ import annotations
 from functools import partial
 from typing import NamedTuple
 
-import jax
 import jax.numpy as jnp
 from jax import lax
 from jaxtyping import Array, Bool, Float, Int, Shaped
@@ -27,6 +26,7 @@ from jaxkin.solve.continuation.step import reach
 from jaxkin.solve.correctors.chord_newton import CHORD_BATCH, chord_newton
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS
 from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.device import on_cpu
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.implicit_derivative import attach_derivative
@@ -111,8 +111,7 @@ def displacements(
         return joint_coordinates(system, joints.frames_1, joints.frames_2, state.x * lengths, turns)
 
     given = inputs / driven(system, lengths), lax.stop_gradient(poses)
-    size = group if group is not None and jax.default_backend() == "cpu" else max(1, inputs.shape[1])
-    found = in_groups(read, given, size) if system.free else read(given)
+    found = in_groups(read, given, group or max(1, inputs.shape[1])) if system.free else read(given)
     return unwrap_ball_angles(system, found) if system.balls else found
 
 
@@ -136,7 +135,7 @@ def _found(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
 
 
 def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> Poses:
-    """Find the poses of a single input: by interpolation if there are at least `options.interpolate_from` of them."""
+    """Find the poses of a single input: on CPUs by interpolation if there are at least `options.interpolate_from`."""
     values = asked.inputs[0]
 
     def identity(at: Float[Array, " fronts"]) -> tuple[Array, Array]:
@@ -151,7 +150,7 @@ def _of_one_input(system: LoopSystem, options: SolverOptions, asked: _Range) -> 
         return correct_poses(problem, samples, values, values[None], asked.tolerance)
 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
-    if len(values) < options.interpolate_from:
+    if len(values) < options.interpolate_from or not on_cpu():
         return _stalled_unless(kept, one_by_one(values))
     return _stalled_unless(kept, interpolate(problem, samples, values, one_by_one, asked.shard_count))
 
@@ -171,7 +170,7 @@ def _of_several_inputs(system: LoopSystem, options: SolverOptions, asked: _Range
         return correct_poses(problem, samples, at, inputs, asked.tolerance)
 
     one_by_one = partial(in_groups, corrected, size=group_size(system))
-    if len(at) < options.interpolate_from:
+    if len(at) < options.interpolate_from or not on_cpu():
         found = one_by_one((at, inputs))
     else:
         found = in_groups(partial(_of_neighbours, problem, samples, one_by_one), (at, inputs), CHORD_BATCH)

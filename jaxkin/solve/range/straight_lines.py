@@ -18,13 +18,14 @@ from jaxtyping import Array, Bool, Float, Int
 from jaxkin.solve.continuation.step import BEYOND_LIMIT_STEP, reach
 from jaxkin.solve.correctors.levenberg_marquardt import select_poses
 from jaxkin.solve.correctors.problem import ClosureProblem
+from jaxkin.solve.device import group_for_device
 from jaxkin.solve.lockstep import any_in_lockstep
 from jaxkin.solve.range.poses import MAX_CORRECTION, Poses
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.state import State, difference
 
 LINES = 16
-"""Number of lines that are followed together: beside one that meets a limit, more would wait for it."""
+"""Number of lines that are followed together on CPUs: beside one that meets a limit, more would wait for it."""
 CELL = BEYOND_LIMIT_STEP
 """Largest distance along the curve, radians or characteristic lengths, between two poses that are tried."""
 
@@ -49,6 +50,7 @@ def try_straight_lines(
     """
     failed = found.status != Status.CLOSED.value
     poses = failed.shape[0]
+    lines = group_for_device(LINES)
     number, run, cell = jnp.arange(poses), _runs(found), jnp.floor(at / (0.5 * CELL))
     parted = jnp.concatenate([jnp.ones(1, bool), (run[1:] != run[:-1])])
     ends = parted | jnp.roll(parted, -1)
@@ -65,7 +67,7 @@ def try_straight_lines(
     def step(now: _Tried) -> _Tried:
         open_poses = left(now)
         chosen = jnp.where(jnp.any(open_poses & first), open_poses & first, open_poses)
-        which = jnp.argsort(~chosen)[:LINES]
+        which = jnp.argsort(~chosen)[:lines]
         chosen, begun = chosen[which], jax.tree.map(lambda array: array[..., which], now.poses)
         targets = jnp.where(chosen, inputs[:, which], 0.0)
         other = Poses(*reach(problem.system, problem.geometry, targets, problem.options))
