@@ -68,7 +68,7 @@ def of_derivatives(poses: int) -> list[float]:
     turn, inputs = jnp.linspace(0.0, 2 * jnp.pi, 200), jnp.linspace(0.0, 2 * jnp.pi, poses)
 
     def loss(mechanism: jk.Mechanism, inputs: jax.Array) -> jax.Array:
-        return sum(jnp.sum(each**2) for each in mechanism.sweep({"A": inputs}).displacements)
+        return jnp.sum(jnp.concatenate(mechanism.sweep({"A": inputs}).displacements, axis=1) ** 2)
 
     def of_design(bars: jax.Array) -> jax.Array:
         return loss(mechanism.with_lengths(dict(zip(BARS, bars, strict=True))), turn)

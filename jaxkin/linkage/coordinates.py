@@ -89,8 +89,9 @@ def with_finite_inputs(given: tuple[Given, ...]) -> tuple[tuple[Given, ...], Boo
     finite = xp.all(xp.isfinite(xp.stack(given)), axis=0)
     if not len(finite) or (xp is np and finite.all()):
         return given, None
+    numbered = xp.where(finite, xp.arange(len(finite)), -1)
     # `jnp.maximum.accumulate` would be a loop over the poses
-    last = (lax.cummax if xp is jnp else np.maximum.accumulate)(xp.where(finite, xp.arange(len(finite)), -1))
+    last = lax.cummax(jnp.asarray(numbered)) if xp is jnp else np.maximum.accumulate(numbered)
     source = xp.where(last < 0, xp.argmax(finite), last)
     found = []
     for values in given:
