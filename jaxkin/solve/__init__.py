@@ -22,6 +22,7 @@ function is called by the nearest one above it that is indented less. What happe
 13.           `continuation/determinant_sign.py`            refuse a step across which a determinant changed its sign
 14.         `continuation/branch_samples.py` `sample_rows`  keep the poses of the branch; `predict` those between them
 15.       `range/polish.py` `correct_poses`                 predict (14) each pose of the range and correct it (8 to 12)
+            `range/damped_poses.py` `correct_damped`        the damped steps (12) of poses left open, from neighbours
 16.         `status.py` `classify`                          decide the status of each pose from its residual norm
 17.       `range/interpolation.py` `interpolate`            correct (15) a few poses of a long range, and interpolate
           `range/straight_lines.py`                         of several inputs, try what the branch does not reach (6)

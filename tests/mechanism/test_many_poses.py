@@ -57,6 +57,11 @@ def test_limits_inside_the_range_are_found_among_many_poses():
     few = mechanism.sweep({"A": TURN[::37]})
     assert np.array_equal(np.asarray(motion.status)[::37], few.status)
     assert {Status.CLOSED, Status.UNREACHABLE} <= set(np.asarray(motion.status).tolist())
+    # the residual is the least to 1e-5 of itself (`SETTLED_COSINE`), from whichever neighbours it was found
+    beyond = np.asarray(few.status) == Status.UNREACHABLE
+    alone = [float(mechanism.sweep({"A": [each]}).residual[0]) for each in TURN[::37][beyond][::9]]
+    np.testing.assert_allclose(np.asarray(motion.residual)[::37][beyond][::9], alone, rtol=1e-5)
+    np.testing.assert_allclose(np.asarray(few.residual)[beyond][::9], alone, rtol=1e-5)
     closed = np.asarray(few.closed)
     one, other = (np.asarray(m.coordinates["D"])[:, 0] for m in (motion, few))
     np.testing.assert_allclose(one[::37][closed], other[closed], atol=1e-9)  # a pose is ill-conditioned at its limit

@@ -34,7 +34,7 @@ STATIONARY_COSINE = 1e-3
 """Cosine between residual and range of J below which a pose counts as stationary: see `_range_cosine`."""
 SETTLED_COSINE = 1e-5
 """Cosine between residual and range of J below which a pose of an open loop is improved no further: its residual is the
-least to 1e-10 of itself."""
+least to 1e-10 of itself, or to some 1e-6 where it hardly grows along a direction, as that of a double rocker does."""
 OPEN_RESIDUAL = 1e-9
 """Least residual norm of a pose that `SETTLED_COSINE` applies to. Of loops that can close, and come to a singular pose
 by halves, the cosine is the distance from it and the residual norm the square of that: 1e-10 at most."""

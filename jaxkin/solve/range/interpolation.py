@@ -23,12 +23,12 @@ from jaxkin.solve.closure.joint_coordinates import remove_idle_spin
 from jaxkin.solve.continuation.branch_samples import BranchSamples, predict
 from jaxkin.solve.continuation.fronts import ContinuationProblem
 from jaxkin.solve.continuation.input_slopes import input_slopes
-from jaxkin.solve.correctors.levenberg_marquardt import damping_floor
+from jaxkin.solve.correctors.levenberg_marquardt import damping_floor, select_poses
 from jaxkin.solve.correctors.newton import CLOSED_ROUNDINGS, newton
 from jaxkin.solve.correctors.problem import ClosureProblem
 from jaxkin.solve.linear.blocks import inverse_jacobian
 from jaxkin.solve.lockstep import any_in_lockstep
-from jaxkin.solve.range.poses import Poses
+from jaxkin.solve.range.poses import LARGEST_GROUP, Poses, in_groups
 from jaxkin.solve.status import default_tolerance, rounding_residual
 from jaxkin.solve.system.equation_blocks import equation_blocks
 from jaxkin.solve.system.state import State, assembled, difference, drive, rate, retract
@@ -78,12 +78,12 @@ def interpolate(
     problem: ContinuationProblem,
     samples: BranchSamples,
     values: Float[Array, " poses"],
-    correct_segment: Callable[[Float[Array, " segment"]], Poses],
+    correct: Callable[[Float[Array, " group"]], Poses],
     shard_count: int,
 ) -> Poses:
     """Find the poses for sorted values of a single input, which are one of `shard_count` shards of a range.
 
-    `correct_segment` finds the poses of a segment, given its inputs, where its polynomials cannot be trusted.
+    `correct` finds poses, given their inputs, where the polynomials of their segment cannot be trusted.
     """
     system, geometry, dtype, poses = problem.system, problem.geometry, values.dtype, values.shape[0]
     sharp, closes = rounding_residual(dtype, SHARP_ROUNDINGS), rounding_residual(dtype, CLOSED_ROUNDINGS)
@@ -91,7 +91,7 @@ def interpolate(
     length = max(2 ** (poses - 1).bit_length() // max_segments, 1)
     segments = _solved_segments(problem, samples, values, length)
 
-    def fill_segment(number: Array, found: Poses) -> Poses:
+    def fill_segment(number: Array, filled: tuple[Poses, Array]) -> tuple[Poses, Array]:
         first = segments.first[number]
         here = lax.dynamic_slice_in_dim(values, first, length)
         t = (here - segments.middle[number]) / segments.half_width[number]
@@ -109,17 +109,20 @@ def interpolate(
             lambda: (predicted, evaluation.residual_norm, jnp.zeros_like(here)),
         )
         good = segments.trusted[number] & jnp.all((residual_norm <= closes) & (moved <= MAX_CHORD_STEP))
-        segment = lax.cond(
-            any_in_lockstep(~good),
-            lambda: correct_segment(here),
-            lambda: Poses(state, jnp.full(length, segments.status[number]), residual_norm),
-        )
+        segment = Poses(state, jnp.full(length, segments.status[number]), residual_norm), jnp.full(length, ~good)
         return jax.tree.map(
-            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first, axis=-1), found, segment
+            lambda whole, part: lax.dynamic_update_slice_in_dim(whole, part, first, axis=-1), filled, segment
         )
 
+    def corrected(group: tuple[Array, Poses, Array]) -> Poses:
+        here, found, wrong = group
+        return lax.cond(any_in_lockstep(wrong), lambda: select_poses(wrong, correct(here), found), lambda: found)
+
     start = Poses(assembled(system, poses, dtype), jnp.zeros(poses, jnp.int32), jnp.zeros(poses, dtype))
-    return lax.fori_loop(0, len(segments.first), fill_segment, start)
+    found, wrong = lax.fori_loop(0, len(segments.first), fill_segment, (start, jnp.zeros(poses, bool)))
+    return lax.cond(
+        any_in_lockstep(wrong), lambda: in_groups(corrected, (values, found, wrong), LARGEST_GROUP), lambda: found
+    )
 
 
 def _solved_segments(
