@@ -1,5 +1,7 @@
 """Kinds of assemblies that designers draw, each with the joints that it is meant to have: those imported here."""
 
+from drawings import actuated as actuated
+from drawings import adjusted as adjusted
 from drawings import articulated as articulated
 from drawings import balanced as balanced
 from drawings import bodywork as bodywork
@@ -22,6 +24,9 @@ from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import mounted as mounted
 from drawings import office as office
+from drawings import operated as operated
+from drawings import outdoor as outdoor
+from drawings import pivoted as pivoted
 from drawings import powered as powered
 from drawings import reciprocating as reciprocating
 from drawings import road as road
