@@ -97,7 +97,7 @@ def mini_lathe_tailstock(random):
     drawing, play, out = Drawing(["bed"]), random.choice([0.01, 0.03, 0.08]), random.uniform(-15, 5)
     e, lift, tap = random.uniform(0.3, 2.6), random.choice([0.0, 1.0]), random.choice([2.5, 3.0])
     cam, lock, key = at(0, 0, -46), at(-35, -16, 0), at(10, 0, 0)
-    ecc = cam + 2 * at(np.cos(e), 0, np.sin(e))
+    ecc = cam + 1.9 * at(np.cos(e), 0, np.sin(e))
     low, feet, caps = at(ecc[0], 0, -101), [at(x, 0, -50) for x in (-43, 43)], hollow((58, 0, 0), X, 17, 3)
     ridge = laid(prism([(-42, -76), (-35, -69), (-28, -76)], 0, 320), (-170, 0, 0), Y, X)
     bed = [box((-170, s * 22, -100), (150, s * 50, -75)) for s in (-1, 1)]

@@ -169,9 +169,7 @@ def wheelchair_brake(random):
     drawing.add("shoe", cut(cyl(shoe + 27.9 * Z, Z, 9, 60), cyl(shoe + 27 * Z, Z, tap, 20)))
     drawing.add("shoe screw", screw(shoe + 24.1 * Z, Z, 3, 20))
     welds(drawing, "plug > frame tube", "upper clamp > frame tube", "lower clamp > frame tube", "plate > upper clamp")
-    welds(
-        drawing, "stop pin > plate", "grip > lever", "lever bush > lever", "shoulder bolt > plate", "shoe screw > shoe"
-    )
+    welds(drawing, "stop pin > plate", "grip > lever", "lever bush > lever", "shoulder bolt > plate")
     welds(
         drawing,
         "arm bolt > plate",
