@@ -21,6 +21,8 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 MIN_SLANT = 0.1
 """Sine of the angle between two faces that are not parallel, at least: slanting faces of rails have 45 degrees."""
+SAME_DIRECTION = 9
+"""Decimals of unit normals that are one direction: far below the rounding of files."""
 
 
 def loose_slides(known: Known) -> list[Inference]:
@@ -37,7 +39,7 @@ def loose_slides(known: Known) -> list[Inference]:
             owners = frozenset((body[part.name], owner))
             if len(owners) < 2 or owners in tied:
                 continue
-            found = _slide(part, others) or _dovetail(part, others)
+            found = slide_between(part, others) or _dovetail(part, others)
             if found is not None:
                 axis, play = found
                 parts = known.in_order((part.name, others[0].name))
@@ -111,7 +113,7 @@ def _are_across(one: Vector, other: Vector) -> bool:
     return bool(np.linalg.norm(np.cross(one, other)) > ACROSS)
 
 
-def _slide(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
+def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     """Find the direction in which a part slides between faces of others, which are one body, and its largest play.
 
     It is between two walls, and kept from the third direction by other walls or by slanting faces, as a carriage is in
@@ -146,11 +148,13 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     """
     looking = facing(one, others)
     held, middle = walls(looking), one.box.mean(axis=0)
+    tried = set[bytes]()  # by the directions of both faces: all that follows is the same for each two of them
     for k, (first, _, _) in enumerate(looking):
         for second, _, _ in looking[:k]:
-            axis = np.cross(first, second)
-            if np.linalg.norm(axis) <= MIN_SLANT:
+            axis, both = np.cross(first, second), np.round([first, second], SAME_DIRECTION).tobytes()
+            if np.linalg.norm(axis) <= MIN_SLANT or both in tried:
                 continue
+            tried.add(both)
             axis /= np.linalg.norm(axis)
             if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
                 continue
@@ -173,12 +177,11 @@ def _room(faces: Sequence[tuple[Float[np.ndarray, "2"], float]]) -> Float[np.nda
     if np.diff(angles, append=angles[0] + 2 * np.pi).max() >= np.pi - MIN_SLANT:
         return None
     normals, gaps = np.array([normal for normal, _ in faces]), np.array([gap for _, gap in faces])
-    met = [
-        np.linalg.solve(normals[[i, j]], gaps[[i, j]])
-        for i in range(len(faces))
-        for j in range(i)
-        if abs(np.linalg.det(normals[[i, j]])) > MIN_SLANT
-    ]
+    one, other = np.tril_indices(len(faces), -1)
+    turned = normals[one, 0] * normals[other, 1] - normals[one, 1] * normals[other, 0]
+    one, other, turned = (each[np.abs(turned) > MIN_SLANT] for each in (one, other, turned))
+    first, second = gaps[one, None] * normals[other], gaps[other, None] * normals[one]
+    met = np.column_stack([first[:, 1] - second[:, 1], second[:, 0] - first[:, 0]]) / turned[:, None]
     slack = ACROSS * float(np.abs(gaps).max())
-    corners = [shift for shift in met if np.all(normals @ shift <= gaps + slack)]
-    return np.ptp(corners, axis=0) if corners else None
+    corners = met[np.all(met @ normals.T <= gaps + slack, axis=1)]
+    return np.ptp(corners, axis=0) if len(corners) else None
