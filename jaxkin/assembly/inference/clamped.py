@@ -9,6 +9,7 @@ import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis, shared_length
 from jaxkin.assembly.inference.bores import SAME_LENGTH, Bore, merged
+from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.motors import screw_holes
@@ -95,6 +96,11 @@ def _from_axis(hole: Bore, pair: CommonAxis) -> float:
     return abs(float((hole.point - pair.one.point) @ np.cross(hole.axis, pair.one.axis)))
 
 
+def _is_radial(hole: Bore, pair: CommonAxis) -> bool:
+    """Tell whether the axis of a hole across a shaft meets that of the shaft."""
+    return _from_axis(hole, pair) <= FITTED * pair.one.radius
+
+
 def _is_slit(known: Known, hole: Bore, pair: CommonAxis) -> bool:
     """Tell whether the hole of a screw beside a shaft goes across a slit of the hub, which the screw draws together.
 
@@ -131,10 +137,13 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str
 
     One that is wider than the hole of a set screw ends before the axis of the shaft: its tip presses on the shaft.
     """
-    if _from_axis(hole, pair) > FITTED * pair.one.radius:
+    if not _is_radial(hole, pair):
         return None
-    for each in known.axes:
-        if each.other is hole and each.one.part not in pair.parts and not _is_bush(known, each.one):
+    inside = [each for each in known.axes if each.other is hole and not each.virtual]
+    if any(_interlocks(known, each, pair) for each in inside):
+        return None
+    for each in inside:
+        if each.one.part not in pair.parts and not _is_bush(known, each.one):
             places = [float((each.one.point - pair.one.point) @ hole.axis) + side * each.one.half for side in (-1, 1)]
             nearest = 0.0 if places[0] * places[1] < 0 else min(map(abs, places))
             short = nearest - pair.one.radius
@@ -142,6 +151,17 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str
             if is_tip and short <= MAX_SHORTFALL * hole.radius and not _passes(known, each, pair, short, fastening):
                 return each.one.part
     return None
+
+
+def _interlocks(known: Known, pin: CommonAxis, pair: CommonAxis) -> bool:
+    """Tell whether a pin in a hole across a shaft ends between it and another shaft of the same part, as the interlock
+    of a gear shift does: no side is open to tighten it from, and what else is in its hole closes that."""
+    place = float(pair.one.point @ pin.other.axis)
+    low, high = pin.one.reach(pin.other.axis)
+    shafts = [each for each in known.axes if each.other.part == pair.other.part and beside(each.one, pair.one)]
+    crossed = [each for each in shafts if not each.virtual and _is_across(pin.other, each)]
+    ends = [float(each.one.point @ pin.other.axis) for each in crossed if _is_radial(pin.other, each)]
+    return any(min(place, end) < low and high < max(place, end) for end in ends)
 
 
 def _passes(known: Known, screw: CommonAxis, pair: CommonAxis, short: float, fastening: Collection[str]) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.fasteners import Stack, parallel
+from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.geometry.pose import Vector
@@ -33,7 +33,8 @@ def screwed_in(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Find bodies with two or more parallel screws that go through nothing else and point at one other body."""
+    """Find bodies with two or more parallel screws, beside each other, that go through nothing else and point at one
+    other body."""
     body = known.body
     pointing: dict[frozenset[str], list[tuple[Stack, float]]] = {}
     for stack in every:
@@ -45,7 +46,8 @@ def screwed_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
             pointing.setdefault(frozenset((*own, body[found[1]])), []).append((stack, found[0]))
     result = []
     for pair, found in pointing.items():
-        aligned = [each for each in found if parallel(each[0].axis, found[0][0].axis)]
+        first = found[0]
+        aligned = [first, *(each for each in found[1:] if beside(each[0].axis, first[0].axis))]
         if len(aligned) > 1:
             gap = max(distance for _, distance in aligned)
             one, other = parts = known.in_order(pair)
