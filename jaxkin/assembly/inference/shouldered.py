@@ -15,10 +15,10 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Inference]:
     """Join shafts with their nuts and with what is between a nut and a shoulder of the shaft.
 
-    The shoulder is the end of a thicker length, with which the shaft is in another part: it turns there. That of a
-    bolt, its head, is in none. Where a flat of the shaft keeps some of them from turning, as the washers of a friction
-    hinge, what has play on it turns. A ring that is set into another part, too, is a bearing drawn as one ring, and
-    goes with that part: a bush is not clamped.
+    The shoulder is the end of a thicker length, with which the shaft is in another part: it turns there, as a stud does
+    with its ball. That of a bolt, its head, is in none. Where a flat of the shaft keeps some of them from turning, as
+    the washers of a friction hinge, what has play on it turns. A ring that is set into another part, too, is a bearing
+    drawn as one ring, and goes with that part: a bush is not clamped.
     """
     body, result = known.body, []
     for pair in known.axes:
@@ -38,7 +38,7 @@ def pressed_on_shoulders(known: Known, fastening: Collection[str]) -> list[Infer
         seats = {
             each.other.part for each in known.axes if not each.virtual and any(each.one is bore for bore in thicker)
         }
-        if seats - between - {shaft}:
+        if (seats | _sockets(known, shaft)) - between - {shaft}:
             pressed = known.in_order(between - {nut})
             text = f"{nut!r} presses {', '.join(map(repr, pressed))} against a shoulder of {shaft!r}"
             parts = known.in_order({shaft, *between})
@@ -54,6 +54,11 @@ def _pressed(known: Known, nut: str, shaft: str, on: Collection[str], axis: Bore
             shouldered |= other == shaft
             found += [other] if other in on and other not in found else []
     return {*found}, shouldered
+
+
+def _sockets(known: Known, shaft: str) -> set[str]:
+    """Find the parts in which balls of a shaft are."""
+    return {each.hole.part for each in known.sockets if each.ball.part == shaft}
 
 
 def _is_thicker(bore: Bore, thread: Bore) -> bool:

@@ -82,7 +82,8 @@ def riveted_studs(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def screwed_on_ends(known: Known) -> list[Inference]:
-    """Join shafts with the hubs that fit them exactly, and on which the head of a screw in the end of the shaft lies.
+    """Join shafts with the hubs that fit them exactly, and on which a screw in the end of the shaft lies with its head,
+    or with its washer.
 
     A wheel that turns on its axle, kept there by such a screw, has play, or the axle fits elsewhere as tightly.
     """
@@ -95,7 +96,9 @@ def screwed_on_ends(known: Known) -> list[Inference]:
             screw = end.one.part
             if end.virtual or end.other.part != shaft or screw == hub or not end.other.on_axis_of(pair.one):
                 continue
-            if known.touch_across(screw, hub, pair.one.axis):
+            under = {screw, *(each.other.part for each in known.axes if each.one is end.one)} - {shaft, hub}
+            washers = {part for part in under if known.touch_across(screw, part, pair.one.axis)}
+            if any(known.touch_across(part, hub, pair.one.axis) for part in (screw, *washers)):
                 text = f"{screw!r} in the end of {shaft!r} holds {hub!r}, which fits the shaft exactly"
                 result.append(_held(known, pair, text))
     return result
