@@ -135,8 +135,9 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     widest = max(_keepers(known, stack, reach, fits), key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len(reach) == 1:
-        # as a shaft in bushes, also where its collars touch what these are in
-        turns = all(end[2] in known.sleeves for some in reach.values() for end in some)
+        # as a shaft in bushes, also where its collars touch what these are in; a nut is on a sleeve, and not in it
+        in_sleeves = all(end[2] in known.sleeves for some in reach.values() for end in some)
+        turns = in_sleeves and any(not bore.hole for part in stack.fasteners for bore in known.bores[part])
         moves = turns or moves_in_holes(known, stack, low, high, fits[widest] > SAME_FIT * stack.axis.radius)
         return (None, "") if moves else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
@@ -173,14 +174,16 @@ def _keepers(
 
 def _carried(known: Known, stack: Stack, body: Mapping[str, str]) -> str | None:
     """Find the part that a shaft in bushes carries, as its crank: of the only body that is on it without them, and no
-    more loosely; of several that which is not round."""
+    more loosely; of several that which is not round. A body is on it with a bush, too, where that is in a wide hole of
+    it, as the nut of a lead screw is in its slide."""
     own, on = {body[part] for part in stack.fasteners}, {}
     for pair in known.axes:
         if pair.one.part in stack.fasteners and pair.other.part in stack.held and not pair.virtual:
             on.setdefault(body[pair.other.part], []).append(pair)
     others = {owner: pairs for owner, pairs in on.items() if owner not in own}
-    bushed = [owner for owner, pairs in others.items() if all(pair.other.part in known.sleeves for pair in pairs)]
-    loosest = max((pair.clearance for owner in bushed for pair in others[owner]), default=-np.inf)
+    tightest = {owner: min(pairs, key=lambda pair: pair.clearance) for owner, pairs in others.items()}
+    bushed = [owner for owner, pair in tightest.items() if pair.other.part in known.sleeves]
+    loosest = max((tightest[owner].clearance for owner in bushed), default=-np.inf)
     rest = [pair for owner, pairs in others.items() if owner not in bushed for pair in pairs]
     rest = [pair.other.part for pair in rest if pair.clearance <= loosest + SAME_FIT * stack.axis.radius]
     carried = [part for part in rest if not is_round_about(known, part, stack.axis)] or rest

@@ -117,12 +117,14 @@ def _looser(known: Known, pair: CommonAxis) -> float | None:
     """Find the play of another body on the same pin, where that of a pair is none; None where all fit alike.
 
     The pin is held by the hole of another part, as a column in its base: a pin that is alone may turn in what it fits,
-    and pass through the others.
+    and pass through the others. A bush or a nut in another part is there for the pin to move in it, however it fits.
     """
     body, fit = known.body, SAME_FIT * pair.other.radius
     on = [each for each in known.axes if each.one is pair.one and not each.virtual]
     owner = body[pair.one.part]
-    if abs(pair.clearance) > fit or not any(body[each.other.part] == owner for each in on):
+    if abs(pair.clearance) > fit or pair.other.part in known.sleeves:
+        return None
+    if not any(body[each.other.part] == owner for each in on):
         return None
     others = [each.clearance for each in on if body[each.other.part] not in (owner, body[pair.other.part])]
     return max((each for each in others if each > fit), default=None)
