@@ -43,6 +43,7 @@ from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
 from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
+from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
@@ -83,7 +84,7 @@ def infer(
     known.found += [each for each in keyed if each.joint]
     known.add([*keyed_hubs(known), *flatted_hubs(known)])
     known.add(bolted_balls(known))
-    known.add(collets(known))
+    known.add([*collets(known), *self_holding_tapers(known)])
     set_in = sleeves(known)
     driven = driven_sleeves(known, set_in)
     set_in = [each for each in set_in if each.part not in driven]
