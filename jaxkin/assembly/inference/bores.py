@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from jaxtyping import Float
 
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -88,10 +89,7 @@ def _same(one: Cylinder, other: Cylinder) -> bool:
 def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
     corners = np.concatenate([face.triangles for face in faces]).reshape(-1, 3) - surface.point
     along = corners @ surface.axis
-    x = np.cross(surface.axis, np.eye(3)[np.argmin(np.abs(surface.axis))])
-    angles = np.sort(np.arctan2(corners @ np.cross(surface.axis, x), corners @ x))
-    opening = np.diff(angles, append=angles[0] + 2 * np.pi).max()
-    if opening > MAX_OPEN:
+    if opening(corners, surface.axis) > MAX_OPEN:
         return None
     low, high = float(along.min()), float(along.max())
     middle = (low + high) / 2
@@ -109,6 +107,13 @@ def _bore(part: str, surface: Cylinder, faces: Sequence[Face]) -> Bore | None:
         (high - low) / 2,
         merged(spans, SAME_LENGTH * surface.radius),
     )
+
+
+def opening(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
+    """Measure the widest angle about an axis through the origin in which there is no corner, radians."""
+    x = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
+    angles = np.sort(np.arctan2(corners @ np.cross(axis, x), corners @ x))
+    return float(np.diff(angles, append=angles[0] + 2 * np.pi).max())
 
 
 def merged(spans: Iterable[tuple[float, float]], apart: float = 0.0) -> tuple[tuple[float, float], ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import shared_length
-from jaxkin.assembly.inference.bores import Bore
+from jaxkin.assembly.inference.bores import Bore, opening
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -26,7 +26,7 @@ def collets(known: Known) -> list[Inference]:
     result = []
     for pair in known.axes:
         piece, shaft = pair.other, pair.one
-        if pair.virtual or piece.part in known.fixed or not _is_piece(known, piece):
+        if pair.virtual or piece.part in known.fixed or not is_piece(known, piece):
             continue
         if not _has_steps(known, piece, shaft) or any(piece.part in each.parts for each in result):
             continue
@@ -46,12 +46,9 @@ def collets(known: Known) -> list[Inference]:
     return result
 
 
-def _is_piece(known: Known, bore: Bore) -> bool:
+def is_piece(known: Known, bore: Bore) -> bool:
     """Tell whether a part leaves half of the way around an axis open."""
-    corners = known.solids[bore.part].triangles.reshape(-1, 3) - bore.point
-    x = np.cross(bore.axis, np.eye(3)[np.argmin(np.abs(bore.axis))])
-    angles = np.sort(np.arctan2(corners @ np.cross(bore.axis, x), corners @ x))
-    return bool(np.diff(angles, append=angles[0] + 2 * np.pi).max() >= MIN_GAP)
+    return opening(known.solids[bore.part].triangles.reshape(-1, 3) - bore.point, bore.axis) >= MIN_GAP
 
 
 def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:

@@ -32,6 +32,7 @@ from jaxkin.assembly.inference.measured import Measured
 from jaxkin.assembly.inference.motors import motor_shafts
 from jaxkin.assembly.inference.on_rings import clamped_on_rings
 from jaxkin.assembly.inference.one_screw import clamped_by_one_screw
+from jaxkin.assembly.inference.pinned_slides import pinned_slides
 from jaxkin.assembly.inference.retaining_rings import retaining_rings
 from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
@@ -45,6 +46,7 @@ from jaxkin.assembly.inference.spacers import spacers
 from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, standing_rods
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
+from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
 from jaxkin.assembly.inference.undrawn import screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
@@ -124,11 +126,13 @@ def infer(
     known.add(screwed_bodies(known, every))
     known.add(clamped_by_one_screw(known, every))
     known.add(clamped_on_slots(known, every))
+    known.add([*clamped_halves(known), *u_bolts(known)])
 
     # joints between bodies: bearings, balls, shoes, hinges, slides, wheels
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
     known.found += shoes(known)
+    known.add(pinned_slides(known))
     joined = hinges(known, fastening)
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]

@@ -1,0 +1,52 @@
+"""Pins across what slides: a tube that is pulled out of another one is held by the pin through both."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import Bore, opening
+from jaxkin.assembly.inference.hinges import MIN_TURN
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.slides import slide_between
+from jaxkin.assembly.inference.stop_faces import ACROSS
+from jaxkin.assembly.inference.walls import turns
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_OPEN = np.deg2rad(60.0)
+"""The widest angle that a hole leaves open, at most: holes are tessellated by less, the end of a slot is open by half,
+and leaves its pin a stroke."""
+
+
+def pinned_slides(known: Known) -> list[Inference]:
+    """Join bodies of which one is between faces of the other in two directions, so that it only slides, and a pin of
+    the one goes across that through holes of both. A knob of the slide itself may be in a slot."""
+    body, result = known.body, []
+    for pair in known.axes:
+        owners = [body[part] for part in pair.parts]
+        if pair.virtual or owners[0] == owners[1] or not _is_round(known, pair.other):
+            continue
+        on = [each.other.part for each in known.axes if each.one is pair.one and body[each.other.part] == owners[0]]
+        for part, beyond in ((pair.other.part, owners[0]), (on[0], owners[1])) if on else ():
+            one, others = known.solids[part], known.around(known.solids[part], body).get(beyond, [])
+            found = slide_between(one, others)
+            if found is None or abs(float(found[0] @ pair.one.axis)) > ACROSS:
+                continue
+            if turns([one], others, pair.one.point, pair.one.axis) <= MIN_TURN:
+                result.append(_held(known, pair, part, found[1]))
+    return result
+
+
+def _is_round(known: Known, hole: Bore) -> bool:
+    """Tell whether a hole goes all the way round its pin."""
+    faces = [face.triangles for face in known.solids[hole.part].faces if face.name in hole.faces]
+    return opening(np.concatenate(faces).reshape(-1, 3) - hole.point, hole.axis) <= MAX_OPEN
+
+
+def _held(known: Known, pair: CommonAxis, part: str, play: float) -> Inference:
+    pin, other = pair.parts
+    text = f"{pin!r} goes across {other!r}; {part!r} is between faces on both sides in two directions, with a play of "
+    text += f"{play:.2g}, and neither turns on the pin nor slides"
+    evidence = Evidence(EvidenceKind.CLEARANCE, (("clearance", pair.clearance), ("play", play)), text)
+    return Inference(known.in_order(pair.parts), evidence)
