@@ -12,7 +12,7 @@ from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.assembly.inference.walls import MAX_PLAY, between_faces, facing, walls
+from jaxkin.assembly.inference.walls import MAX_PLAY, Looking, between_faces, facing, walls
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
@@ -122,7 +122,7 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
     looking = facing(one, others)
     held = walls(looking)
     for normal, play, width in held:
-        for across, _, _ in looking:
+        for across in _directions(looking):
             axis = np.cross(normal, across)
             if np.linalg.norm(axis) <= MIN_SLANT:
                 continue
@@ -140,6 +140,14 @@ def slide_between(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | N
     return None
 
 
+def _directions(looking: Sequence[Looking]) -> list[Vector]:
+    """List the normals of faces, each direction once."""
+    found: dict[bytes, Vector] = {}
+    for normal, _, _ in looking:
+        found.setdefault((np.round(normal, SAME_DIRECTION) + 0.0).tobytes(), normal)
+    return [*found.values()]
+
+
 def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     """Find the direction in which a part slides between faces of others that slant, and its largest play across.
 
@@ -147,14 +155,12 @@ def _dovetail(one: Part, others: Sequence[Part]) -> tuple[Vector, float] | None:
     little room for what is between them.
     """
     looking = facing(one, others)
-    held, middle = walls(looking), one.box.mean(axis=0)
-    tried = set[bytes]()  # by the directions of both faces: all that follows is the same for each two of them
-    for k, (first, _, _) in enumerate(looking):
-        for second, _, _ in looking[:k]:
-            axis, both = np.cross(first, second), np.round([first, second], SAME_DIRECTION).tobytes()
-            if np.linalg.norm(axis) <= MIN_SLANT or both in tried:
+    held, middle, directions = walls(looking), one.box.mean(axis=0), _directions(looking)
+    for k, first in enumerate(directions):
+        for second in directions[:k]:
+            axis = np.cross(first, second)
+            if np.linalg.norm(axis) <= MIN_SLANT:
                 continue
-            tried.add(both)
             axis /= np.linalg.norm(axis)
             if any(abs(each @ axis) > np.sqrt(1 - ACROSS**2) for each, *_ in held):
                 continue

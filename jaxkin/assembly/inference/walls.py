@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from jaxtyping import Bool, Float
 
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
@@ -35,22 +36,18 @@ def between_faces(one: Part, *others: Part) -> list[tuple[Vector, float]]:
 
 def facing(one: Part, others: Sequence[Part]) -> list[Looking]:
     """Find the faces of a part that look at faces of others: normals, gaps, and where the faces are along them."""
-    return [
-        (a.surface.normal, gap, float(a.surface.point @ a.surface.normal))
-        for a, _, gap in _pairs(one, others)
-        if isinstance(a.surface, Plane)
-    ]
+    found = _opposed(_planes([one]), _planes(others))
+    return [(plane.normal, gap, float(plane.point @ plane.normal)) for plane, _, _, gap in found]
 
 
 def walls(found: Sequence[Looking]) -> list[tuple[Vector, float, float]]:
     """Find the walls on both sides among faces that look at each other: normals, plays, and widths between."""
-    held: list[tuple[Vector, float, float]] = []
-    for k, (normal, gap, place) in enumerate(found):
-        for back, other_gap, other_place in found[:k]:
-            width = abs(place + other_place)
-            if np.linalg.norm(normal + back) < ACROSS and gap + other_gap <= MAX_PLAY * width:
-                held.append((normal, gap + other_gap, width))
-    return held
+    if not found:
+        return []
+    normals, gaps, places = (np.array(each) for each in zip(*found, strict=True))
+    plays, widths = gaps[:, None] + gaps, np.abs(places[:, None] + places)
+    both = np.argwhere(np.tril(_are_opposite(normals, normals) & (plays <= MAX_PLAY * widths), -1))
+    return [(found[i][0], float(plays[i, j]), float(widths[i, j])) for i, j in both.tolist()]
 
 
 def turns(ones: Sequence[Part], others: Sequence[Part], point: Vector, axis: Vector) -> float:
@@ -86,36 +83,53 @@ def is_on_polygon(hub: Part, shaft: Part, point: Vector, axis: Vector) -> bool:
 def _beside(ones: Sequence[Part], others: Sequence[Part], axis: Vector) -> list[tuple[Vector, Face, Face, float]]:
     """Find the plane faces along an axis of a body that look at those of another one, with their normals and gaps."""
     first, second = (
-        [
-            (face.surface.normal, face)
-            for part in parts
-            for face in part.faces
-            if isinstance(face.surface, Plane) and abs(face.surface.normal @ axis) < ACROSS
-        ]
+        [(plane, face) for plane, face in _planes(parts) if abs(plane.normal @ axis) < ACROSS]
         for parts in (ones, others)
     )
-    if not first or not second:
+    return [(plane.normal, a, b, gap) for plane, a, b, gap in _opposed(first, second)]
+
+
+def _planes(parts: Sequence[Part]) -> list[tuple[Plane, Face]]:
+    """List the plane faces of parts."""
+    return [(face.surface, face) for part in parts for face in part.faces if isinstance(face.surface, Plane)]
+
+
+def _opposed(
+    ones: Sequence[tuple[Plane, Face]], others: Sequence[tuple[Plane, Face]]
+) -> list[tuple[Plane, Face, Face, float]]:
+    """Find the plane faces that look at each other: the plane of the first, both faces, and the gap between them.
+
+    Faces that are only beside each other along the normal of the first do not.
+    """
+    if not ones or not others:
         return []
-    normals, against = (np.array([normal for normal, _ in faces]) for faces in (first, second))
-    facing = np.argwhere(np.linalg.norm(normals[:, None] + against, axis=-1) <= ACROSS)
-    pairs = [(*first[i], second[j][1]) for i, j in facing]
-    return [(normal, a, b, gap) for normal, a, b in pairs if (gap := _gap(a, b)) is not None]
+    normals, against = (np.array([plane.normal for plane, _ in faces]) for faces in (ones, others))
+    opposite = _are_opposite(normals, against)
+    found = []
+    for i in np.flatnonzero(opposite.any(axis=1)).tolist():
+        plane, a = ones[i]
+        x = np.cross(plane.normal, np.eye(3)[np.argmin(np.abs(plane.normal))])
+        across = np.column_stack([x, np.cross(plane.normal, x)])
+        span = _span(a, across)
+        for other, b in (others[j] for j in np.flatnonzero(opposite[i]).tolist()):
+            gap = float((other.point - plane.point) @ plane.normal)
+            if gap < -TOUCHING * np.max(span[1] - span[0]):
+                continue
+            against_it = _span(b, across)
+            low, high = np.maximum(span[0], against_it[0]), np.minimum(span[1], against_it[1])
+            if np.all(high > low) and gap >= -TOUCHING * np.max(high - low):
+                found.append((plane, a, b, max(gap, 0.0)))
+    return found
 
 
-def _pairs(one: Part, others: Sequence[Part]) -> list[tuple[Face, Face, float]]:
-    """Find the plane faces of a part that look at plane faces of others, with the gaps between them."""
-    return [(a, b, gap) for a in one.faces for other in others for b in other.faces if (gap := _gap(a, b)) is not None]
+def _are_opposite(
+    ones: Float[np.ndarray, "ones 3"], others: Float[np.ndarray, "others 3"]
+) -> Bool[np.ndarray, "ones others"]:
+    """Tell which unit normals are opposite, to `ACROSS` radians: |a + b|^2 = 2 + 2 a.b."""
+    return ones @ others.T <= ACROSS**2 / 2 - 1
 
 
-def _gap(a: Face, b: Face) -> float | None:
-    """Measure the gap between two faces that look at each other; None where they do not, or only beside each other."""
-    one, other = a.surface, b.surface
-    if not isinstance(one, Plane) or not isinstance(other, Plane) or np.linalg.norm(one.normal + other.normal) > ACROSS:
-        return None
-    gap = float((other.point - one.point) @ one.normal)
-    x = np.cross(one.normal, np.eye(3)[np.argmin(np.abs(one.normal))])
-    across = np.column_stack([x, np.cross(one.normal, x)])
-    first, second = (face.triangles.reshape(-1, 3) @ across for face in (a, b))
-    low, high = np.maximum(first.min(axis=0), second.min(axis=0)), np.minimum(first.max(axis=0), second.max(axis=0))
-    touching = TOUCHING * float(np.max(high - low))
-    return max(gap, 0.0) if np.all(high > low) and gap >= -touching else None
+def _span(face: Face, across: Float[np.ndarray, "3 2"]) -> tuple[Float[np.ndarray, "2"], Float[np.ndarray, "2"]]:
+    """Measure between what places a face is along two directions."""
+    places = face.triangles.reshape(-1, 3) @ across
+    return places.min(axis=0), places.max(axis=0)
