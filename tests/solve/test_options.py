@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import jaxkin as jk
-from jaxkin.solve.execution.compiler import compilations
+from jaxkin.solve.execution.compiler import compilations, known_options
 from reference.mechanisms import planar_fourbar
 
 TURN = np.linspace(0.0, 2 * np.pi, 20)
@@ -125,3 +125,9 @@ def test_effects_are_those_of_the_poses_of_the_motion():
     fine, coarse = (mechanism.sweep({"A": turn}, options=options) for options in (fine, coarse))
     exact, rates = (jk.velocities(motion, {"A": 1.0}).coordinates["D"] for motion in (fine, coarse))
     assert 1e-9 < np.max(np.abs(rates - exact)) < 1e-1
+
+
+def test_compiler_options_that_jax_does_not_know_are_left_out():
+    known = {"xla_cpu_multi_thread_eigen": False}
+    assert known_options(known | {"xla_of_another_version": True}) == known
+    assert known_options({"xla_of_another_version": True}) == {}

@@ -49,12 +49,26 @@ def whole_program(function: Callable, static: tuple[int, ...]) -> Callable:
 
 @cache
 def jit_options() -> dict[str, Any]:
-    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX does not know them."""
+    """Return the compiler options as an argument of `jax.jit`; empty where this version of JAX knows none of them."""
+    known = known_options(COMPILER_OPTIONS)
+    return {"compiler_options": known} if known else {}
+
+
+def known_options(options: dict[str, Any]) -> dict[str, Any]:
+    """Leave out the compiler options that this version of JAX does not know."""
+    if _are_known(*options.items()):
+        return options
+    return {name: value for name, value in options.items() if _are_known((name, value))}
+
+
+@cache
+def _are_known(*options: tuple[str, Any]) -> bool:
+    """Tell whether JAX takes compiler options, given by name and value."""
     try:
-        jax.jit(lambda x: x, compiler_options=COMPILER_OPTIONS)(0.0)
+        jax.jit(lambda x: x, compiler_options=dict(options))(0.0)
     except (TypeError, jax.errors.JaxRuntimeError):
-        return {}
-    return {"compiler_options": COMPILER_OPTIONS}
+        return False
+    return True
 
 
 def compilations() -> int:

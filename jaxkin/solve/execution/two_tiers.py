@@ -10,7 +10,7 @@ from typing import Any
 
 import jax
 
-from jaxkin.solve.execution.compiler import jit_options
+from jaxkin.solve.execution.compiler import COMPILER_OPTIONS, known_options
 
 QUICK = {"xla_backend_optimization_level": 0}
 """Options of XLA in place of those of other programs: LLVM translates, and does not optimise. Residuals and derivatives
@@ -55,6 +55,4 @@ class TwoTiers:
 
 def _compiled(lowered: Any, quick: bool) -> Any:
     """Compile what was lowered, quickly or well; either way with all options of the solver's programs."""
-    options = jit_options().get("compiler_options")
-    # where this version of JAX does not know the options, both are compiled well
-    return lowered.compile(options | QUICK if quick and options is not None else options)
+    return lowered.compile(known_options(COMPILER_OPTIONS | QUICK if quick else COMPILER_OPTIONS))
