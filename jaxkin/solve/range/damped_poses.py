@@ -84,7 +84,7 @@ def _between(
     Returns also at which poses all four nodes are open and stationary, and near each other.
     """
     state, residual_norm, stationary = nodes
-    least = jnp.clip(jnp.searchsorted(nodes_at, at) - 2, 0, len(nodes_at) - 4)
+    least = jnp.clip(jnp.sum(nodes_at[:, None] < at, axis=0) - 2, 0, len(nodes_at) - 4)
     four = least + jnp.arange(4)[:, None]
     places = nodes_at[four]
     ratios = (at - places) / (places[:, None] - places)
