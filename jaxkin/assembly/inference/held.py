@@ -37,8 +37,16 @@ def with_hosts(every: Sequence[Stack], known: Known) -> list[Stack]:
     for stack in every:
         hosts = {part for each in stack.fasteners for part in members[body[each]]} - {*stack.fasteners}
         held = known.in_order({*stack.held, *hosts})
-        result.append(replace(stack, held=held, guides=stack.guides and is_exposed(known, stack)))
+        guides = stack.guides and is_exposed(known, stack) and not _is_tight(known, stack)
+        result.append(replace(stack, held=held, guides=guides))
     return result
+
+
+def _is_tight(known: Known, stack: Stack) -> bool:
+    """Tell whether a stack has an interference in all holes that it is in, as a screw has that cuts its own thread:
+    nothing slides on it."""
+    pairs = [each for each in known.axes if each.one.part in stack.fasteners and each.other.part in stack.held]
+    return all(not each.virtual and each.clearance < -SAME_FIT * each.other.radius for each in pairs)
 
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:

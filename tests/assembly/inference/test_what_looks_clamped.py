@@ -190,3 +190,15 @@ def flank(half, side, out=True):
     )
     normal = np.array([side, 0.0, 1.0]) / np.sqrt(2) * (-1 if out else 1)
     return [(Plane(corners[0], normal), corners[np.array([[0, 1, 2], [0, 2, 3]])])]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("hole", [2.9, 3.02])
+def test_screws_that_cut_their_threads_into_two_plates_hold_both(seed, hole):
+    """Most of each screw is bare between the plates; where its holes are wider, one plate may slide on it."""
+    at = [(-30.0, -10.0), (30.0, -10.0), (-30.0, 10.0), (30.0, 10.0)]
+    base = part("base", *(ring(hole, 8.0, 0, 6, each) for each in at), block((-24, -12, 0), (24, 12, 6)))
+    plate = part("plate", *(ring(hole, 8.0, 40, 46, each) for each in at), block((-24, -12, 40), (24, 12, 46)))
+    screws = [part(f"screw {k}", pin(3.0, -4, 46, each), pin(5.5, 46, 50, each)) for k, each in enumerate(at)]
+    body, _ = of(seed, base, plate, *screws, LEVER)
+    assert (body["plate"] == body["base"]) == (hole < 3.0)
