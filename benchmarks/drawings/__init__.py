@@ -8,6 +8,7 @@ from drawings import bodywork as bodywork
 from drawings import desktop as desktop
 from drawings import devices as devices
 from drawings import driveline as driveline
+from drawings import driven as driven
 from drawings import drives as drives
 from drawings import everyday as everyday
 from drawings import fittings as fittings
@@ -20,6 +21,7 @@ from drawings import hoisting as hoisting
 from drawings import household as household
 from drawings import legs as legs
 from drawings import levered as levered
+from drawings import lifted as lifted
 from drawings import linkages as linkages
 from drawings import machines as machines
 from drawings import mounted as mounted
@@ -33,8 +35,11 @@ from drawings import road as road
 from drawings import robotics as robotics
 from drawings import rolling as rolling
 from drawings import standing as standing
+from drawings import stayed as stayed
 from drawings import swivelling as swivelling
+from drawings import swung as swung
 from drawings import threaded as threaded
 from drawings import turning as turning
 from drawings import vehicles as vehicles
 from drawings import workshop as workshop
+from drawings import wound as wound
