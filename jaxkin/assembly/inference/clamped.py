@@ -28,6 +28,9 @@ MAX_ACROSS = 0.6
 """Radius of the hole of a screw across a shaft, over that of the shaft: those of catalogues have up to a half."""
 MAX_TIP = 1.5
 """The same of a screw that is drawn and ends at the shaft: M2 to M3 on motor shafts, needles and wires of 1 to 2 mm."""
+MAX_WALL = 0.25
+"""Wall between the hole of a screw and that of the shaft, over the radius of the latter, at most: holes of thin shafts
+are drawn a tenth of a millimetre short."""
 MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
@@ -83,8 +86,16 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def _is_across(hole: Bore, pair: CommonAxis) -> bool:
-    """Tell whether a hole of a hub stands across its shaft, where the shaft is: radial, or beside it."""
+    """Tell whether a hole of a hub stands across its shaft, where the shaft is: radial, or beside it.
+
+    It comes out at the shaft: a hole that ends before that, as the bore of a cylinder does before the eye in its end,
+    leaves a wall between what is in it and the shaft.
+    """
     if abs(float(hole.axis @ pair.one.axis)) > ACROSS or hole.radius > MAX_TIP * pair.one.radius:
+        return False
+    first, last = hole.reach(hole.axis)
+    middle = float(pair.other.point @ hole.axis)
+    if max(first - middle, middle - last) > (1 + MAX_WALL) * pair.other.radius:
         return False
     height = float(hole.point @ pair.one.axis)
     (low, high), (first, last) = pair.one.reach(pair.one.axis), pair.other.reach(pair.one.axis)

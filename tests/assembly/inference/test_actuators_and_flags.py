@@ -1,0 +1,28 @@
+"""Barrels of cylinders and actuators, pins with flags under screws, sliders in tracks, pinched steerers, pressed cups.
+
+Each is drawn with a known truth, at a place, a size and in an order at random: these change nothing.
+"""
+
+import pytest
+
+from reference.round_parts import across, anywhere, assembly, block, owners, part, pin, ring
+
+PIVOT = pin(4.0, 0, 20, (100.0, 60.0))
+LEVER = part("lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
+"""Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
+
+
+def of(seed, *parts):
+    mechanism = anywhere(assembly(*parts), seed).mechanism(fixed=["base"])
+    return owners(mechanism), mechanism
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("floor", "held"), [(30.0, False), (18.0, True)])
+def test_what_ends_behind_the_floor_of_its_bore_is_no_screw_on_the_bush_beyond(seed, floor, held):
+    """The piston of a cylinder is not, with the wall of the eye between; a set screw in a hole that comes out is."""
+    base = part("base", ring(19.0, 28.0, -20, 20), across(ring(10.0, 16.0, floor, 150)), PIVOT)
+    bush = part("bush", pin(18.97, -20, 20))
+    rod = part("rod", across(pin(9.95, 35 if floor > 20 else 19, 200)))
+    _, mechanism = of(seed, base, bush, rod, LEVER)
+    assert any("the screw 'rod' holds" in note for note in mechanism.history) == held
