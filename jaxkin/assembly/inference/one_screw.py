@@ -30,7 +30,7 @@ class _Clamped(NamedTuple):
     inner: CommonAxis
     """The screw and the hole of the host."""
     turning: tuple[str, ...]
-    """Which of the two turn on the screw if they are links: the one with the wider hole, or both."""
+    """Which of the two turn on the screw if they are links: the one with the wider hole, or both; none with a flag."""
     why: str
 
 
@@ -42,6 +42,7 @@ def clamped_by_one_screw(known: Known, every: Sequence[Stack]) -> list[Inference
     hole as wide. Where the screw is in a hole drilled for its thread, a second pin beside it serves as well as the flat
     faces, as that of an adjusting screw: the part cannot turn, and the head keeps it from sliding off.
     A bar with such screws into several bodies is a link, which turns on them; so are levers, and leaves on two screws.
+    A pin with a flag under a screw, itself in a hole of what the screw is tight in, turns on neither.
     Where nothing of that is drawn, either may be meant: the text says how to have the hinge.
     """
     body = known.body
@@ -116,10 +117,11 @@ def _under_head(known: Known, stack: Stack, body: Mapping[str, str]) -> list[_Cl
         for part, pair in holes.items():
             apart = body[part] != body[host] and pair.one.part == screw
             if apart and lies_across(known, part, stack):
-                flat = _is_wide(pair) and known.lie_flat(part, host, inner.one.axis)
+                flag = _is_flag(known, part, host, inner)
+                flat = _is_wide(pair) and known.lie_flat(part, host, inner.one.axis, pins=not flag)
                 if flat or _beside(known, part, host, inner, body):
                     why = f"{screw!r} is tight in {host!r}, and its head lies on {part!r}, through which it goes"
-                    result.append(_Clamped(part, host, pair, inner, (part,), why))
+                    result.append(_Clamped(part, host, pair, inner, () if flag else (part,), why))
     return result
 
 
@@ -149,6 +151,12 @@ def _holes(known: Known, stack: Stack) -> dict[str, CommonAxis]:
 
 def _is_wide(pair: CommonAxis) -> bool:
     return pair.clearance >= THROUGH * pair.other.radius
+
+
+def _is_flag(known: Known, part: str, host: str, inner: CommonAxis) -> bool:
+    """Tell whether a part is a pin in a hole of the host of a screw, beside the screw."""
+    pins = (pair for pair in known.axes if pair.parts == (part, host) and not pair.virtual)
+    return any(beside(pair.one, inner.one) for pair in pins)
 
 
 def _beside(known: Known, one: str, other: str, inner: CommonAxis, body: Mapping[str, str]) -> bool:

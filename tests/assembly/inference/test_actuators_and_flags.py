@@ -26,3 +26,19 @@ def test_what_ends_behind_the_floor_of_its_bore_is_no_screw_on_the_bush_beyond(s
     rod = part("rod", across(pin(9.95, 35 if floor > 20 else 19, 200)))
     _, mechanism = of(seed, base, bush, rod, LEVER)
     assert any("the screw 'rod' holds" in note for note in mechanism.history) == held
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("screw_at", "held"), [(30.0, True), (None, False)])
+def test_a_screw_through_its_flag_keeps_a_pin_from_turning(seed, screw_at, held):
+    """The pin fits the ear in which it is, and would turn there without the screw, with what is tight on it."""
+    at = (0.0, 30.0)
+    base = part("base", ring(10.0, 20.0, 0, 20), ring(3.0, 8.0, 0, 20, at), PIVOT)
+    flag = [ring(3.4, 8.0, 20, 26, at), block((-8, 8, 20), (8, 22, 26))]
+    parts = [
+        part("flagged", pin(10.0, -40, 26), *flag),
+        part("link", ring(10.1, 20.0, -30, -10), block((18, -5, -30), (90, 5, -10))),
+    ]
+    parts += [part("screw", pin(3.0, 4, 26, at), pin(5.0, 26, 30, at))] if screw_at else []
+    body, _ = of(seed, base, *parts, LEVER)
+    assert (body["flagged"] == body["base"]) == held and body["link"] != body["base"]
