@@ -11,6 +11,7 @@ from jaxkin.assembly.inference.fasteners import Stack
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import crossings
+from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.geometry.part import Face, Part
 from jaxkin.geometry.pose import Vector
@@ -27,9 +28,9 @@ def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
 
     What lies there is no screw or pin itself: one that ends on the floor of a channel draws nothing onto its edges.
     The slot has a floor below the screw, as profiles have; a slot that a pin slides in is cut through, or filled by the
-    pin.
+    pin. A rivet that stands on the floor of its hole in a slider ends there, and not in the slot below.
     """
-    body = known.body
+    body, on = known.body, on_floors(known)
     flat: dict[frozenset[str], list[tuple[Vector, tuple[str, str]]]] = {}
     elsewhere, fastening = set(), {part for stack in every for part in stack.fasteners}
     for contact in known.contacts:
@@ -42,8 +43,8 @@ def clamped_on_slots(known: Known, every: Sequence[Stack]) -> list[Inference]:
     for stack in every:
         owner = body[stack.fasteners[0]]
         axis = max((bore for name in stack.fasteners for bore in known.bores[name]), key=lambda bore: bore.half)
-        if any(bore.hole for bore in known.bores[axis.part]):
-            continue  # a nut, or a washer: their outside is that of no screw
+        if any(bore.hole for bore in known.bores[axis.part]) or axis.part in on:
+            continue  # the outside of a nut or a washer is that of no screw, and what stands in a hole ends there
         for part in known.parts:
             pair = frozenset((owner, body[part.name]))
             lying = [] if len(pair) < 2 or pair in elsewhere else flat.get(pair, [])

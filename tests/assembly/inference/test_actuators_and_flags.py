@@ -42,3 +42,16 @@ def test_a_screw_through_its_flag_keeps_a_pin_from_turning(seed, screw_at, held)
     parts += [part("screw", pin(3.0, 4, 26, at), pin(5.0, 26, 30, at))] if screw_at else []
     body, _ = of(seed, base, *parts, LEVER)
     assert (body["flagged"] == body["base"]) == held and body["link"] != body["base"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("depth", "held"), [(-3.0, False), (-6.0, True)])
+def test_a_rivet_that_ends_in_its_slider_clamps_that_on_no_slot(seed, depth, held):
+    """One that goes on into the slot, as a screw does into a profile, does."""
+    walls = [block((-60, 6, -7), (60, 12, 0)), block((-60, -12, -7), (60, -6, 0)), block((-60, -12, -20), (60, 12, -7))]
+    base = part("base", *walls, PIVOT)
+    plate = [ring(3.0, 8.0, 0, 10), block((-20, -11, 0), (-8, 11, 10))]
+    plate += [] if held else [ring(3.0, 5.0, depth, 0), block((-5, -5, -5), (5, 5, depth))]
+    rivet = part("rivet", pin(3.0, depth, 14), pin(5.0, 14, 17))
+    _, mechanism = of(seed, base, part("slider", *plate), rivet, LEVER)
+    assert any("ends in a slot" in note for note in mechanism.history) == held
