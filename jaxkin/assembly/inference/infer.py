@@ -38,7 +38,14 @@ from jaxkin.assembly.inference.screwed import screwed_bodies, screwed_in
 from jaxkin.assembly.inference.set_on import set_on_pins
 from jaxkin.assembly.inference.shoes import shoes
 from jaxkin.assembly.inference.shouldered import pressed_on_shoulders
-from jaxkin.assembly.inference.sleeves import driven_sleeves, hollow_axles, seated_sleeves, sleeves, sliding_rods
+from jaxkin.assembly.inference.sleeves import (
+    barrels,
+    driven_sleeves,
+    hollow_axles,
+    seated_sleeves,
+    sleeves,
+    sliding_rods,
+)
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.slides import guided_on_faces, loose_slides
 from jaxkin.assembly.inference.slotted import clamped_on_slots
@@ -97,7 +104,7 @@ def infer(
 
     # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
     fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
-    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven
+    fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(known, set_in)
     fastening -= rollers(known, fastening)
     known.add([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
     known.add(locked_threads(known, fastening))

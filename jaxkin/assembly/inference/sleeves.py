@@ -24,6 +24,9 @@ MIN_HOLLOW = 0.8
 """Share of the length of a sleeve that its holes have, at least: the rest is chamfers."""
 GROOVE = 0.5
 """Play of a ring along the groove that it is in, over its width, at most."""
+RIB = 1.2
+"""Farthest a sleeve reaches from its axis, over its radius: with the rib of a nut that a slot keeps from turning. Keys
+of DIN 6885 stand out of the shaft by up to a fifth of its radius."""
 FLUSH = 0.1
 """A sleeve that ends where its hole does, within so much over its radius, is set into the hole from there."""
 
@@ -51,7 +54,7 @@ def sleeves(known: Known) -> list[Sleeve]:
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]
         if not any(bore.hole for bore in own) or _carries(known, name, housing):
             continue
-        if is_round(known, name, own) and is_hollow(known, name, own):
+        if is_round(known, name, own, RIB) and is_hollow(known, name, own):
             through = [pair for pair in pins if pair.other.part == name and pair.other in own]
             pin = min(through, key=lambda pair: (abs(pair.clearance), -engaged(pair)), default=None)
             result.append(Sleeve(name, housing, pin))
@@ -111,6 +114,12 @@ def sliding_rods(known: Known, found: list[Sleeve]) -> set[str]:
     return {each.pin.one.part for each in found if each.pin and _is_shared(known, each)}
 
 
+def barrels(known: Known, found: list[Sleeve]) -> set[str]:
+    """Find the tubes with a sleeve in the end of their hole and something through that: the gland of a cylinder or an
+    actuator. A tube is no nut of what is in it."""
+    return {each.housing.other.part for each in found if each.pin and _is_flush(each.housing)}
+
+
 def _is_shared(known: Known, sleeve: Sleeve) -> bool:
     """Tell whether the part in a sleeve is also in the hole that the sleeve is in."""
     if sleeve.pin is None:
@@ -136,12 +145,13 @@ def hollow_axles(known: Known) -> set[str]:
     return result
 
 
-def is_round(known: Known, name: str, own: list[Bore]) -> bool:
-    """Tell whether a part with these bores is round about the axis of its widest pin."""
+def is_round(known: Known, name: str, own: list[Bore], most: float = ROUND) -> bool:
+    """Tell whether a part with these bores is round about the axis of its widest pin, from which it reaches no farther
+    than `most` of the radius of that."""
     widest = max((bore for bore in own if not bore.hole), key=lambda bore: bore.radius)
     corners = known.solids[name].outermost - widest.point
     away = np.linalg.norm(corners - np.outer(corners @ widest.axis, widest.axis), axis=1)
-    return bool(away.max() <= ROUND * widest.radius)
+    return bool(away.max() <= most * widest.radius)
 
 
 def is_round_about(known: Known, part: str, axis: Bore) -> bool:

@@ -55,3 +55,25 @@ def test_a_rivet_that_ends_in_its_slider_clamps_that_on_no_slot(seed, depth, hel
     rivet = part("rivet", pin(3.0, depth, 14), pin(5.0, 14, 17))
     _, mechanism = of(seed, base, part("slider", *plate), rivet, LEVER)
     assert any("ends in a slot" in note for note in mechanism.history) == held
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("rib", "held"), [(1.0, True), (6.0, False)])
+def test_a_nut_with_a_rib_is_set_into_its_tube_and_its_spindle_turns(seed, rib, held):
+    """What reaches farther than a key is no sleeve."""
+    tube = part("tube", ring(10.0, 13.0, 0, 100), block((-5, -40, 90), (5, -12, 100)))
+    nut = part("nut", ring(6.0, 17.0, -15, 0), ring(6.0, 10.0, 0, 12), block((16, -3, -15), (17 + rib, 3, 0)))
+    base = part("base", ring(17.05, 21.0, -100, 60), block((-30, -30, -120), (30, 30, -110)), PIVOT)
+    spindle = part("spindle", pin(6.0, -90, 90), block((-4, -9, -100), (4, 9, -90)))
+    body, mechanism = of(seed, base, tube, nut, spindle, LEVER)
+    assert any("the sleeve 'nut' is set into" in note for note in mechanism.history) == held
+    assert not held or body["nut"] == body["tube"] != body["spindle"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_the_tube_of_an_actuator_is_no_nut_of_the_one_that_slides_in_it(seed):
+    base = part("base", block((-30, -30, -120), (30, 30, -100)), PIVOT)
+    outer, gland = part("outer", ring(17.0, 21.0, -100, 60)), part("gland", ring(13.05, 17.0, 50, 60))
+    inner = part("inner", pin(16.95, -60, -40), pin(13.0, -40, 100), block((-5, -40, 100), (5, 40, 110)))
+    body, _ = of(seed, base, outer, gland, inner, LEVER)
+    assert body["gland"] == body["outer"] != body["inner"]
