@@ -25,12 +25,16 @@ def half_hole(radius, low, high, side):
 
 
 @pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(("gap", "held"), [(1.0, True), (0.0, False)])
-def test_halves_with_a_gap_between_them_clamp_the_tube_that_their_screws_draw_them_onto(seed, gap, held):
-    """Those of a bearing lie on each other, and their screws do not press on the shaft."""
+@pytest.mark.parametrize(("gap", "beside", "held"), [(1.0, False, True), (1.0, True, True), (0.0, False, False)])
+def test_halves_with_a_gap_between_them_clamp_the_tube_that_their_screws_draw_them_onto(seed, gap, beside, held):
+    """Those of a bearing lie on each other, and their screws do not press on the shaft.
+
+    What one of them has beside the tube, such as the stem of a handlebar, is of no matter.
+    """
     base, spots = part("base", pin(11.0, -150, 150), PIVOT), [(0.0, 18.0), (0.0, -18.0)]
     upper = [across(ring(3.2, 6.0, gap / 2, 17, at)) for at in spots]
     lower = [across(ring(2.5, 6.0, -17, -gap / 2, at)) for at in spots]
+    lower += [block((-17, 30, -10), (40, 60, 10))] if beside else []
     halves = part("upper", half_hole(11.0, -20, 20, 1), *upper), part("lower", half_hole(11.0, -20, 20, -1), *lower)
     screws = [part(f"screw {k}", across(pin(3.0, -14, 17, at), pin(5.0, 17, 22, at))) for k, at in enumerate(spots)]
     body, mechanism = of(seed, base, *halves, *screws, LEVER)
