@@ -45,8 +45,9 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
     in any hub; those of round hubs also where only their holes are drawn, radial ones and those of clamps beside the
     shaft. A pin of a slit that is in a lever, too, is that of a quick release, which clamps nothing for good.
 
-    Only with shafts that are round, and with posts under a set screw: where shaft and motor are one solid, it is the
-    hub that turns on it. A post has no screw holes round about it as a motor has, and stands on the floor of its hole.
+    Only with shafts that are round, and with posts: where shaft and motor are one solid, it is the hub that turns on
+    it. A post has no screw holes round about it as a motor has, and stands on the floor of its hole under a set screw,
+    or in a slit whose screw is drawn, as the steerer of a fork does.
     """
     result, on = [], on_floors(known)
     near = DRAWN_TOGETHER
@@ -61,14 +62,16 @@ def clamped_hubs(known: Known, fastening: Collection[str]) -> list[Inference]:
         own = [bore for bore in known.bores[shaft] if bore.on_axis_of(pair.one)]
         crossing = [bore for bore in known.bores[hub] if bore.hole and _is_across(bore, pair)]
         turned = is_round(known, shaft, own)
-        if not crossing or not (turned or (hub in on.get(shaft, ()) and not screw_holes(known.bores[shaft], pair.one))):
+        across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
+        slits = [bore for bore in across if _is_slit(known, bore, pair)]
+        pinched = any(inside.get(id(bore)) for bore in slits)
+        post = (pinched or hub in on.get(shaft, set())) and not screw_holes(known.bores[shaft], pair.one)
+        if not crossing or not (turned or post):
             continue
         screws = [screw for bore in crossing if (screw := _screw(known, bore, pair, fastening)) is not None]
-        if not turned and not screws:
+        if not turned and not (screws or pinched):
             continue
-        across = [bore for bore in crossing if bore.radius <= MAX_ACROSS * pair.one.radius]
         around = [bore for bore in known.bores[hub] if bore.on_axis_of(pair.other)]
-        slits = [bore for bore in across if _is_slit(known, bore, pair)]
         slit = any(not _is_released(known, inside.get(id(bore), ()), {*pair.parts, *fastening}) for bore in slits)
         fitted = abs(pair.clearance) <= FITTED * pair.other.radius
         alone = hub not in housed and any(not bore.hole for bore in around) and is_round(known, hub, around)

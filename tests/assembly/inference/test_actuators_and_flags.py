@@ -58,6 +58,20 @@ def test_a_rivet_that_ends_in_its_slider_clamps_that_on_no_slot(seed, depth, hel
 
 
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("kind", "held"), [("steerer", True), ("motor", False), ("loose", False)])
+def test_a_screw_across_a_slit_pinches_a_steerer_but_no_motor(seed, kind, held):
+    """The steerer is one solid with the crown of its fork; what has screw holes round about its shaft is a motor."""
+    ears = [across(ring(1.5, 3.0, low, low + 7, (0.0, 14.0))) for low in (-8, 1)]
+    hub = part("hub", ring(5.0, 12.0, -10, 10), *ears, block((-40, -40, -10), (40, -12, 10)))
+    spots = [(sx * 12.0, sy * 12.0) for sx in (-1, 1) for sy in (-1, 1)]
+    holes = [ring(1.25, 2.0, -90, -70, at) for at in spots] if kind == "motor" else []
+    base = part("base", pin(5.0, -70, 12), block((-18, -30, -90), (18, 30, -70)), *holes, PIVOT)
+    screws = [] if kind == "loose" else [part("screw", across(pin(1.5, -8, 8, (0.0, 14.0))))]
+    body, _ = of(seed, base, hub, *screws, LEVER)
+    assert (body["hub"] == body["base"]) == held
+
+
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("rib", "held"), [(1.0, True), (6.0, False)])
 def test_a_nut_with_a_rib_is_set_into_its_tube_and_its_spindle_turns(seed, rib, held):
     """What reaches farther than a key is no sleeve."""
