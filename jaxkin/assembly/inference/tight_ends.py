@@ -28,7 +28,8 @@ a fork has 1.9."""
 
 
 def pressed_pins(known: Known) -> list[Inference]:
-    """Join pins with the part that they are pressed into, where they are in another part without interference.
+    """Join pins with the part that they are pressed into, where that is the only one or they have no interference in
+    others.
 
     An interference over a length is friction that nothing turns against; who draws one part tight and the other one
     not means the difference. Where pin and hole are unlike by a standard of inches or by a slip, all parts on the pin
@@ -37,7 +38,7 @@ def pressed_pins(known: Known) -> list[Inference]:
     result = []
     for pair in known.axes:
         pin, host = pair.parts
-        if _is_pressed(known, pair) and _is_free_elsewhere(known, pair):
+        if _is_pressed(known, pair) and _is_pressed_nowhere_else(known, pair):
             text = f"{pin!r} is pressed into {host!r} with an interference of {-pair.clearance:.2g}"
             result.append(_held(known, pair, text))
     return result
@@ -50,9 +51,8 @@ def _is_pressed(known: Known, pair: CommonAxis) -> bool:
     return fit and engaged(pair) >= MIN_PRESSED * radius and frozenset(pair.parts) not in known.pinned
 
 
-def _is_free_elsewhere(known: Known, pair: CommonAxis) -> bool:
-    """Tell whether a pin is in a hole of a third body, on the same axis, without interference, and pressed into none
-    but the part of its pair."""
+def _is_pressed_nowhere_else(known: Known, pair: CommonAxis) -> bool:
+    """Tell whether a pin has no interference in the holes of third bodies on the same axis."""
     body = known.body
     on = [
         each
@@ -60,7 +60,7 @@ def _is_free_elsewhere(known: Known, pair: CommonAxis) -> bool:
         if each.one.part == pair.one.part and not each.virtual and each.one.on_axis_of(pair.one)
         if body[each.other.part] not in {body[part] for part in pair.parts}
     ]
-    return bool(on) and all(each.clearance > -MIN_PRESS * each.other.radius for each in on)
+    return all(each.clearance > -MIN_PRESS * each.other.radius for each in on)
 
 
 def riveted_studs(known: Known, fastening: Collection[str]) -> list[Inference]:

@@ -72,6 +72,16 @@ def test_a_screw_across_a_slit_pinches_a_steerer_but_no_motor(seed, kind, held):
 
 
 @pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("radius", "held"), [(8.01, True), (8.0, False)])
+def test_a_cup_with_interference_is_pressed_into_its_only_hole(seed, radius, held):
+    """With an exact fit nothing that is drawn keeps it from turning."""
+    base = part("base", ring(8.0, 14.0, 0, 8), PIVOT)
+    cup = part("cup", pin(radius, 0, 8), block((-5, -12, 8), (5, 12, 14)))
+    _, mechanism = of(seed, base, cup, LEVER)
+    assert any("'cup' is pressed into 'base'" in note for note in mechanism.history) == held
+
+
+@pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize(("rib", "held"), [(1.0, True), (6.0, False)])
 def test_a_nut_with_a_rib_is_set_into_its_tube_and_its_spindle_turns(seed, rib, held):
     """What reaches farther than a key is no sleeve."""
