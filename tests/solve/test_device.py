@@ -2,6 +2,8 @@
 
 import sys
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -48,3 +50,15 @@ def test_poses_do_not_depend_on_their_groups(make, drive, formulas, rounding, mo
         # radians: poses are closed to rounding, of which they differ by the root beside a limit
         wanted = np.asarray(grouped.coordinates[name])[:-1]
         np.testing.assert_allclose(np.asarray(values)[closed], wanted[closed], atol=rounding, err_msg=name)
+
+
+def test_no_loop_runs_over_the_poses_inside_jit():
+    """A GPU would take one step of it after another: `jnp.maximum.accumulate` is such a loop."""
+    mechanism, poses = mechanisms.planar_fourbar(), 1009
+
+    def loss(inputs):
+        motion = mechanism.sweep({"A": inputs})
+        return jnp.sum(motion.coordinates["D"] ** 2) + jnp.sum(motion.points("coupler", (1.0, 2.0, 0.0)))
+
+    for function in (loss, jax.grad(loss)):
+        assert f"length={poses}" not in str(jax.make_jaxpr(function)(jnp.linspace(0.0, 6.0, poses)))

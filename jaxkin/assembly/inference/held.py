@@ -46,7 +46,7 @@ def _is_tight(known: Known, stack: Stack) -> bool:
     """Tell whether a stack has an interference in all holes that it is in, as a screw has that cuts its own thread:
     nothing slides on it."""
     pairs = [each for each in known.axes if each.one.part in stack.fasteners and each.other.part in stack.held]
-    return all(not each.virtual and each.clearance < -SAME_FIT * each.other.radius for each in pairs)
+    return bool(pairs) and all(not each.virtual and each.clearance < -SAME_FIT * each.other.radius for each in pairs)
 
 
 def bolted_bodies(known: Known, every: Sequence[Stack]) -> list[Inference]:
