@@ -103,15 +103,15 @@ def _opposed(
     """
     if not ones or not others:
         return []
-    normals, against = (np.array([plane.normal for plane, _ in faces]) for faces in (ones, others))
-    opposite = _are_opposite(normals, against)
-    found = []
-    for i in np.flatnonzero(opposite.any(axis=1)).tolist():
-        plane, a = ones[i]
+    against, found = np.array([plane.normal for plane, _ in others]), []
+    for plane, a in ones:
+        opposite = np.flatnonzero(_are_opposite(plane.normal[None], against)[0]).tolist()
+        if not opposite:
+            continue
         x = np.cross(plane.normal, np.eye(3)[np.argmin(np.abs(plane.normal))])
         across = np.column_stack([x, np.cross(plane.normal, x)])
         span = _span(a, across)
-        for other, b in (others[j] for j in np.flatnonzero(opposite[i]).tolist()):
+        for other, b in (others[k] for k in opposite):
             gap = float((other.point - plane.point) @ plane.normal)
             if gap < -TOUCHING * np.max(span[1] - span[0]):
                 continue
