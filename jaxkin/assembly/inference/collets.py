@@ -50,7 +50,7 @@ def is_piece(known: Known, bore: Bore) -> bool:
     """Tell whether a bore leaves half of the way around its axis open, whatever else its part has."""
     faces = [each for each in known.solids[bore.part].faces if each.name in bore.faces]
     corners = np.concatenate([each.triangles.reshape(-1, 3) for each in faces])
-    return opening(corners - bore.point, bore.axis) >= MIN_GAP
+    return bool(opening(corners - bore.point, bore.axis) >= MIN_GAP)
 
 
 def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:

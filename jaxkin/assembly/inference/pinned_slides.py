@@ -41,7 +41,7 @@ def pinned_slides(known: Known) -> list[Inference]:
 def _is_round(known: Known, hole: Bore) -> bool:
     """Tell whether a hole goes all the way round its pin."""
     faces = [face.triangles for face in known.solids[hole.part].faces if face.name in hole.faces]
-    return opening(np.concatenate(faces).reshape(-1, 3) - hole.point, hole.axis) <= MAX_OPEN
+    return bool(opening(np.concatenate(faces).reshape(-1, 3) - hole.point, hole.axis) <= MAX_OPEN)
 
 
 def _held(known: Known, pair: CommonAxis, part: str, play: float) -> Inference:
