@@ -21,7 +21,7 @@ from jaxkin.effects.pin_play import with_pins_moved
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.pose import Pose
-from jaxkin.solve.device import on_cpu
+from jaxkin.solve.device import group_for_device, on_cpu
 from jaxkin.solve.execution.cores import available_cores
 from jaxkin.solve.options import SolverOptions
 
@@ -105,8 +105,7 @@ def evaluate(
     poses: int,
 ) -> tuple[Float[np.ndarray, " designs"], Bool[np.ndarray, " designs"]]:
     """Evaluate many designs: values, NaN where a design is not reached, and which are."""
-    cpu = on_cpu()
-    length = min(len(designs), max(1, (BATCH_POSES if cpu else DEVICE_POSES) // max(poses, 1)))
+    length = min(len(designs), max(1, group_for_device(BATCH_POSES, DEVICE_POSES) // max(poses, 1)))
     count = -(-len(designs) // length)
     padded = np.concatenate([designs, np.repeat(designs[-1:], count * length - len(designs), axis=0)])
     x64, device = dtypes.canonicalize_dtype(float) == jnp.float64, getattr(jax.config, "jax_default_device", None)
@@ -117,7 +116,7 @@ def evaluate(
 
     first, *others = np.split(padded, count)
     found = [run(first)]  # compiles; the others share the program
-    with ThreadPoolExecutor(available_cores() if cpu else 1, thread_name_prefix="jaxkin") as threads:
+    with ThreadPoolExecutor(available_cores() if on_cpu() else 1, thread_name_prefix="jaxkin") as threads:
         found += threads.map(run, others)
     values, reached = (np.concatenate(column)[: len(designs)] for column in zip(*found, strict=True))
     reached = reached & np.isfinite(values)

@@ -116,6 +116,12 @@ def opening(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
     return float(np.diff(angles, append=angles[0] + 2 * np.pi).max())
 
 
+def opening_of(bore: Bore, part: Part) -> float:
+    """Measure the widest angle about its axis that a bore of a part leaves open, radians, whatever else the part has."""
+    faces = [face.triangles.reshape(-1, 3) for face in part.faces if face.name in bore.faces]
+    return opening(np.concatenate(faces) - bore.point, bore.axis)
+
+
 def merged(spans: Iterable[tuple[float, float]], apart: float = 0.0) -> tuple[tuple[float, float], ...]:
     """Unite spans that overlap or are no farther than `apart` from each other."""
     result: list[tuple[float, float]] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import shared_length
-from jaxkin.assembly.inference.bores import Bore, opening
+from jaxkin.assembly.inference.bores import Bore, opening_of
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -48,9 +48,7 @@ def collets(known: Known) -> list[Inference]:
 
 def is_piece(known: Known, bore: Bore) -> bool:
     """Tell whether a bore leaves half of the way around its axis open, whatever else its part has."""
-    faces = [each for each in known.solids[bore.part].faces if each.name in bore.faces]
-    corners = np.concatenate([each.triangles.reshape(-1, 3) for each in faces])
-    return bool(opening(corners - bore.point, bore.axis) >= MIN_GAP)
+    return bool(opening_of(bore, known.solids[bore.part]) >= MIN_GAP)
 
 
 def _has_steps(known: Known, piece: Bore, shaft: Bore) -> bool:

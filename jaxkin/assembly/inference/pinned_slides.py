@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.bores import Bore, opening
+from jaxkin.assembly.inference.bores import Bore, opening_of
 from jaxkin.assembly.inference.hinges import MIN_TURN
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
@@ -40,8 +40,7 @@ def pinned_slides(known: Known) -> list[Inference]:
 
 def _is_round(known: Known, hole: Bore) -> bool:
     """Tell whether a hole goes all the way round its pin."""
-    faces = [face.triangles for face in known.solids[hole.part].faces if face.name in hole.faces]
-    return bool(opening(np.concatenate(faces).reshape(-1, 3) - hole.point, hole.axis) <= MAX_OPEN)
+    return bool(opening_of(hole, known.solids[hole.part]) <= MAX_OPEN)
 
 
 def _held(known: Known, pair: CommonAxis, part: str, play: float) -> Inference:
