@@ -117,7 +117,7 @@ def opening(corners: Float[np.ndarray, "corners 3"], axis: Vector) -> float:
 
 
 def opening_of(bore: Bore, part: Part) -> float:
-    """Measure the widest angle about its axis that a bore of a part leaves open, radians, whatever else the part has."""
+    """Measure the widest angle about its axis that a bore leaves open, radians, whatever else its part has."""
     faces = [face.triangles.reshape(-1, 3) for face in part.faces if face.name in bore.faces]
     return opening(np.concatenate(faces) - bore.point, bore.axis)
 
