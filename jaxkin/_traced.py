@@ -11,7 +11,7 @@ from jax.core import Tracer
 
 def traced(*trees: object) -> bool:
     """Tell whether JAX traces any of the arrays (inside `jit`, `vmap` or `grad`): their numbers cannot be looked at."""
-    return any(isinstance(leaf, Tracer) for leaf in jax.tree.leaves(trees))
+    return any(issubclass(kind, Tracer) for kind in {*map(type, jax.tree.leaves(trees))})
 
 
 def inside_trace() -> bool:

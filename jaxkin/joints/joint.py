@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from operator import attrgetter
 from typing import Any
 
 import jax
@@ -114,14 +115,9 @@ class Joint:
 
 # registered by hand, since `drop_fields` of `register_dataclass` works only from jax 0.10 on
 _LEAVES = ("frames_1", "frames_2", "pitch", "curves")
-
-
 _STATIC = ("name", "parts", "kind", "movements", "limits")
-
-
-def _static(joint: Joint) -> tuple[Any, ...]:
-    """Return the static fields of a joint."""
-    return tuple(getattr(joint, name) for name in _STATIC)
+# asked for in each call with a mechanism, and several times as fast as a comprehension
+_leaves, _static = attrgetter(*_LEAVES), attrgetter(*_STATIC)
 
 
 def _rebuilt(static: tuple[Any, ...], leaves: Iterable[Any]) -> Joint:
@@ -131,9 +127,9 @@ def _rebuilt(static: tuple[Any, ...], leaves: Iterable[Any]) -> Joint:
 
 jax.tree_util.register_pytree_with_keys(
     Joint,
-    lambda joint: ([(GetAttrKey(name), getattr(joint, name)) for name in _LEAVES], _static(joint)),
+    lambda joint: (list(zip(map(GetAttrKey, _LEAVES), _leaves(joint), strict=True)), _static(joint)),
     _rebuilt,
-    lambda joint: ([getattr(joint, name) for name in _LEAVES], _static(joint)),
+    lambda joint: (_leaves(joint), _static(joint)),
 )
 
 

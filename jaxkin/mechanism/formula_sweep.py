@@ -8,7 +8,7 @@ length and dealt out to the joints afterwards.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
 
@@ -130,6 +130,14 @@ class FormulaSweep:
             dealt = None if traced(proven) else self._dealt(chunks, rows, finite)
         # inside a function that is being traced, what a program returns is traced, though it is given numbers
         return None if traced(proven) or not all(map(np.asarray, proven)) else dealt
+
+    def passes(self, inputs: Mapping[str, Array | np.ndarray]) -> bool:
+        """Tell whether all inputs are angles in a range that the motion passes without doubt: no pose is singular."""
+        rows = [np.asarray(row) for row in inputs.values()]
+        return all(
+            turn is not None and rows[which].size > 0 and turn.of(rows[which]) is turn.passed
+            for turn, which in zip(self.turns, self.inputs, strict=True)
+        )
 
     def _line(self, number: int, values: np.ndarray) -> Line | PassedLine:
         """Choose the line of the input of a loop group: the one that is kept, or that of a displacement."""

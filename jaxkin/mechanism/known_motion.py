@@ -1,8 +1,9 @@
 """Differentiate the displacements of a motion whose poses are known: the closure is solved at them to first order.
 
 A sweep that is differentiated finds its poses anew. Here the poses are those of the motion, and only the derivative of
-the closure (`jaxkin.solve.range.implicit_derivative`) is computed: for velocities one linear system a pose. Nested
-derivatives are those of a sweep, too, and so are derivatives with respect to lengths.
+the closure (`jaxkin.solve.range.implicit_derivative`) is computed: for velocities one linear system a pose, or a few
+cross products where planar loops have formulas. Nested derivatives are those of a sweep, too, and so are derivatives
+with respect to lengths.
 """
 
 from __future__ import annotations
@@ -16,7 +17,10 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
-from jaxkin.mechanism.drive_plan import plan_drive
+from jaxkin._traced import traced
+from jaxkin.mechanism.drive_plan import DrivePlan, plan_drive
+from jaxkin.solve.closed_form.assembled_axes import Axes
+from jaxkin.solve.closed_form.known_poses_by_formula import known_displacements_by_formula
 from jaxkin.solve.range.known_poses import known_displacements
 from jaxkin.solve.status import Status, is_closed_on_branch
 from jaxkin.solve.system.from_linkage import Columns
@@ -54,8 +58,8 @@ class KnownDrive(NamedTuple):
 class KnownMotion(NamedTuple):
     """The numbers of a motion that its derivatives follow from."""
 
-    joints: tuple[Joints, ...]
-    """Of every loop group of the `KnownDrive`."""
+    numbers: tuple[Joints | Axes, ...]
+    """Of every loop group of the `KnownDrive`: axes where its derivatives are those of formulas, else joints."""
     displacements: tuple[Float[Array, "poses _"], ...]
     status: Int[Array, " poses"]
 
@@ -69,8 +73,19 @@ def known_motion(motion: Motion) -> tuple[KnownDrive, KnownMotion]:
         for each in (plan.loop_groups if len(motion) else ())
     )
     driven = tuple((name, *place) for name, place in plan.driven.items())
-    joints = tuple(each.joints for each in plan.loop_groups)[: len(loop_groups)]
-    return KnownDrive(plan.freedoms, driven, loop_groups), KnownMotion(joints, motion.displacements, motion.status)
+    numbers = _numbers(plan, motion)[: len(loop_groups)]
+    return KnownDrive(plan.freedoms, driven, loop_groups), KnownMotion(numbers, motion.displacements, motion.status)
+
+
+def _numbers(plan: DrivePlan, motion: Motion) -> tuple[Joints | Axes, ...]:
+    """Choose the numbers from which the derivatives of each loop group follow: the axes where no pose is singular."""
+    joints = tuple(each.joints for each in plan.loop_groups)
+    if (formulas := plan.by_formula) is None or traced(motion.inputs) or not formulas.passes(motion.inputs):
+        return joints
+    return tuple(
+        known.axes if system.planar else own
+        for own, known, system in zip(joints, formulas.numbers, formulas.systems, strict=True)
+    )
 
 
 def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
@@ -89,11 +104,14 @@ def follow(drive: KnownDrive, known: KnownMotion) -> Follow:
         for name, joint, k in drive.driven:
             given = inputs[name]
             columns[joint, k] = at[joint][:, k] + jnp.where(finite, given - lax.stop_gradient(given), 0.0)
-        for loop_group, joints in zip(drive.loop_groups, known.joints, strict=True):
+        for loop_group, numbers in zip(drive.loop_groups, known.numbers, strict=True):
             rows = jnp.stack([at[joint][:, k] for joint, k in loop_group.columns])
             given = [jnp.where(finite, inputs[name], 0.0) for name in loop_group.inputs]
             given = jnp.stack(given) if given else jnp.zeros((0, len(finite)), rows.dtype)
-            found = known_displacements(loop_group.system, joints, given, rows, status, loop_group.refined)
+            if isinstance(numbers, Axes):
+                found = known_displacements_by_formula(loop_group.system, numbers, given, rows, status)
+            else:
+                found = known_displacements(loop_group.system, numbers, given, rows, status, loop_group.refined)
             columns |= dict(zip(loop_group.columns, found, strict=True))
         return tuple(
             jnp.stack([columns.get((joint, k), rows[:, k]) for k in range(rows.shape[1])], axis=1)

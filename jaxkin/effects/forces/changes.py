@@ -41,7 +41,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     parts, moves = _independent(drive, known), _moved(drive)
 
     def along(inputs: Inputs) -> tuple[Rows, dict[str, Columns]]:
-        rest = follow(drive._replace(loop_groups=()), known._replace(joints=()))(inputs)
+        rest = follow(drive._replace(loop_groups=()), known._replace(numbers=()))(inputs)
         here = {(joint, k): rows[:, k] for joint, rows in enumerate(rest) for k in range(rows.shape[1])}
         found = {name: {at: jnp.ones_like(inputs[name])} for name, (at, *more) in moves.items() if not more}
         for names, place in parts:
@@ -61,7 +61,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
             for name, change in zip(names, every, strict=True):
                 found[name] = {(joint, k): change[joint][:, k] for joint, k in moves[name]}
                 here |= {(joint, k): rows[joint][:, k] for joint, k in moves[name]}
-        return _rows(here, rest), {name: found[name] for name in inputs}
+        return rows_of(here, rest), {name: found[name] for name in inputs}
 
     if rates is None:
         return Changes(*along(inputs))
@@ -72,7 +72,7 @@ def changes(drive: KnownDrive, known: KnownMotion, inputs: Inputs, rates: tuple[
     (name,) = inputs
     velocity = {at: column * first[name] for at, column in each[name].items()}
     bent = {at: again[name][at] * first[name] + column * second[name] for at, column in each[name].items()}
-    return Changes(here, each, _rows(velocity, here), _rows(bent, here))
+    return Changes(here, each, rows_of(velocity, here), rows_of(bent, here))
 
 
 def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str], Follow]]:
@@ -86,7 +86,7 @@ def _independent(drive: KnownDrive, known: KnownMotion) -> list[tuple[list[str],
         own = [number for number, each in enumerate(drive.loop_groups) if {*names} & {*each.inputs}]
         driven = tuple(each for each in drive.driven if each[0] in names)
         part = drive._replace(driven=driven, loop_groups=tuple(drive.loop_groups[number] for number in own))
-        found.append((sorted(names), follow(part, known._replace(joints=tuple(known.joints[n] for n in own)))))
+        found.append((sorted(names), follow(part, known._replace(numbers=tuple(known.numbers[n] for n in own)))))
     return found
 
 
@@ -102,7 +102,7 @@ def _moved(drive: KnownDrive) -> dict[str, list[tuple[int, int]]]:
     }
 
 
-def _rows(columns: Columns, like: Rows) -> Rows:
+def rows_of(columns: Columns, like: Rows) -> Rows:
     """Put columns together by joint; zero of the coordinates that have none."""
     return tuple(
         jnp.stack([columns.get((joint, k), jnp.zeros_like(rows[:, 0])) for k in range(rows.shape[1])], axis=1)

@@ -23,10 +23,11 @@ from typing import Any, NamedTuple
 import jax.numpy as jnp
 from jaxtyping import Array, Float
 
+from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closed_form.arithmetic import Number
 from jaxkin.solve.closed_form.assembled_axes import Axes
 from jaxkin.solve.closed_form.chain_motions import moving_rows, planar_place
-from jaxkin.solve.closed_form.complex_numbers import Complex, add, scale, times, turn_by
+from jaxkin.solve.closed_form.complex_numbers import Complex, add, scale, times
 from jaxkin.solve.closed_form.group_formulas import GroupFormula, group_formulas
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
@@ -54,18 +55,22 @@ class _Chain(NamedTuple):
 
 
 def planar_slopes(
-    system: LoopSystem, axes: Axes, rows: Sequence[Row], d_axes: Axes, d_inputs: Float[Array, "driven poses"]
+    system: LoopSystem, axes: Axes, rows: Sequence[Row], d_axes: Axes | None, d_inputs: Float[Array, "driven poses"]
 ) -> list[Row]:
     """Compute the derivatives of all coordinates of closed poses, along derivatives of the axes and of the inputs.
 
-    `rows` are the coordinates, radians and characteristic lengths. Where the equations are singular, at a limit, the
-    derivatives of the unknowns are zero. Linear in derivatives, and differentiable again in all else.
+    `rows` are the coordinates, radians and characteristic lengths; `d_axes` is None where the axes rest. Where the
+    equations are singular, at a limit, the derivatives of the unknowns are zero. Linear in derivatives, and
+    differentiable again in all else.
     """
     table, poses = chain_tables(system), d_inputs.shape[1:]
     found: dict[int, Any] = dict(zip(system.driven, d_inputs, strict=True))
     moving = [(row, chain) for chain in range(len(system.loops)) for row in moving_rows(system, chain)]
-    turning = {int(table.column[place]) for place in moving if table.turn[place]}
-    turns = {column: turn_by(rows[column]) for column in sorted(turning)}
+    turning = sorted({int(table.column[place]) for place in moving if table.turn[place]})
+    turns: dict[int, Complex] = {}
+    if turning:  # all in one array: a few operations of the program, not a few each
+        cos, sin = cos_sin(jnp.stack([rows[column] for column in turning]))
+        turns = {column: Complex(cos[n], sin[n]) for n, column in enumerate(turning)}
     for formula in group_formulas(system):
         if not isinstance(formula, GroupFormula):
             raise ValueError(f"a group has no formula: {formula}")
@@ -84,7 +89,7 @@ def planar_slopes(
 
 
 def _twists(
-    system: LoopSystem, axes: Axes, chain: int, rows: Sequence[Row], turns: dict[int, Complex], d_axes: Axes
+    system: LoopSystem, axes: Axes, chain: int, rows: Sequence[Row], turns: dict[int, Complex], d_axes: Axes | None
 ) -> _Chain:
     """Compute the twists of a chain: travel along it, and note the rotation and the shift of what lies before."""
     table = chain_tables(system)
@@ -92,11 +97,9 @@ def _twists(
     rotation, shift = Complex(one, zero), Complex(zero, zero)
     screws: dict[int, _Screw] = {}
     by: list[Complex] = []
-    changes: list[Complex] = []
     for row in moving_rows(system, chain):
-        place, change = planar_place(system, axes, row, chain), planar_place(system, d_axes, row, chain)
+        place = planar_place(system, axes, row, chain)
         column, sense = int(table.column[row, chain]), axes.sense[row, chain]
-        changes.append(change)
         if table.turn[row, chain]:
             cos, sin = turns[column]
             centre = add(shift, times(rotation, place))
@@ -111,9 +114,13 @@ def _twists(
             screws[row] = _Screw(False, along)
             by.append(scale(slide, rotation))
             shift = add(shift, scale(slide, along))
+    if d_axes is None:
+        nothing = jnp.zeros(())
+        return _Chain(screws, nothing, Complex(nothing, nothing))
     (cos, _), (sin, _) = axes.open_turn[chain]
     (d_cos, _), (d_sin, _) = d_axes.open_turn[chain]
     by.append(rotation)
+    changes = [planar_place(system, d_axes, row, chain) for row in moving_rows(system, chain)]
     changes.append(Complex(*d_axes.open_shift[chain]))
     # one product of matrices adds up all; so its transpose does with the poses
     parts = jnp.stack([jnp.stack(row) for each in by for row in (each, (-each.imag, each.real))])
