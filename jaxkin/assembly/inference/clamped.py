@@ -18,6 +18,9 @@ from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_across
+from jaxkin.geometry.part import Face
+from jaxkin.geometry.pose import Vector
+from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
@@ -35,6 +38,11 @@ MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
 """Width of a slit over the radius of the shaft, at most: a fork is wider."""
+MAX_SLOT = 1.5
+"""Distance of the walls of a slot from the axis of a screw that ends between them, over the radius of its tip, at
+most."""
+MIN_STROKE = 2.0
+"""Length of such a slot over the width of the tip, at least."""
 FILLED = 0.5
 """Share of a hub's hole that its shaft fills, at least: a piston fills less of its cylinder, which has holes across
 it, too."""
@@ -149,11 +157,13 @@ def _is_released(known: Known, pins: Collection[str], others: Collection[str]) -
 def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str]) -> str | None:
     """Find the screw or pin in a radial hole whose end is at the shaft, or in it.
 
-    One that is wider than the hole of a set screw ends before the axis of the shaft: its tip presses on the shaft.
+    One that is wider than the hole of a set screw ends before the axis of the shaft: its tip presses on the shaft. One
+    that ends in a slot along the shaft guides it.
     """
     if not _is_radial(hole, pair):
         return None
     inside = [each for each in known.axes if each.other is hole and not each.virtual]
+    inside = [each for each in inside if not _runs_in_slot(known, each.one.part, pair)]
     if any(_interlocks(known, each, pair) for each in inside):
         return None
     for each in inside:
@@ -165,6 +175,36 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str
             if is_tip and short <= MAX_SHORTFALL * hole.radius and not _passes(known, each, pair, short, fastening):
                 return each.one.part
     return None
+
+
+def _runs_in_slot(known: Known, screw: str, pair: CommonAxis) -> bool:
+    """Tell whether a screw ends between two walls of a shaft along its axis, much longer than the tip is wide: a flat
+    that a set screw presses on has no walls, and a dimple is no longer than the tip."""
+    shaft = known.solids[pair.one.part]
+    for tip in known.bores[screw]:
+        walls = [face for face in shaft.faces if not tip.hole and _is_beside(tip, face, pair.one.axis)]
+        normals = [face.surface.normal for face in walls if isinstance(face.surface, Plane)]
+        if any(np.linalg.norm(one + other) < ACROSS for k, one in enumerate(normals) for other in normals[:k]):
+            return True
+    return False
+
+
+def _is_beside(tip: Bore, face: Face, along: Vector) -> bool:
+    """Tell whether a plane face is a wall beside the tip of a screw that looks at it, along an axis across the tip."""
+    if not isinstance(face.surface, Plane):
+        return False
+    normal = face.surface.normal
+    apart = float((tip.point - face.surface.point) @ normal)
+    corners = face.triangles.reshape(-1, 3) - tip.point
+    heights, places = corners @ tip.axis, corners @ along
+    return bool(
+        max(abs(normal @ tip.axis), abs(normal @ along)) < ACROSS
+        and 1 - FITTED <= apart / tip.radius <= MAX_SLOT
+        and heights.min() < tip.half
+        and heights.max() > -tip.half
+        and places.min() < 0 < places.max()
+        and np.ptp(places) >= MIN_STROKE * 2 * tip.radius
+    )
 
 
 def _interlocks(known: Known, pin: CommonAxis, pair: CommonAxis) -> bool:

@@ -82,8 +82,8 @@ def _is_met(known: Known, stack: Stack, part: str, others: Sequence[str]) -> boo
 
 
 def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
-    """Join fasteners with the body that holds them: the only one, or that which holds them farthest out, as a fork
-    does.
+    """Join fasteners with the body that holds them: the only one, the one without play, or that which holds them
+    farthest out, as a fork does.
 
     A rod that something slides on belongs to the body that holds it on both sides of all others, or more tightly.
     """
@@ -117,8 +117,9 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     """Find the part that holds a stack, and how: of the body whose bores reach farthest along the axis.
 
     A body that is round about the axis, as a roller or a planet is, turns on the stack, and so does one that is on it
-    with sleeves only, where there is another one. Where others slide on the stack, that body reaches farther on both
-    sides, or fits more tightly; None if none does.
+    with sleeves only, where there is another one. Of a body that a pin fits exactly, and others with play, it is the
+    former: those turn on it. Where others slide on the stack, that body reaches farther on both sides, or fits more
+    tightly; None if none does.
     """
     along = stack.axis.axis
     reach: dict[str, list[tuple[float, float, str]]] = {}
@@ -140,7 +141,8 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     ends = {
         owner: (min(end[0] for end in some), max(end[1] for end in some), some[0][2]) for owner, some in reach.items()
     }
-    widest = max(_keepers(known, stack, reach, fits), key=lambda owner: ends[owner][1] - ends[owner][0])
+    keepers = _keepers(known, stack, reach, fits)
+    widest = max(keepers, key=lambda owner: ends[owner][1] - ends[owner][0])
     low, high, part = ends[widest]
     if len(reach) == 1:
         # as a shaft in bushes, also where its collars touch what these are in; a nut is on a sleeve, and not in it
@@ -150,10 +152,12 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
         return (None, "") if moves else (part, "only")
     turns = all(end[2] in known.sleeves for end in reach[widest])  # as a shaft in bearings, not as a rod in holes
     others = [ends[owner] for owner in ends if owner != widest]
-    if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
-        return part, "farthest out"
     tightest = min(fits, key=fits.__getitem__)
     same = SAME_FIT * stack.axis.radius
+    if not slides and tightest in keepers and [owner for owner, fit in fits.items() if fit <= same] == [tightest]:
+        return ends[tightest][2], "which it fits exactly, and has play in others"
+    if not slides or (not turns and all(low < one and other < high for one, other, _ in others)):
+        return part, "farthest out"
     looser = [fit for fit in fits.values() if fit > fits[tightest] + same]  # two cranks fit their shaft alike
     if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut

@@ -24,6 +24,9 @@ from jaxkin.joints.kinds import JointKind
 
 CENTRED = 0.02
 """Distance between the middles of a pin and of its holes, over the radius, that counts as none."""
+FAR = 8.0
+"""Play that faces leave along the axis, over the radius of the hole, from which on they are stops of a slide, also of a
+rod that stands in the middle: axles with their wheels have up to 4, the rods of a football table 12 to 16."""
 MIN_GUIDED = 2.0
 """Length of a hole that slides along a pin, over the radius, at least: one that is shorter than its diameter jams, as a
 drawer does, so that a plate on a rod between two lugs turns on it."""
@@ -49,7 +52,8 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     for the slide.
 
     What no face stops at first may be stopped by a third body that turns about the same axis and is kept there, as a
-    sun between its bearing and the planet carrier.
+    sun between its bearing and the planet carrier; or bodies stop each other, as the leaves of a hinge do between the
+    ends of its pin.
     """
     some = lines(known, axes)
     joined = {line.owners: _joined(known, line, fastening, ()) for line in some}
@@ -57,11 +61,23 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     for line in some:
         if kept and not any(_is_kept(each) for each in joined[line.owners]):
             joined[line.owners] = _joined(known, line, fastening, kept)
+    sliding = [line for line in some if any(_slides(each) for each in joined[line.owners])]
+    while len(sliding) > 1:  # the largest set of bodies that stop each other
+        tried = {line.owners: _joined(known, line, fastening, [*kept, *sliding]) for line in sliding}
+        stopped = [line for line in sliding if any(_is_kept(each) for each in tried[line.owners])]
+        if len(stopped) == len(sliding):
+            joined |= tried
+            break
+        sliding = stopped
     return [each for some in joined.values() for each in some]
 
 
 def _is_kept(hinge: Hinge) -> bool:
     return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.REVOLUTE
+
+
+def _slides(hinge: Hinge) -> bool:
+    return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.CYLINDRICAL
 
 
 def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[Hinge]:
@@ -141,13 +157,14 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         room = between if room is None else min(room, between)
     free = None if room is None or room > MAX_PLAY * hole.radius else room
     free = 0.0 if touching else free
+    far = room is not None and room > FAR * hole.radius
     jams = short and room is not None
     if not exact and free is None and jams:
         free, stop = 0.0, Stop.SHORT
     if exact and free is None:
         if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
             free, stop = gap, Stop.ONE_FACE
-        elif not _is_inside(pair, found) and _is_centred(pair, middles):
+        elif not far and not _is_inside(pair, found) and _is_centred(pair, middles):
             free, stop = 0.0, Stop.CENTRED
         elif jams:
             free, stop = 0.0, Stop.SHORT
