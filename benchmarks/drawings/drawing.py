@@ -63,7 +63,7 @@ def write(drawing: Drawing, path: Path, random: np.random.Generator) -> tuple[np
     turn = turn * np.sign(np.linalg.det(turn))
     shift = random.normal(size=3) * 100
     place = cq.Location(cq.Plane(tuple(shift.tolist()), tuple(turn[:, 0].tolist()), tuple(turn[:, 2].tolist())))
-    assembly = cq.Assembly(name="top")
+    assembly = cq.Assembly(name="the whole drawing")
     for name in random.permutation(list(drawing.parts)).tolist():
         solids = drawing.parts[name].vals()
         assembly.add(solids[0] if len(solids) == 1 else cq.Compound.makeCompound(solids), name=name, loc=place)
