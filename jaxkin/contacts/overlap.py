@@ -71,8 +71,7 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
     one (gnomonic projection), where great circles are straight lines.
     """
     a, b = _directions(first, centre), _directions(second, centre)
-    edge = max(float(np.linalg.norm(t - np.roll(t, 1, axis=1), axis=-1).max(initial=0.0)) for t in (a, b))
-    pairs = crossing(boxes_of(a), boxes_of(b), tolerance / radius + edge**2 / 4)  # the sphere bulges over its chords
+    pairs = crossing(_bulging_boxes(a), _bulging_boxes(b), tolerance / radius)
     a, b = a[pairs[:, 0]], b[pairs[:, 1]]
     pole = _directions(a.mean(axis=1), 0.0)
     x = _directions(np.cross(pole, np.eye(3)[np.argmin(np.abs(pole), axis=-1)]), 0.0)
@@ -91,6 +90,17 @@ def overlap_on_sphere(first: Solid, second: Solid, centre: Vector, radius: float
         return radius * _directions(points, 0.0) @ np.swapaxes(axes, 1, 2) + centre
 
     return _sum(areas, lifted(middles[:, None])[:, 0], lifted(corners), shared)
+
+
+def _bulging_boxes(triangles: Solid) -> Float[np.ndarray, "triangles 2 3"]:
+    """Compute boxes around the parts of the unit sphere over triangles with corners on it.
+
+    A triangle lies in a circle of its longest edge over sqrt(3) (Jung 1901), over which the sphere bulges by its
+    sagitta. One long triangle so widens its own box, and not those of thousands of others.
+    """
+    longest = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=-1).max(axis=1)
+    bulge = 1 - np.sqrt(np.maximum(1 - longest**2 / 3, 0.0))
+    return boxes_of(triangles) + bulge[:, None, None] * np.array([[-1.0], [1.0]])
 
 
 class _Shared(NamedTuple):
