@@ -86,13 +86,13 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
 
 def _rolls(part: Part, outer: _Ring, inner: _Ring) -> bool:
-    """Tell whether what is between two rings reaches from one to the other, beside no end of either: a screw through a
-    flange does not, nor what else is on a long hollow axle."""
+    """Tell whether what is between two rings reaches from one to the other, with its middle beside both: a screw through
+    a flange does not, nor what else is on a long hollow axle."""
     away, along = _section(part, outer.hole)
     gap, slack = MAX_GAP * _room(outer, inner), SLACK * outer.outside.radius
-    ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
-    beside = along.min() < ends[:, 0].max() - slack or along.max() > ends[:, 1].min() + slack
-    return bool(not beside and away.min() <= inner.outside.radius + gap and away.max() >= outer.hole.radius - gap)
+    ends, middle = np.array([_ends(ring, outer.hole) for ring in (outer, inner)]), (along.min() + along.max()) / 2
+    beside = ends[:, 0].max() - slack <= middle <= ends[:, 1].min() + slack
+    return bool(beside and away.min() <= inner.outside.radius + gap and away.max() >= outer.hole.radius - gap)
 
 
 def _pieces(part: Part) -> int:

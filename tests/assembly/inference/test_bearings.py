@@ -7,7 +7,7 @@ import trimesh
 import jaxkin as jk
 from jaxkin.geometry.surfaces import Sphere
 from jaxkin.joints.evidence import EvidenceKind
-from reference.round_parts import assembly, block, part, pin, ring
+from reference.round_parts import anywhere, assembly, block, part, pin, ring
 
 BORE, OUTSIDE, WIDTH = 5.0, 13.0, 8.0  # a 6000 bearing halved, but for its grooves
 HOUSING = part("housing", ring(OUTSIDE, 25.0, -20.0, 20.0), block((-30, -30, -25), (30, 30, -20)))
@@ -96,3 +96,18 @@ def test_a_joint_by_hand_comes_before_a_bearing():
     drawn = assembly(HOUSING, SHAFT, *bearing("A", 0, balls=8))
     mechanism = drawn.mechanism(fixed=["housing"], joints=[by_hand])
     assert [joint.name for joint in mechanism.all_joints if joint.freedoms] == ["motor"]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("where", "rolls"), [(-40.0, False), (42.0, True)])
+def test_what_is_elsewhere_on_a_hollow_axle_are_no_rollers_of_a_disc(seed, where, rolls):
+    """Three pieces that reach from the axle to the radius of the hole of a disc: beside the disc they are rollers."""
+    axle = part("base", ring(4.0, 8.0, -60, 60))
+    disc = part("disc", ring(9.0, 50.0, 40, 44))
+    turns = np.radians([0, 120, 240])
+    pieces = [
+        part(f"piece {k}", pin(0.5, where - 1, where + 1, (8.5 * np.cos(t), 8.5 * np.sin(t))))
+        for k, t in enumerate(turns)
+    ]
+    mechanism = anywhere(assembly(axle, disc, *pieces), seed).mechanism(fixed=["base"])
+    assert any("a bearing with 3 balls or rollers" in note for note in mechanism.history) == rolls
