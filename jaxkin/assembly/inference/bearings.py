@@ -86,8 +86,8 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
 
 def _rolls(part: Part, outer: _Ring, inner: _Ring) -> bool:
-    """Tell whether what is between two rings reaches from one to the other, with its middle beside both: a screw through
-    a flange does not, nor what else is on a long hollow axle."""
+    """Tell whether what is between two rings reaches from one to the other, with its middle beside both: a screw
+    through a flange does not, nor what else is on a long hollow axle."""
     away, along = _section(part, outer.hole)
     gap, slack = MAX_GAP * _room(outer, inner), SLACK * outer.outside.radius
     ends, middle = np.array([_ends(ring, outer.hole) for ring in (outer, inner)]), (along.min() + along.max()) / 2

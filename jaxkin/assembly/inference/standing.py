@@ -9,7 +9,7 @@ import numpy as np
 from jaxkin.assembly.inference.embedded import MIN_DEPTH
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
-from jaxkin.assembly.inference.sleeves import is_round_about
+from jaxkin.assembly.inference.sleeves import SAME_FIT, is_round_about
 from jaxkin.assembly.inference.stop_faces import stands_across
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -32,8 +32,11 @@ def embedded_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
 
 
 def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
-    """Find pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial
-    end."""
+    """Find pins whose ends stand on faces of a part without a hole for them: on two opposite ones, or on a coaxial end.
+
+    A pin that fits the hole of a third part, as a stop screw does its cap, is held there, and stops what it touches.
+    """
+    fitting = [pair for pair in known.axes if not pair.virtual and abs(pair.clearance) <= SAME_FIT * pair.other.radius]
     axis_of = {bore.part: bore for pair in known.axes for bore in (pair.one, pair.other) if bore.part in fastening}
     directions: dict[tuple[str, str], set[bool]] = {}
     for contact in known.contacts:
@@ -47,7 +50,8 @@ def butting_pins(known: Known, fastening: Collection[str]) -> list[Inference]:
     for (pin, other), ways in directions.items():
         # where there is a hole on the axis, the pin or what it is on goes through
         sides = {bore.hole for bore in known.bores[other] if bore.on_axis_of(axis_of[pin])}
-        coaxial, between = sides == {False}, len(ways) == 2 and True not in sides
+        elsewhere = any(pair.one.part == pin and pair.other.part != other for pair in fitting)
+        coaxial, between = sides == {False} and not elsewhere, len(ways) == 2 and True not in sides
         if between or coaxial:
             where = "between two faces" if between else "on the coaxial end"
             evidence = Evidence(EvidenceKind.ENCLOSED, (), f"{pin!r} stands {where} of {other!r}")

@@ -76,3 +76,13 @@ def test_a_ring_on_the_end_of_a_pin_is_no_rod_that_it_pulls_against_a_lever(seed
     lever = part("lever", *lugs)
     _, mechanism = of(seed, base, lever, pivot, end)
     assert any("pulls it against 'lever'" in note for note in mechanism.history) == (length > 20)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("hole", "held"), [(3.0, False), (3.5, True)])
+def test_a_stop_screw_in_its_cap_is_not_one_body_with_the_piston_that_meets_it(seed, hole, held):
+    """A rod that stands there with play around it is."""
+    base = part("base", ring(10, 16, 0, 60), ring(hole, 16, 60, 70), block((-60, -16, 0), (-15, 16, 60)), PIVOT)
+    piston, screw = part("piston", pin(10, 10, 40)), part("screw", pin(3.0, 40, 80), pin(5, 80, 84))
+    _, mechanism = of(seed, base, piston, screw, LEVER)
+    assert any("stands on the coaxial end of 'piston'" in note for note in mechanism.history) == held
