@@ -7,8 +7,25 @@ import numpy as np
 from drawings.drawing import Drawing, kind
 from drawings.folding import both_sides, circlip
 from drawings.powered import grooved
-from drawings.shapes import X, Y, Z, at, bar, bore, box, cut, cyl, headed, hexagon, laid, meet, screw, sphere, tube
-from drawings.shapes import union as union
+from drawings.shapes import (
+    X,
+    Y,
+    Z,
+    at,
+    bar,
+    bore,
+    box,
+    cut,
+    cyl,
+    headed,
+    hexagon,
+    laid,
+    meet,
+    screw,
+    sphere,
+    tube,
+    union,
+)
 from drawings.vehicles import solid_bar, upright
 
 

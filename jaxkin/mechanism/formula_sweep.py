@@ -132,7 +132,8 @@ class FormulaSweep:
         return None if traced(proven) or not all(map(np.asarray, proven)) else dealt
 
     def passes(self, inputs: Mapping[str, Array | np.ndarray]) -> bool:
-        """Tell whether all inputs are angles in a range that the motion passes without doubt: no pose is singular."""
+        """Tell whether all inputs are angles, in radians, of a range that the motion passes without doubt: no pose of
+        it is singular."""
         rows = [np.asarray(row) for row in inputs.values()]
         return all(
             turn is not None and rows[which].size > 0 and turn.of(rows[which]) is turn.passed

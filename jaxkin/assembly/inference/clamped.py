@@ -15,12 +15,10 @@ from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.motors import screw_holes
 from jaxkin.assembly.inference.screwed import MAX_SHORTFALL
 from jaxkin.assembly.inference.sleeves import SAME_FIT, is_hollow, is_round, is_round_about
+from jaxkin.assembly.inference.slots import walls_beside
 from jaxkin.assembly.inference.sockets import Socket
 from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS, WIDER, gap, stands_across
-from jaxkin.geometry.part import Face
-from jaxkin.geometry.pose import Vector
-from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 FITTED = 0.02
@@ -38,9 +36,8 @@ MAX_BESIDE = 3.0
 """Distance of the screw of a slit from the axis of the shaft, over the radius of the shaft, at most."""
 MAX_SLIT = 0.5
 """Width of a slit over the radius of the shaft, at most: a fork is wider."""
-MAX_SLOT = 1.5
-"""Distance of the walls of a slot from the axis of a screw that ends between them, over the radius of its tip, at
-most."""
+SLOT = (0.98, 1.5)
+"""Distance of the walls of a slot from the axis of a screw that it guides, over the radius of the tip."""
 MIN_STROKE = 2.0
 """Length of such a slot over the width of the tip, at least."""
 FILLED = 0.5
@@ -180,30 +177,12 @@ def _screw(known: Known, hole: Bore, pair: CommonAxis, fastening: Collection[str
 def _runs_in_slot(known: Known, screw: str, pair: CommonAxis) -> bool:
     """Tell whether a screw ends between two walls of a shaft along its axis, much longer than the tip is wide: a flat
     that a set screw presses on has no walls, and a dimple is no longer than the tip."""
-    shaft = known.solids[pair.one.part]
-    for tip in known.bores[screw]:
-        walls = [face for face in shaft.faces if not tip.hole and _is_beside(tip, face, pair.one.axis)]
-        normals = [face.surface.normal for face in walls if isinstance(face.surface, Plane)]
-        if any(np.linalg.norm(one + other) < ACROSS for k, one in enumerate(normals) for other in normals[:k]):
-            return True
-    return False
-
-
-def _is_beside(tip: Bore, face: Face, along: Vector) -> bool:
-    """Tell whether a plane face is a wall beside the tip of a screw that looks at it, along an axis across the tip."""
-    if not isinstance(face.surface, Plane):
-        return False
-    normal = face.surface.normal
-    apart = float((tip.point - face.surface.point) @ normal)
-    corners = face.triangles.reshape(-1, 3) - tip.point
-    heights, places = corners @ tip.axis, corners @ along
-    return bool(
-        max(abs(normal @ tip.axis), abs(normal @ along)) < ACROSS
-        and 1 - FITTED <= apart / tip.radius <= MAX_SLOT
-        and heights.min() < tip.half
-        and heights.max() > -tip.half
-        and places.min() < 0 < places.max()
-        and np.ptp(places) >= MIN_STROKE * 2 * tip.radius
+    shaft, axis = known.solids[pair.one.part], pair.one.axis
+    tips = [bore for bore in known.bores[screw] if not bore.hole]
+    return any(
+        abs(normal @ axis) < ACROSS
+        for tip in tips
+        for normal in walls_beside(tip, shaft, SLOT, MIN_STROKE * 2 * tip.radius)
     )
 
 

@@ -11,9 +11,10 @@ from jaxkin.assembly.inference.fasteners import Stack
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.screwed import crossings
+from jaxkin.assembly.inference.slots import walls_beside
 from jaxkin.assembly.inference.standing import on_floors
 from jaxkin.assembly.inference.stop_faces import ACROSS
-from jaxkin.geometry.part import Face, Part
+from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Vector
 from jaxkin.geometry.surfaces import Plane
 from jaxkin.joints.evidence import Evidence, EvidenceKind
@@ -62,19 +63,4 @@ def _in_slot(screw: Bore, part: Part) -> bool:
     """Tell whether a screw ends between two walls of a part, with a floor of it ahead."""
     if not len(crossings(screw.point, screw.axis, part.triangles)):
         return False
-    walls = [wall for face in part.faces if (wall := _wall(screw, face)) is not None]
-    return any(np.linalg.norm(one + other) < ACROSS for k, one in enumerate(walls) for other in walls[:k])
-
-
-def _wall(screw: Bore, face: Face) -> Vector | None:
-    """Find the normal of a plane face that stands beside a screw, along it, and looks at it; None where it does not."""
-    if not isinstance(face.surface, Plane) or abs(face.surface.normal @ screw.axis) > ACROSS:
-        return None
-    normal = face.surface.normal
-    apart = float((screw.point - face.surface.point) @ normal)
-    along, aside = screw.axis, np.cross(normal, screw.axis)
-    corners = face.triangles.reshape(-1, 3) - screw.point
-    heights, sides = corners @ along, corners @ aside
-    beside = heights.min() < screw.half and heights.max() > -screw.half and sides.min() < 0 < sides.max()
-    near = SLOT[0] * screw.radius <= apart <= SLOT[1] * screw.radius
-    return normal if beside and near else None
+    return bool(walls_beside(screw, part, SLOT))

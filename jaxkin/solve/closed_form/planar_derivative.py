@@ -67,10 +67,9 @@ def planar_slopes(
     found: dict[int, Any] = dict(zip(system.driven, d_inputs, strict=True))
     moving = [(row, chain) for chain in range(len(system.loops)) for row in moving_rows(system, chain)]
     turning = sorted({int(table.column[place]) for place in moving if table.turn[place]})
-    turns: dict[int, Complex] = {}
-    if turning:  # all in one array: a few operations of the program, not a few each
-        cos, sin = cos_sin(jnp.stack([rows[column] for column in turning]))
-        turns = {column: Complex(cos[n], sin[n]) for n, column in enumerate(turning)}
+    # all in one array: a few operations of the program, not a few each; of three unknowns one turns at least
+    cos, sin = cos_sin(jnp.stack([rows[column] for column in turning]))
+    turns = {column: Complex(cos[n], sin[n]) for n, column in enumerate(turning)}
     for formula in group_formulas(system):
         if not isinstance(formula, GroupFormula):
             raise ValueError(f"a group has no formula: {formula}")
