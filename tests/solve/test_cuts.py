@@ -16,6 +16,7 @@ from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, turn_betwe
 from jaxkin.solve.execution.programs import solve
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import ClosureTolerance, Status
+from jaxkin.solve.system.chain_tables import ChainRow, chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import assembled, retract
 from reference.catalogue import delta, hexapod
@@ -37,6 +38,19 @@ def test_a_cut_leaves_three_equations_and_takes_three_unknowns_at_a_rod_one_and_
     # of six legs one stays as it is, to say where the platform is
     cut, whole, _ = systems(hexapod(), [f"leg {i}" for i in range(6)])
     assert (whole.equations, len(whole.used)) == (30, 36) and (cut.equations, len(cut.used)) == (5, 6)
+
+
+def test_chains_with_the_same_steps_go_one_way():
+    """Of a platform on six legs five rods are closed through the sixth: one way, and one through each of them."""
+    table = chain_tables(systems(hexapod(), [f"leg {i}" for i in range(6)])[0])
+    assert (len(table.way), len(table.ways)) == (10, 6)
+    for chain, way in enumerate(table.way):
+        of_way = table.ways[way]
+        for name in ChainRow._fields:
+            np.testing.assert_array_equal(getattr(table, name)[:, chain], getattr(table, name)[:, of_way])
+    assert len({int(table.begin[chain]) for chain in np.flatnonzero(np.bincount(table.way)[table.way] > 1)}) == 5
+    alone = chain_tables(systems(rssr_linkage(), ["A"])[0])
+    assert [*alone.ways] == [*alone.way] == [0, 1]
 
 
 def test_only_balls_of_one_loop_that_nothing_drives_are_cut():
@@ -73,6 +87,8 @@ def test_a_loop_whose_only_unknowns_are_those_of_a_cut_ball_is_followed():
 @pytest.mark.parametrize(
     "make, drive, spins",
     [(rssr_linkage, {"A": 3.0}, True), (rssr_linkage, {"A": 3.0}, False), (ball_in_bore, {"A": 3.0}, True)]
+    # legs of one platform are closed the same way, through one of them
+    + [(hexapod, {f"leg {i}": 0.02 * (i - 3) ** 2 for i in range(6)}, True)]
     + [pytest.param(delta, {"motor 0": 0.2, "motor 1": -0.1, "motor 2": 0.15}, True, marks=pytest.mark.study)],
 )
 def test_cut_loops_move_as_whole_ones_do(make, drive, spins):

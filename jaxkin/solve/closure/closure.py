@@ -16,7 +16,8 @@ from jaxtyping import Array, Float
 from jaxkin.geometry.patches import Followed
 from jaxkin.solve.closure.couplings import coupling_closure, scaled_couplings
 from jaxkin.solve.closure.planar import Planar, planar_closure, planar_geometry
-from jaxkin.solve.closure.spatial import Spatial, spatial_closure, spatial_geometry
+from jaxkin.solve.closure.spatial import spatial_closure
+from jaxkin.solve.closure.spatial_geometry import Spatial, spatial_geometry
 from jaxkin.solve.system.joints import CouplingNumbers, Joints, scaled_frames
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import State, is_driven

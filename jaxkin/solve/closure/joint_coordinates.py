@@ -15,7 +15,8 @@ from jaxtyping import Array, Float
 
 from jaxkin.solve.closure.closure import Geometry
 from jaxkin.solve.closure.rod_spin import remove_spin_from_rotations, remove_spin_from_state
-from jaxkin.solve.closure.spatial import Spatial, cut_turns
+from jaxkin.solve.closure.spatial import cut_turns
+from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import Coordinates, Rotations, State, angles, from_angles, matrix, multiply, turning
 

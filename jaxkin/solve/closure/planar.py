@@ -20,7 +20,7 @@ from jax import lax
 from jaxtyping import Array, Float
 
 from jaxkin.geometry.trig import cos_sin
-from jaxkin.solve.closure.spatial import Spatial
+from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.system.chain_tables import chain_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 

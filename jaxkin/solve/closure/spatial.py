@@ -7,7 +7,8 @@ all twelve with the rotation rows weighted by sqrt(1/2). They are not enough to 
 at half a turn; the residual norm is therefore over all twelve. Some loops need fewer equations:
 
 - A loop that is cut at a ball begins behind the ball and ends before it. It keeps `t = 0`; the ball takes up any `R`.
-- A loop that is cut at both balls of a rod is two chains from ball to ball, which must have equal lengths `|t|`.
+- A loop that is cut at both balls of a rod is two chains from ball to ball, which must have equal lengths `|t|`. Chains
+  of several loops that go the same way are computed once: all legs of a platform are closed through one of them.
 - In a loop that turns about one direction only, `vee` is along that direction: its component there is one equation.
 - In a loop that turns about one point, the rotation implies the translation: see `_about_points`.
 
@@ -18,18 +19,16 @@ The poses are the last axis of all arrays.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import jax.numpy as jnp
 import numpy as np
 from jax import lax
 from jaxtyping import Array, Float
 
-from jaxkin.geometry.patches import FollowedSpline
 from jaxkin.geometry.trig import cos_sin
 from jaxkin.solve.closure.along_curves import along_curves
-from jaxkin.solve.closure.rod_spin import Lines, lengths, spin_lines, turn_between, vee
-from jaxkin.solve.system.chain_tables import Z_AXIS, ChainTables, chain_tables
+from jaxkin.solve.closure.rod_spin import lengths, turn_between, vee
+from jaxkin.solve.closure.spatial_geometry import Spatial
+from jaxkin.solve.system.chain_tables import ChainTables, chain_tables, way_tables
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.scatter import scatter_rows
 from jaxkin.solve.system.state import State, rotation_matrix
@@ -37,23 +36,6 @@ from jaxkin.solve.system.state import State, rotation_matrix
 Rotation = Float[Array, "3 3 *poses"]
 """[column, row]: the first index picks one of the three axes."""
 Vector = Float[Array, "3 *poses"]
-
-
-class Spatial(NamedTuple):
-    """Constants of the loops, lengths divided by the characteristic length, in frames about the centroid."""
-
-    between: Float[Array, "steps chains 4 4"]
-    """The constant pose of the frame of each step relative to the frame behind the step before."""
-    end: Float[Array, "chains 4 4"]
-    """The constant pose of the end of the chain relative to the frame behind its last step."""
-    pitch: Float[Array, " joints"]
-    """Advance of the screws of each joint for a full turn."""
-    lines: Lines
-    """Lines of the idle spins, unit vectors: see `rod_spin`."""
-    centres: Float[Array, "3 spherical"]
-    """Points about which the spherical loops turn, of `LoopSystem.sections`."""
-    curves: tuple[FollowedSpline, ...] = ()
-    """The curves of `LoopSystem.curves`."""
 
 
 def spatial_closure(system: LoopSystem, geometry: Spatial, state: State) -> tuple[Array, Array, Array, Array]:
@@ -151,6 +133,7 @@ def cut_turns(system: LoopSystem, geometry: Spatial, state: State) -> dict[int, 
         return {}
     table = chain_tables(system)
     rotation, translation, _ = _travel(system, geometry, state)
+    rotation, translation = _from_own_begin(table, geometry, rotation, translation)
     closing = dict(enumerate(jnp.moveaxis(rotation, 2, 0)))  # the inverse of the rotation of the chain, [row, column]
     if table.rods.size:
         # the second ball makes the two chains point in opposite directions; the first ball closes the loop
@@ -172,18 +155,18 @@ def _travel(
 ) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"], Float[Array, "twists 6 chains poses"]]:
     """Compute rotation [column, row] and translation of the ends of the chains, and the twist of the end by each step.
 
-    Twists are numbered as in `ChainTables.source`, with a zero twist behind the last one. The first twist of a
-    coordinate that drives several steps is the sum of theirs.
+    Each way is travelled once, for all its chains. Rotations, translations and twists are in the axes in which the way
+    begins; translations are from the begin of each chain. Twists are numbered as in `ChainTables.source`, with a zero
+    twist behind the last one. The first twist of a coordinate that drives several steps is the sum of theirs.
     """
-    table, poses, dtype = chain_tables(system), state.x.shape[-1], state.x.dtype
-    chains = len(table.begin)
+    table, poses, dtype = way_tables(system), state.x.shape[-1], state.x.dtype
     turn, advance, screw, sign, side = (
         np.asarray(entry, dtype)[..., None]
         for entry in (table.turn, table.slide, table.screw, table.sign, table.sign * table.side)
     )
     if screw.any():
         advance = advance + screw * geometry.pitch[table.joint][..., None] / (2 * np.pi)
-    # once a coordinate, and not for each chain that it is in
+    # once a coordinate, and not for each way that it is in
     turning, place = np.unique(np.where(table.turn > 0, table.column, system.columns), return_inverse=True)
     place = place.reshape(table.turn.shape)
     x = jnp.concatenate([state.x, jnp.zeros((1, poses), dtype)])
@@ -205,12 +188,22 @@ def _travel(
         axes = rotation[2][None] if ball is None else jnp.where(first_side > 0, rotation, turned)
         return (turned, point + travel * rotation[2]), (rotation[2], axes, point)
 
-    first = jnp.broadcast_to(np.eye(3, dtype=dtype)[..., None, None], (3, 3, chains, poses))
-    start = first, jnp.zeros((3, chains, poses), dtype)
-    last, (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
-    rotation, translation = _compose(*last, geometry.end)
+    ways = len(table.ways)
+    first = jnp.broadcast_to(np.eye(3, dtype=dtype)[..., None, None], (3, 3, ways, poses))
+    start = first, jnp.zeros((3, ways, poses), dtype)
+    (rotation, point), (along, axes, points) = lax.scan(step, start, (geometry.between, cos, sin, travel, side, balls))
+    shared = ways < len(table.way)
+    if shared:
+        rotation, point, along, axes, points = (
+            each[..., table.way, :] for each in (rotation, point, along, axes, points)
+        )
+        sign, turn, advance = (each[:, table.way] for each in (sign, turn, advance))
+        rates = None if rates is None else rates[:, table.way]
+    rotation, translation = _compose(rotation, point, geometry.end)
 
     lever = translation - points
+    if shared:
+        translation = translation - geometry.begin[:, :3, 3].T[..., None]
     turned = (sign * turn)[:, None] * along
     moved = (sign * advance)[:, None] * along
     if rates is not None:
@@ -227,7 +220,20 @@ def _travel(
     return rotation, translation, jnp.concatenate([twists, jnp.zeros_like(twists[:1])])
 
 
-def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 chains poses"]:
+def _from_own_begin(
+    table: ChainTables,
+    geometry: Spatial,
+    rotation: Float[Array, "3 3 chains poses"],
+    translation: Float[Array, "3 chains poses"],
+) -> tuple[Float[Array, "3 3 chains poses"], Float[Array, "3 chains poses"]]:
+    """Express rotation [column, row] and translation of the ends of the chains in the axes of their own begins."""
+    if len(table.ways) == len(table.way):
+        return rotation, translation
+    axes = jnp.moveaxis(geometry.begin[:, :3, :3], 0, 2)[..., None]
+    return jnp.sum(axes * rotation[:, :, None], axis=1), jnp.sum(axes * translation[:, None], axis=0)
+
+
+def _ball_turns(state: State, table: ChainTables) -> Float[Array, "steps 3 3 ways poses"]:
     """Compute the rotation matrix [column, row] of each step that is a ball; the identity for all other steps."""
     poses = state.x.shape[-1]
     still = jnp.broadcast_to(jnp.array([1.0, 0.0, 0.0, 0.0], state.x.dtype)[:, None], (1, 4, poses))
@@ -246,49 +252,3 @@ def _compose(rotation: Rotation, translation: Vector, pose: Float[Array, "chains
 def _product(a: Rotation, b: Rotation) -> Rotation:
     """Multiply rotation matrices [column, row]."""
     return jnp.stack([sum(a[j] * b[c][j] for j in range(3)) for c in range(3)])
-
-
-def spatial_geometry(
-    system: LoopSystem,
-    frames: Float[Array, "frames 4 4"],
-    pitch: Float[Array, " joints"],
-    curves: tuple[FollowedSpline, ...] = (),
-) -> Spatial:
-    """Compute the constants of the loops from scaled frames: those on part 1, those on part 2, and the identity."""
-    table = chain_tables(system)
-    # from behind each step, and from the begin of the chain, to the next step, and to the end of the chain
-    upright = np.full_like(table.axis[:1], Z_AXIS)
-    behind = np.concatenate([table.begin[None], table.leave]), np.concatenate([upright, table.axis])
-    before = np.concatenate([table.enter, table.end[None]]), np.concatenate([table.axis, upright])
-    which, axis = np.stack([behind, before], axis=1)
-    # `AXES` moves the columns of frames round: column c is what column c + axis + 1 was
-    columns = np.where(np.arange(4) < 3, (np.arange(4) + axis[..., None] + 1) % 3, 3)
-    left, right = frames[which[..., None, None], np.arange(4)[:, None], columns[..., None, :]]
-    between = _inverse(left) @ right
-    return Spatial(between[:-1], between[-1], pitch, spin_lines(system, frames), _centres(system, frames), curves)
-
-
-def _centres(system: LoopSystem, frames: Float[Array, "frames 4 4"]) -> Float[Array, "3 spherical"]:
-    """Compute the point nearest to all axes of each spherical loop, from the frames on part 1 of its joints."""
-    centres = [jnp.zeros((3, 0), frames.dtype)]
-    for loop in system.sections.spherical:
-        axes = system.axes(joint for joint, _ in system.loops[loop])
-        of_frame, axis = np.array(axes).T
-        direction, point = frames[of_frame, :3, axis], frames[of_frame, :3, 3]
-        across = jnp.eye(3, dtype=frames.dtype) - direction[:, :, None] * direction[:, None]
-        a, b, c = jnp.sum(across, axis=0)
-        right = jnp.einsum("aij,aj->i", across, point)
-        normals = jnp.stack([jnp.cross(b, c), jnp.cross(c, a), jnp.cross(a, b)])
-        centres.append((right @ normals / (a @ normals[0]))[:, None])
-    return jnp.concatenate(centres, axis=1)
-
-
-def _inverse(poses: Float[Array, "*steps 4 4"]) -> Float[Array, "*steps 4 4"]:
-    """Invert rigid poses.
-
-    Joined from blocks: XLA on a CPU (jaxlib 0.10.2) gets blocks written into a product of matrices wrong where `vmap`
-    gives all of them a leading axis of one.
-    """
-    turned = jnp.swapaxes(poses[..., :3, :3], -1, -2)
-    moved = -jnp.einsum("...ij,...j->...i", turned, poses[..., :3, 3])
-    return jnp.concatenate([jnp.concatenate([turned, moved[..., None]], axis=-1), poses[..., 3:, :]], axis=-2)

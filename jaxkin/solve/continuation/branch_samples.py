@@ -16,7 +16,7 @@ from jaxtyping import Array, Bool, Float, Int
 
 from jaxkin.geometry.trig import TURN
 from jaxkin.solve.closure.closure import Geometry
-from jaxkin.solve.closure.spatial import Spatial
+from jaxkin.solve.closure.spatial_geometry import Spatial
 from jaxkin.solve.continuation.fronts import Fronts
 from jaxkin.solve.continuation.predictor import SMOOTH, hermite
 from jaxkin.solve.continuation.step import NEAR_LIMIT

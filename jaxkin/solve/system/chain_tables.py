@@ -121,6 +121,11 @@ class ChainTables(NamedTuple):
     the same coordinate, which is to be added to it, and their chain."""
     rods: np.ndarray
     """(2, rods): numbers of both chains of each loop that is cut at a rod."""
+    ways: np.ndarray
+    """(ways,): number of the first chain of each way. Chains with equal rows go the same way, and may begin and end in
+    different frames: from ball to ball of a platform, all rods but one are closed by the way through that one."""
+    way: np.ndarray
+    """(chains,): number of the way of each chain."""
 
 
 @lru_cache(maxsize=256)
@@ -142,7 +147,19 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     quaternion[list(system.turned_balls)] = np.arange(len(system.turned_balls))
     rows["ball"] = quaternion[rows["ball"]]
     rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
-    return ChainTables(**rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods)
+    first = {tuple(chain.rows): number for number, chain in reversed([*enumerate(chains)])}
+    ways = sorted(first.values())
+    way = np.array([ways.index(first[tuple(chain.rows)]) for chain in chains], np.int32)
+    return ChainTables(
+        **rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods, ways=np.array(ways, int), way=way
+    )
+
+
+@lru_cache(maxsize=256)
+def way_tables(system: LoopSystem) -> ChainTables:
+    """Make the tables of a system with the entries of `ChainRow` by ways, (rows, ways), in place of chains."""
+    table = chain_tables(system)
+    return table._replace(**{name: getattr(table, name)[:, table.ways] for name in ChainRow._fields})
 
 
 def _sources(system: LoopSystem, column: np.ndarray, ball: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
