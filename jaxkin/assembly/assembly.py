@@ -21,7 +21,7 @@ from jaxkin.assembly.to_mechanism import Said, check_said, from_words
 from jaxkin.contacts.contact import Contact, Contacts
 from jaxkin.contacts.detect import find_contacts
 from jaxkin.geometry.part import Part
-from jaxkin.geometry.units import unit_name
+from jaxkin.geometry.units import METRES, unit_name
 from jaxkin.joints.joint import Joint
 
 if TYPE_CHECKING:
@@ -208,7 +208,7 @@ class Assembly:
     @cached_property
     def _measured(self) -> Measured:
         """What is measured of the solids for inferences."""
-        return Measured(self.parts)
+        return Measured(self.parts, METRES.get(self.unit, METRES["mm"]))
 
     def __str__(self) -> str:
         return self.describe()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -68,8 +68,8 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     What would stop slides that exact contacts allow is taken only where these slides are of use otherwise, so that the
     mechanism has fewer freedoms but still some; where all of it leaves none, without the least sure of it. Bodies that
     seats of faces leave a slide of no use are one body, and so are those that only lie on each other, where all that
-    moves still does then. Where the inferences lock it, the weakest one without which it
-    moves is dropped, and that is said.
+    moves still does then. Where the inferences lock it, the weakest one without which it moves is dropped, and that is
+    said.
     """
     source = told_by(assembly, contacts)
     used = Contacts(without(contacts, said.ignore), source.near_misses, source.notes)
@@ -94,15 +94,17 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     seats = [each.inference for each in tubes]
     mechanism, found, plainly = made(seats)
     inexact = len(found) > len(seats)
+    bearings = {each.part for each in assembly._measured.closed_bearings}
     for _ in range(_ROUNDS):
-        seats += (new := _seats(mechanism, inexact))
+        seats += (new := _seats(mechanism, inexact, bearings))
         if not new:
             break
         other, more, count = made(seats)
         # seats may take nothing of use; that slides can be stopped then which were not before is no objection; where
         # more is free with them, they changed which parts others hold, and stops would hide that
         same = _not_idle(other) == _not_idle(mechanism) and count <= plainly
-        if not same and not (useful_freedoms(other) and count == plainly):
+        kept = same or count == plainly or leaves_all_moving(mechanism, other, new, but_slides=True)
+        if not (same or (kept and useful_freedoms(other))):
             break
         mechanism, found, plainly = other, more, count
     for held in _choices(resting(mechanism)) if useful_freedoms(mechanism) else ():
@@ -135,16 +137,19 @@ def _stopped(
     found: list[Inference],
     levels: Sequence[Sequence[Inference]],
 ) -> tuple[Mechanism, list[Inference]]:
-    """Find the mechanism that stops slides, and its inferences: with as many levels of what would stop them as leave it
-    freedoms, if these are fewer then, or those of parts that only spin are; `mechanism` is that without any."""
-    useful = useful_freedoms(mechanism) if any(levels) else 0
-    for count in range(len(levels), 0, -1) if useful else ():
+    """Find the mechanism that stops slides, and its inferences, from the `mechanism` without stops: with as many levels
+    of what would stop them as leave it freedoms, if these are fewer then, or those of parts that only spin are."""
+    useful, turning = (useful_freedoms(mechanism), mechanism.mobility().spins) if any(levels) else (0, 0)
+    for count in range(len(levels), 0, -1) if useful + turning else ():
         if not levels[count - 1]:
             continue
-        more = _without_inner(assembly, said, [*found, *(each for level in levels[:count] for each in level)])
+        stops = [each for level in levels[:count] for each in level]
+        names = {each.joint.name for each in stops if each.joint}  # they take the places of joints that slide
+        rest = [each for each in found if not (each.joint and each.joint.name in names)]
+        more = _without_inner(assembly, said, [*rest, *stops])
         other = from_words(assembly, contacts, said, more)
-        fewer = useful_freedoms(other)
-        if 0 < fewer < useful or (fewer == useful and other.mobility().spins < mechanism.mobility().spins):
+        fewer, spins = useful_freedoms(other), other.mobility().spins
+        if 0 < fewer < useful or (fewer == useful and fewer + spins > 0 and spins < turning):
             return other, more
     return mechanism, found
 
@@ -223,10 +228,10 @@ def useful_freedoms(mechanism: Mechanism) -> int:
     return 0 if opening(mechanism.linkage, mechanism.unit) is not None else mechanism.mobility().useful
 
 
-def _seats(mechanism: Mechanism, inexact: bool) -> list[Inference]:
+def _seats(mechanism: Mechanism, inexact: bool, bearings: Collection[str]) -> list[Inference]:
     """Find bodies between which faces leave slides that move nothing else: a bracket on a step, a plate between two
     cheeks; and rods that are set into each other as a rod end into its rod, which leave a turn, where the assembly is
-    `inexact`: where exact contacts do not determine all of it.
+    `inexact`: where exact contacts do not determine all of it. What is in one of the `bearings` turns there.
 
     Only where something moves: of a mechanism that is locked nothing is known to be of no use. Seats on both sides of a
     body that would hold two others to each other which move by a joint are not both taken. A carriage on a rail is a
@@ -242,7 +247,7 @@ def _seats(mechanism: Mechanism, inexact: bool) -> list[Inference]:
         flat = joint.kind in (JointKind.PRISMATIC, JointKind.PLANAR)
         held = {owner[part] for part in joint.parts} & {owner.get(part, part) for part in mechanism.fixed}
         turning = inexact and joint.kind is JointKind.REVOLUTE and not held  # a nut that drives turns in what is fixed
-        screwed = turning and _is_in_line(mechanism, joint, owner)
+        screwed = turning and not {*joint.parts} & {*bearings} and _is_in_line(mechanism, joint, owner)
         if joint.kind is JointKind.FIXED and joint.name in mechanism.contacts and joint.evidence:
             result.append(Inference(joint.parts, joint.evidence))
             continue

@@ -28,10 +28,12 @@ def resting(mechanism: Mechanism) -> list[Inference]:
     return found
 
 
-def leaves_all_moving(mechanism: Mechanism, other: Mechanism, held: Collection[Inference]) -> bool:
+def leaves_all_moving(
+    mechanism: Mechanism, other: Mechanism, held: Collection[Inference], *, but_slides: bool = False
+) -> bool:
     """Tell whether all bodies that move on each other by a joint still do so in another mechanism, in the same
-    coordinates, but for those that are held to each other there. Those that are one body then had nothing but empty
-    bores in common."""
+    coordinates, but for those that are held to each other there; with `but_slides` also but for slides of bodies that
+    still turn on each other. Those that are one body then had nothing but empty bores in common."""
     owner = {part: body for body, parts in other.bodies.items() for part in parts}
     gone = {frozenset(each.parts) for each in held}
 
@@ -49,7 +51,9 @@ def leaves_all_moving(mechanism: Mechanism, other: Mechanism, held: Collection[I
         empty = joint.evidence is not None and joint.evidence.kind is EvidenceKind.VIRTUAL_PIN
         return not empty and frozenset(joint.parts) not in gone
 
-    return seen(mechanism, stays) <= seen(other, lambda _: True)
+    left = seen(other, lambda _: True)
+    gone_by = seen(mechanism, stays) - left
+    return not gone_by or (but_slides and all(name == "z" and (pair, "phi") in left for pair, name in gone_by))
 
 
 def _moving(mechanism: Mechanism) -> set[str]:

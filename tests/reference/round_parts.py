@@ -73,14 +73,14 @@ def assembly(*parts: Part) -> Assembly:
     return Assembly(parts, "mm", "drawn.step")
 
 
-def anywhere(drawn: Assembly, seed: int) -> Assembly:
+def anywhere(drawn: Assembly, seed: int, *, scaled_at_random: bool = True) -> Assembly:
     """Turn, move, scale and shuffle an assembly."""
     generator = np.random.default_rng(seed)
     pose = np.eye(4)
     pose[:3, :3] = np.linalg.qr(generator.normal(size=(3, 3)))[0]
     pose[:3, :3] *= np.sign(np.linalg.det(pose[:3, :3]))
     pose[:3, 3] = generator.normal(size=3) * 300
-    size = 10 ** generator.uniform(-1, 1)
+    size = 10 ** generator.uniform(-1, 1) if scaled_at_random else 1.0
     parts = [moved(scaled(each, size), pose) for each in drawn.parts]
     return replace(drawn, parts=tuple(parts[k] for k in generator.permutation(len(parts))))
 

@@ -20,6 +20,8 @@ from jaxkin.joints.evidence import Evidence, EvidenceKind
 
 LONG = 2.5
 """Length of a ring on a pin over the radius of the pin, from which on it is a roller or a spacer: nuts have up to 2."""
+LOOSE, MIN_LOOSE = 1.7, 0.05
+"""The same of a ring with play, and the least clearance of such, over the radius: nuts have up to 1.6, and no play."""
 PRESSED = 0.02
 """Clearance of a ring that is pressed on a pin, over the radius, at most: a spacer has more."""
 LIFTED = 0.15
@@ -91,7 +93,7 @@ def attached_fasteners(known: Known, every: Sequence[Stack]) -> list[Inference]:
     fastening = {part for stack in every for part in stack.fasteners}
     for stack in every:
         owners = {body[part] for part in stack.fasteners}
-        hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves]
+        hosts = [part for part in stack.held if body[part] in owners and part not in known.sleeves | known.closed]
         several = len({body[part] for part in (*stack.held, *stack.fasteners)}) > 2
         slides = stack.guides and several and not is_headed(known, stack)
         met = tuple(part for part in stack.held if _is_met(known, stack, part, stack.fasteners))
@@ -128,7 +130,7 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     traps: set[str] = set()
     for pair in known.axes:
         for pin, hole in ((pair.one, pair.other), (pair.other, pair.one)):
-            if pin.part in stack.fasteners and hole.part in stack.held:
+            if pin.part in stack.fasteners and hole.part in stack.held and hole.part not in known.closed:
                 owner = body[hole.part]
                 reach.setdefault(owner, []).append((*hole.reach(along), hole.part))
                 if (fit := max(pair.clearance, 0.0)) < fits.get(owner, np.inf):
@@ -161,9 +163,16 @@ def _holder(known: Known, stack: Stack, body: Mapping[str, str], slides: bool) -
     looser = [fit for fit in fits.values() if fit > fits[tightest] + same]  # two cranks fit their shaft alike
     if traps - {tightest} or tightest in bushed:
         return None, ""  # as a screw that turns in a slide goes with the slide, and not with its nut
-    if looser:
+    if looser and not _slides_between(ends, tightest):
         return ends[tightest][2], "more tightly than by others"
-    return None, ""
+    return (part, "on one end") if looser else (None, "")
+
+
+def _slides_between(ends: Mapping[str, tuple[float, float, str]], owner: str) -> bool:
+    """Tell whether a body is on a rod between others that are on both ends of it, as a linear bearing is."""
+    low, high, _ = ends[owner]
+    others = [end for other, end in ends.items() if other != owner]
+    return any(end[1] <= low for end in others) and any(end[0] >= high for end in others)
 
 
 def _keepers(
@@ -231,15 +240,17 @@ def _is_trapped(known: Known, pin: str, hole: Bore) -> bool:
 
 
 def rollers(known: Known, fastening: Collection[str]) -> set[str]:
-    """Find the round parts on a pin that are long and lie flat on nothing: rollers and planets, no nuts or washers."""
+    """Find the round parts on a pin that lie flat on nothing, and are long or have much play: rollers and planets, no
+    nuts or washers."""
     lying = {part for each in known.contacts if each.contact_state.is_flat for part in each.parts}
     result = set()
     for pair in known.axes:
-        name = pair.other.part
-        if pair.virtual or name not in fastening or name in lying or pair.other.half < LONG * pair.other.radius / 2:
+        name, radius = pair.other.part, pair.other.radius
+        if pair.virtual or name not in fastening or name in lying:
             continue
-        own = known.bores[name]
-        if any(not bore.hole for bore in own) and is_round(known, name, list(own)):
+        own, half = known.bores[name], pair.other.half
+        long = half >= LONG * radius / 2 and any(not bore.hole for bore in own) and is_round(known, name, own)
+        if long or (half >= LOOSE * radius / 2 and pair.clearance > MIN_LOOSE * radius):
             result.add(name)
     return result
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
-from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
-from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore, merged
+from jaxkin.assembly.inference.axes import CommonAxis
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, merged
 from jaxkin.assembly.inference.fasteners import Stack, beside
 from jaxkin.assembly.inference.heads import is_exposed
+from jaxkin.assembly.inference.hinge import Hinge, hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known, Pair
 from jaxkin.assembly.inference.lines import Line, lines
-from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
+from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.assembly.inference.stop_faces import MAX_LIFT, MAX_PLAY, between_bores, nearest, play, stands_across
 from jaxkin.assembly.inference.walls import turns
 from jaxkin.geometry.surfaces import Plane
@@ -30,21 +30,12 @@ rod that stands in the middle: axles with their wheels have up to 4, the rods of
 MIN_GUIDED = 2.0
 """Length of a hole that slides along a pin, over the radius, at least: one that is shorter than its diameter jams, as a
 drawer does, so that a plate on a rod between two lugs turns on it."""
-
 MIN_TURN = 0.05
 """Radians by which a part turns on a hinge with play before faces beside its axis meet, at least."""
 
 
 MAX_DISC = 0.1
 """Half the thickness of a disc, and its clearance, over the radius of its hole: washers are thinner, and looser."""
-
-
-class Hinge(NamedTuple):
-    """An inferred joint of two bodies about a common axis."""
-
-    inference: Inference
-    stop: Stop
-    """What is in doubt: see `Stop`."""
 
 
 def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonAxis] | None = None) -> list[Hinge]:
@@ -57,14 +48,14 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     """
     some = lines(known, axes)
     joined = {line.owners: _joined(known, line, fastening, ()) for line in some}
-    kept = [line for line in some if line.is_kept or any(_is_kept(each) for each in joined[line.owners])]
+    kept = [line for line in some if line.is_kept or _is_kept(joined[line.owners])]
     for line in some:
-        if kept and not any(_is_kept(each) for each in joined[line.owners]):
+        if kept and not _is_kept(joined[line.owners]):
             joined[line.owners] = _joined(known, line, fastening, kept)
-    sliding = [line for line in some if any(_slides(each) for each in joined[line.owners])]
+    sliding = [line for line in some if _slides(joined[line.owners])]
     while len(sliding) > 1:  # the largest set of bodies that stop each other
         tried = {line.owners: _joined(known, line, fastening, [*kept, *sliding]) for line in sliding}
-        stopped = [line for line in sliding if any(_is_kept(each) for each in tried[line.owners])]
+        stopped = [line for line in sliding if _is_kept(tried[line.owners])]
         if len(stopped) == len(sliding):
             joined |= tried
             break
@@ -72,12 +63,17 @@ def hinges(known: Known, fastening: Collection[str] = (), axes: Sequence[CommonA
     return [each for some in joined.values() for each in some]
 
 
-def _is_kept(hinge: Hinge) -> bool:
-    return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.REVOLUTE
+def _is_kept(joined: Sequence[Hinge]) -> bool:
+    """Tell whether two bodies turn on each other and surely do not slide."""
+    return not _slides(joined) and any(_is(each, JointKind.REVOLUTE) for each in joined)
 
 
-def _slides(hinge: Hinge) -> bool:
-    return hinge.inference.joint is not None and hinge.inference.joint.kind is JointKind.CYLINDRICAL
+def _slides(joined: Sequence[Hinge]) -> bool:
+    return any(_is(each, JointKind.CYLINDRICAL) for each in joined)
+
+
+def _is(each: Hinge, kind: JointKind) -> bool:
+    return each.inference.joint is not None and each.inference.joint.kind is kind
 
 
 def _joined(known: Known, line: Line, fastening: Collection[str], kept: Sequence[Line]) -> list[Hinge]:
@@ -138,61 +134,67 @@ def _opens(known: Known, line: Line) -> bool:
 def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Sequence[Line]) -> list[Hinge]:
     """Make a revolute joint where faces stop the slide, otherwise a cylindrical one unless contacts say that exactly.
 
-    Faces across the axis that touch stop it, as they do beside a pin that fits exactly.
+    Faces across the axis that touch stop it, as they do beside a pin that fits exactly. A pin with play that is in the
+    middle of its holes, or about as long as they are, may turn only: that is made, too, to be tried.
     """
-    body, owners, found, pair, exact = known.body, line.owners, line.found, line.first, any(line.pins)
-    hole, rigid = pair.other, [part for part in known.parts if part.name not in known.springs]
+    pair, found, exact, radius = line.first, line.found, any(line.pins), line.first.other.radius
+    room, near = _room(known, line, touching, kept)
+    if touching or (room is not None and room <= MAX_PLAY * radius):
+        return [hinge(known, line, Stop.FACES, 0.0 if touching else room, room, touching)]
+    far = room is not None and room > FAR * radius
+    reach = _reach(found, pair)
+    middles = [float(pair.other.point @ pair.one.axis)]
+    if _is_last(known, known.body[pair.one.part], line.owners):
+        middles.append(sum(reach) / 2)  # of two bushes, where an axle with its wheels moves nothing else
+    jams = room is not None and not pair.virtual and reach[1] - reach[0] < MIN_GUIDED * radius
+    centred = not far and not _is_inside(pair, found) and _is_centred(pair, middles)
+    if exact:
+        if fastened and near is not None and near <= MAX_LIFT * radius:
+            return [hinge(known, line, Stop.ONE_FACE, near, room)]
+        stop = Stop.CENTRED if centred else Stop.SHORT if jams else None
+        return [] if stop is None else [hinge(known, line, stop, 0.0, room)]
+    if jams:
+        return [hinge(known, line, Stop.SHORT, 0.0, room)]
+    slides = hinge(known, line, Stop.NONE, None, room)
+    stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
+    return [slides] if pair.virtual or stop is None else [slides, hinge(known, line, stop, 0.0, room)]
+
+
+def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tuple[float | None, float | None]:
+    """Measure how far faces let two bodies slide on each other in all, and how near they are to a face on either side;
+    None without faces."""
+    body, pair, hole = known.body, line.first, line.first.other
+    rigid = [part for part in known.parts if part.name not in known.springs]
+    groups = [_kept_with(owner, line, kept) for owner in line.owners]
     one, other = (
         [stop for part in rigid if body[part.name] in group for stop in known.measured.stops(part, hole)]
-        for group in (_kept_with(owner, line, kept) for owner in owners)
+        for group in groups
     )
-    room, stop = play(one, other, hole.radius), Stop.FACES
-    ends = [end for each in found for end in each.other.reach(pair.one.axis)]
-    middles = [float(hole.point @ pair.one.axis)]
-    if _is_last(known, body[pair.one.part], owners):
-        middles.append((min(ends) + max(ends)) / 2)  # of two bushes, where an axle with its wheels moves nothing else
-    short = not pair.virtual and max(ends) - min(ends) < MIN_GUIDED * hole.radius
-    between = None if pair.virtual else _between(known, pair, found)
+    room, near = play(one, other, hole.radius), nearest(one, other, hole.radius)
+    if not any(line.pins) and not touching and (room is None or room > MAX_PLAY * hole.radius):
+        slanted = [
+            [stop for part in rigid if body[part.name] in group for stop in known.measured.slanted_stops(part, hole)]
+            for group in groups
+        ]
+        rooms = (room, play([*one, *slanted[0]], [*other, *slanted[1]], hole.radius))
+        room = min((each for each in rooms if each is not None), default=None)
+    between = None if pair.virtual else _between(known, pair, line.found)
     if between is not None and between <= MAX_PLAY * hole.radius:
         room = between if room is None else min(room, between)
-    free = None if room is None or room > MAX_PLAY * hole.radius else room
-    free = 0.0 if touching else free
-    far = room is not None and room > FAR * hole.radius
-    jams = short and room is not None
-    if not exact and free is None and jams:
-        free, stop = 0.0, Stop.SHORT
-    if exact and free is None:
-        if fastened and (gap := nearest(one, other, hole.radius)) is not None and gap <= MAX_LIFT * hole.radius:
-            free, stop = gap, Stop.ONE_FACE
-        elif not far and not _is_inside(pair, found) and _is_centred(pair, middles):
-            free, stop = 0.0, Stop.CENTRED
-        elif jams:
-            free, stop = 0.0, Stop.SHORT
-        else:
-            return []
-    parts = known.in_order(pair.parts)
-    make = pairs.cylindrical if free is None else pairs.revolute
-    axis = _line(known, pair, owners)
-    middle = axis.point + ((hole.point - axis.point) @ axis.axis) * axis.axis
-    joint = make("-".join(parts), *parts, point=middle, axis=axis.axis)
-    sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
-    ends = "no face stops its slide" if free is None else f"faces stop its slide, with a play of {free:.2g}"
-    if exact and stop is Stop.ONE_FACE:
-        ends = f"a face {free:.2g} away and the fastener stop its slide"
-    elif exact and stop is Stop.CENTRED:
-        ends = "the pin and its holes have one middle, where it is taken to stay"
-    elif stop is Stop.SHORT:
-        ends = f"its hole is shorter than wide and would jam on a slide of {room:.2g} between faces: taken to turn"
-    sizes += [] if free is None else [("play", free)]
-    if pair.virtual:
-        kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
-    else:
-        how = "clearance" if pair.clearance >= 0 else "interference"
-        fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
-        kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
-    doubt = None if touching else slide_doubt(stop, room, hole.radius)
-    evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}", doubt)
-    return [Hinge(Inference.of(joint, evidence), stop if exact else Stop.NONE)]
+    return room, near
+
+
+def _reach(found: Sequence[CommonAxis], pair: CommonAxis) -> tuple[float, float]:
+    """Find where the holes of two bodies begin and end along the axis of the first pin."""
+    ends = [end for each in found for end in each.other.reach(pair.one.axis)]
+    return min(ends), max(ends)
+
+
+def _has_no_stroke(pair: CommonAxis, reach: tuple[float, float]) -> bool:
+    """Tell whether a pin is about as long as what it is in: a wheel on the end of its axle, an arm on a peg."""
+    spans = pair.one.spans_along(pair.one.axis)
+    ends = [end for span in spans if span[0] < reach[1] and reach[0] < span[1] for end in span]
+    return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_PLAY * pair.other.radius
 
 
 def _is_centred(pair: CommonAxis, middles: Sequence[float]) -> bool:
@@ -260,29 +262,3 @@ def _walled(known: Known, line: Line, exact: bool) -> list[Hinge]:
     text = f"the pin of radius {pair.one.radius:.4g} {fit}; walls beside it leave a turn of {angle:.2g} rad"
     evidence = Evidence(EvidenceKind.CLEARANCE, (("radius", pair.other.radius), ("turn", angle)), text)
     return [Hinge(Inference.of(joint, evidence), Stop.FACES if exact else Stop.NONE)]
-
-
-def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
-    """Find the bore whose axis the joint turns about, where those of the two bodies are not quite one.
-
-    It is an axis that parts of both bodies have alike, whatever is off it, such as a bolt. Else it is that of the pin:
-    several links on one pin then turn about one axis, by however much their holes are off. Else it is that of the bore
-    that is inside of the other one, as the eye is in a fork.
-    """
-    if pair.offset <= SAME_LENGTH * pair.other.radius:
-        return pair.one
-    body, near = known.body, (pair.offset + NEAR_LENGTH * pair.other.radius) / pair.one.radius
-    around = [bore for part in known.names if body[part] in owners for bore in known.bores[part]]
-    around = [bore for bore in around if bore.on_axis_of(pair.one, MAX_TILT, near)]
-    around = [bore for bore in around if shared_length(bore, pair.other) > -pair.other.radius]
-    for bore in around:
-        alike = [each for each in around if each.on_axis_of(bore, SAME_ANGLE, SAME_LENGTH)]
-        if {body[each.part] for each in alike} == owners:
-            return bore
-    if not pair.virtual:
-        return pair.one
-    reach = {
-        owner: [end for bore in around if body[bore.part] == owner for end in bore.reach(pair.one.axis)]
-        for owner in owners
-    }
-    return min((pair.one, pair.other), key=lambda bore: np.ptp(reach[body[bore.part]] or [0.0]))

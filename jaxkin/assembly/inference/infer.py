@@ -9,7 +9,13 @@ from jaxkin.assembly.inference.bearing_joints import bearing_bodies, bearing_joi
 from jaxkin.assembly.inference.bearings import outside_of
 from jaxkin.assembly.inference.carriages import carriages
 from jaxkin.assembly.inference.clamped import bolted_balls, clamped_hubs, locked_threads
+from jaxkin.assembly.inference.closed_bearing_joints import (
+    closed_bearing_bodies,
+    closed_bearing_joints,
+    in_closed_bearings,
+)
 from jaxkin.assembly.inference.collets import collets
+from jaxkin.assembly.inference.dowels import dowelled
 from jaxkin.assembly.inference.far import far_joints
 from jaxkin.assembly.inference.fasteners import fasteners, stacks
 from jaxkin.assembly.inference.feathers import feathers
@@ -54,7 +60,7 @@ from jaxkin.assembly.inference.standing import butting_pins, embedded_pins, stan
 from jaxkin.assembly.inference.tapers import self_holding_tapers
 from jaxkin.assembly.inference.tight_ends import bolted_ends, pressed_pins, riveted_studs, screwed_on_ends
 from jaxkin.assembly.inference.tube_clamps import clamped_halves, u_bolts
-from jaxkin.assembly.inference.undrawn import screwed_flat
+from jaxkin.assembly.inference.undrawn import empty_nuts, lone_screws, screwed_flat
 from jaxkin.contacts.contact import Contacts
 from jaxkin.joints.joint import Joint
 
@@ -86,6 +92,10 @@ def infer(
     known.rings = {frozenset((each.outer, each.inner)) for each in rolling}
     known.add(bearing_bodies(known, rolling))
     known.add(clamped_on_rings(known, rolling))
+    closed = measured.closed_bearings
+    known.rings |= {frozenset(pair.parts) for pair in in_closed_bearings(known, closed)}
+    known.closed = {each.part for each in closed}
+    known.add(closed_bearing_bodies(known, closed))
 
     # shafts and hubs: keys, flats, balls of rod ends, split rings, bushes, screws across
     keyed = feathers(known)
@@ -103,7 +113,7 @@ def infer(
     known.sleeves = {each.part for each in set_in} - {*fixed}
 
     # which parts are fasteners: not rings and sleeves, nor what slides, turns or rolls
-    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves
+    fastening -= {name for each in rolling for name in (each.outer, each.inner)} | known.sleeves | known.closed
     fastening -= sliding_rods(known, set_in) | hollow_axles(known) | driven | barrels(known, set_in)
     fastening -= rollers(known, fastening)
     known.add([*squared_hubs(known, fastening), *pressed_on_shoulders(known, fastening)])
@@ -125,11 +135,14 @@ def infer(
     known.add([*pressed_rings(known), *retaining_rings(known)])
 
     # what fasteners hold: patterns, then each fastener with its body, then one screw alone
-    drawn = stacks(known.axes, fastening, known.touching, known.order)
+    outside = [pair for pair in known.axes if not {*pair.parts} & known.closed]  # bearings hold no fastener
+    touching = {pair for pair in known.touching if not pair & known.closed}
+    drawn = stacks(outside, fastening, touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
     while added := bolted_bodies(known, every):
         known.add(added)
     known.add(attached_fasteners(known, every))
+    known.add(empty_nuts(known))
     known.add(screwed_bodies(known, every))
     known.add(clamped_by_one_screw(known, every))
     known.add(clamped_on_slots(known, every))
@@ -139,17 +152,23 @@ def infer(
     known.found += bearing_joints(known, rolling)
     known.found += ball_joints(known)
     known.found += shoes(known)
-    known.add(pinned_slides(known))
-    joined = hinges(known, fastening)
+    known.add([*pinned_slides(known), *dowelled(known)])
+    turning = closed_bearing_joints(known, closed)
+    known.found += [each.inference for each in turning if each.stop is Stop.NONE]
+    body = known.body
+    borne = {frozenset(body[part] for part in each.inference.parts) for each in turning}
+    others = hinges(known, fastening)
+    joined = [*turning, *(each for each in others if {body[part] for part in each.inference.parts} not in borne)]
     guided = guided_on_faces(known)
     joined += [*set_on_pins(known, joined), *guided]
     known.found += floating(known, joined)
-    known.found += [each.inference for each in joined if each.stop is Stop.NONE]
+    known.found += [each.inference for each in joined if each.stop is Stop.NONE and each not in turning]
     known.found += loose_slides(known)
     known.found += carriages(known)
 
     # what is left: parts that lie on one other, or that nothing ties
     known.add(screwed_flat(known))
+    known.found += lone_screws(known)
     known.add(lying_on_one(known, guided))
     known.add(sunk_in_siblings(known))
     far = far_joints(known)

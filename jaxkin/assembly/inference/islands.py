@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from jaxkin.assembly.inference.embedded import inside
-from jaxkin.assembly.inference.hinges import Hinge
+from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.stop_faces import ACROSS

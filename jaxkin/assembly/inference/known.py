@@ -55,7 +55,10 @@ class Known:
         self.springs: set[str] = set()
         """Springs, which stop nothing."""
         self.rings: set[Pair] = set()
-        """The outer and the inner ring of each bearing, which are never one body."""
+        """The outer and the inner ring of each bearing, which are never one body; of a bearing that is one ring, that
+        and what is in its hole."""
+        self.closed: set[str] = set()
+        """Bearings that are one ring each."""
         self.bores, found = measured.bores, measured.axes(clearance)
         self.ignored, self.clearance = ignored, clearance
         found = [pair for pair in found if frozenset(pair.parts) not in ignored]
@@ -138,7 +141,8 @@ class Known:
         jointed = [*self.by_hand, *self.rings, *(frozenset(each.parts) for each in self.found if each.joint)]
         for each in inferences:
             owners = {body[part] for part in each.parts}
-            if len(owners) > 1 and not any({body[part] for part in pair} <= owners for pair in jointed):
+            apart = ({body[part] for part in pair} for pair in jointed)
+            if len(owners) > 1 and not any(len(pair) > 1 and pair <= owners for pair in apart):
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
                 body = {part: first if owner in owners else owner for part, owner in body.items()}

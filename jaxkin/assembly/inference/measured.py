@@ -11,8 +11,9 @@ from jaxtyping import Float
 from jaxkin.assembly.inference.axes import CommonAxis, common_axes, far_axes
 from jaxkin.assembly.inference.bearings import Bearing, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
+from jaxkin.assembly.inference.closed_bearings import ClosedBearing, closed_bearings
 from jaxkin.assembly.inference.embedded import depth_inside
-from jaxkin.assembly.inference.stop_faces import StopFace, stops
+from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
 from jaxkin.geometry.part import Part
 
 CORNERS = 12
@@ -22,10 +23,12 @@ CORNERS = 12
 class Measured:
     """Solids with what was measured of them so far: several mechanisms are tried for one assembly."""
 
-    def __init__(self, parts: Sequence[Part]) -> None:
-        self.parts = tuple(parts)
+    def __init__(self, parts: Sequence[Part], metre: float = 1e-3) -> None:
+        """Take the parts; `metre` is one unit of their lengths in metres."""
+        self.parts, self._metre = tuple(parts), metre
         self._axes: dict[float | None, list[CommonAxis]] = {}
         self._stops: dict[tuple[str, int], list[StopFace]] = {}
+        self._slanted: dict[tuple[str, int], list[StopFace]] = {}
         self._inside: dict[tuple[str, str], float] = {}
         self._distances: dict[frozenset[str], float] = {}
 
@@ -38,6 +41,12 @@ class Measured:
     def bearings(self) -> list[Bearing]:
         """Bearings among the parts: see `bearings`."""
         return bearings(self.parts, self.bores)
+
+    @cached_property
+    def closed_bearings(self) -> list[ClosedBearing]:
+        """Bearings that are one part each: see `closed_bearings`."""
+        taken = {name for each in self.bearings for name in (each.outer, each.inner, *each.between)}
+        return [each for each in closed_bearings(self.parts, self.bores, self._metre) if each.part not in taken]
 
     def axes(self, clearance: float | None) -> list[CommonAxis]:
         """Find the common axes of different parts: see `common_axes`."""
@@ -66,6 +75,13 @@ class Measured:
         if key not in self._stops:
             self._stops[key] = stops(part, axis)
         return self._stops[key]
+
+    def slanted_stops(self, part: Part, axis: Bore) -> list[StopFace]:
+        """Find what else of a part stops slides along the axis of a bore among `bores`: see `slanted_stops`."""
+        key = part.name, id(axis)
+        if key not in self._slanted:
+            self._slanted[key] = slanted_stops(part, axis)
+        return self._slanted[key]
 
     def depth_inside(self, part: Part, other: Part) -> float:
         """Measure the length of the pins of a part that lies in the material of another one."""

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from jaxkin.assembly.inference.axes import CommonAxis
-from jaxkin.assembly.inference.hinges import MIN_GUIDED, Hinge
+from jaxkin.assembly.inference.hinge import Hinge
+from jaxkin.assembly.inference.hinges import MIN_GUIDED
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
 from jaxkin.assembly.inference.lines import Line, lines
@@ -117,14 +118,19 @@ def _looser(known: Known, pair: CommonAxis) -> float | None:
     """Find the play of another body on the same pin, where that of a pair is none; None where all fit alike.
 
     The pin is held by the hole of another part, as a column in its base: a pin that is alone may turn in what it fits,
-    and pass through the others. A bush or a nut in another part is there for the pin to move in it, however it fits.
+    and pass through the others. A bush or a nut in another part is there for the pin to move in it, however it fits;
+    and what is between others slides.
     """
     body, fit = known.body, SAME_FIT * pair.other.radius
     on = [each for each in known.axes if each.one is pair.one and not each.virtual]
-    owner = body[pair.one.part]
+    owner, hub = body[pair.one.part], body[pair.other.part]
     if abs(pair.clearance) > fit or pair.other.part in known.sleeves:
         return None
     if not any(body[each.other.part] == owner for each in on):
         return None
-    others = [each.clearance for each in on if body[each.other.part] not in (owner, body[pair.other.part])]
-    return max((each for each in others if each > fit), default=None)
+    others = [each for each in on if body[each.other.part] not in (owner, hub)]
+    own = pair.other.reach(pair.one.axis)
+    ends = [each.other.reach(pair.one.axis) for each in on if body[each.other.part] != hub]
+    if any(high <= own[0] for _, high in ends) and any(low >= own[1] for low, _ in ends):
+        return None  # a linear bearing on its rod, which others hold on both ends
+    return max((each.clearance for each in others if each.clearance > fit), default=None)

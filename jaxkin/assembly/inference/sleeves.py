@@ -48,7 +48,8 @@ def sleeves(known: Known) -> list[Sleeve]:
     axles, result = hollow_axles(known), []
     for name in known.names:
         outside = [pair for pair in pins if pair.one.part == name and pair.clearance <= MAX_LOOSE * pair.other.radius]
-        if not outside or name in axles:
+        outside = [pair for pair in outside if pair.other.part not in known.closed]
+        if not outside or name in axles or name in known.closed:
             continue
         housing = min(outside, key=lambda pair: (abs(pair.clearance), -engaged(pair)))
         own = [bore for bore in known.bores[name] if bore.on_axis_of(housing.one)]

@@ -21,17 +21,22 @@ class Stop(IntEnum):
     """Faces on both sides."""
     ONE_FACE = 2
     """A face on one side, and on the other one the thread or the retaining ring of a fastener."""
-    CENTRED = 3
+    BEARING = 3
+    """Nothing that is drawn, but it is in a ball bearing."""
+    CENTRED = 4
     """Nothing that is drawn; the pin and its holes have their middles in one place."""
-    SHORT = 4
+    NO_STROKE = 5
+    """Nothing that is drawn, but it is about as long as what it is in."""
+    SHORT = 6
     """Faces on both sides, but far away; the hole is too short to slide between them without jamming."""
-    TIGHT = 5
+    TIGHT = 7
     """Nothing that is drawn, but it fits exactly where something else on the same pin has play."""
 
 
 _WHY = {
     Stop.ONE_FACE: "on one side a fastener alone would stop its slide",
     Stop.CENTRED: "no face that is drawn stops its slide",
+    Stop.NO_STROKE: "no face that is drawn stops its slide",
     Stop.SHORT: "only that its hole is short tells that it does not slide",
 }
 """Why a joint that is taken to turn only may slide, too."""

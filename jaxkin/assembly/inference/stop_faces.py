@@ -29,6 +29,11 @@ MIN_MET = 0.02
 """Width, over the radius, of the ring about the axis in which two faces meet, at least: a piston passes a shoulder that
 begins where the piston ends."""
 
+MIN_SLOPE = 0.1
+"""Cosine of the angle between an axis and the normal of a slanted face, at least: steeper ones slide past others."""
+RINGS, RING_POINTS = 5, 24
+"""Rings about an axis, and points on each, at which slanted faces are measured."""
+
 WIDER = 1.05
 """Distance from the axis over the radius of a pin from which on it is shoulders that are met, not the pin itself."""
 
@@ -65,6 +70,52 @@ def stops(part: Part, axis: Bore) -> list[StopFace]:
             forwards = bool(plane.normal @ axis.axis > 0)
             found.append(StopFace(float(plane.point @ axis.axis), forwards, inner, float(outer)))
     return found
+
+
+def slanted_stops(part: Part, axis: Bore) -> list[StopFace]:
+    """Find where faces of a part that stand askew to an axis reach farthest along it, either way, beside the bore and
+    near to it: slanted ends, cones, balls and points of plates meet faces across the axis as plane faces do.
+
+    Each is a narrow ring about the axis, at the farthest point of the face among its corners and some points on rings.
+    """
+    found = []
+    for face in part.faces:
+        if stands_across(face.surface, axis.axis):
+            continue
+        triangles = face.triangles - axis.point
+        slopes = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        slopes = (slopes @ axis.axis) / np.maximum(np.linalg.norm(slopes, axis=1), np.finfo(float).tiny)
+        for way in (1.0, -1.0):
+            points = _beside(triangles[way * slopes > MIN_SLOPE], axis)
+            if len(points):
+                height, distance = points[np.argmax(way * points[:, 0])]
+                width = MIN_MET * axis.radius
+                place = float(axis.point @ axis.axis + height)
+                found.append(StopFace(place, way > 0, float(distance - width), float(distance + width)))
+    return found
+
+
+def _beside(triangles: Float[np.ndarray, "triangles 3 3"], axis: Bore) -> Float[np.ndarray, "points 2"]:
+    """List points of triangles, relative to the axis, that lie beside its bore: heights, and distances from it."""
+    heights = triangles @ axis.axis
+    x = np.cross(axis.axis, np.eye(3)[np.argmin(np.abs(axis.axis))])
+    x /= np.linalg.norm(x)
+    flat = triangles @ np.column_stack([x, np.cross(axis.axis, x)])
+    away = np.linalg.norm(flat, axis=-1)
+    low, high = WIDER * axis.radius, REACH * axis.radius
+    near = np.all(flat.min(axis=1) <= high, axis=-1) & np.all(flat.max(axis=1) >= -high, axis=-1)
+    corners = (away > low) & (away <= high)
+    found = [np.column_stack([heights[corners], away[corners]])]
+    angle, radius = np.meshgrid(np.linspace(0, 2 * np.pi, RING_POINTS, endpoint=False), np.linspace(low, high, RINGS))
+    points = np.column_stack([(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel()])
+    for corner, height in zip(flat[near], heights[near], strict=True):
+        edges = np.column_stack([corner[1] - corner[0], corner[2] - corner[0]])
+        if abs(np.linalg.det(edges)) > np.finfo(float).tiny:
+            share = np.linalg.solve(edges, (points - corner[0]).T)
+            inside = (share.min(axis=0) >= 0) & (share.sum(axis=0) <= 1)
+            on_it = height[0] + (height[1:] - height[0]) @ share[:, inside]
+            found.append(np.column_stack([on_it, radius.ravel()[inside]]))
+    return np.concatenate(found)
 
 
 def _distance(triangles: Float[np.ndarray, "triangles 3 3"], point: Vector, axis: Vector) -> float:

@@ -1,9 +1,11 @@
-"""Screws that are not drawn: empty holes of a part that end on a face of another one, against which it lies flat."""
+"""Screws that are not drawn: empty holes of a part that end on a face of another one, against which it lies flat; nuts
+with nothing in them."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.assembly.inference.fasteners import beside
 from jaxkin.assembly.inference.inference import Inference
@@ -12,10 +14,50 @@ from jaxkin.assembly.inference.screwed import crossings
 from jaxkin.assembly.inference.stop_faces import ACROSS
 from jaxkin.contacts.contact import Contact
 from jaxkin.geometry.surfaces import Plane
+from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
+from jaxkin.topology.components import connected
 
 AT_FACE = 0.05
 """Distance of the end of a hole from the face that covers it, over its radius."""
+
+
+HEXAGON = 0.03
+"""Difference of the distances of the six sides of a nut from its axis, over these, that is none."""
+
+
+def empty_nuts(known: Known) -> list[Inference]:
+    """Join hexagonal nuts that are on no screw with the part on whose hole they are: the nearest one along their axis.
+
+    What is screwed into them is left out of such drawings, and a nut lies in a recess of what it belongs to, or on it.
+    """
+    on: dict[str, list[CommonAxis]] = {}
+    for pair in known.axes:
+        for part in pair.parts:
+            on.setdefault(part, []).append(pair)
+    body, result = known.body, []
+    for name, some in on.items():
+        (hole, *others) = known.bores[name]
+        if others or name in known.fixed or not all(pair.virtual for pair in some) or not _is_hexagonal(known, hole):
+            continue
+        tied = {part for pair in known.touching if name in pair for part in pair} - {name}
+        nearest = max(some, key=lambda pair: (bool({*pair.parts} & tied), engaged(pair)))
+        if len({body[part] for part in nearest.parts}) > 1:
+            (host,) = {*nearest.parts} - {name}
+            text = f"the nut {name!r} is on a hole of {host!r}, and its screw is not drawn"
+            evidence = Evidence(EvidenceKind.FASTENER, (("radius", hole.radius),), text)
+            result.append(Inference(known.in_order((name, host)), evidence))
+    return result
+
+
+def _is_hexagonal(known: Known, hole: Bore) -> bool:
+    """Tell whether a part has six plane sides about its hole, as far from the axis, and no others."""
+    planes = [face.surface for face in known.solids[hole.part].faces if isinstance(face.surface, Plane)]
+    along = [plane for plane in planes if abs(plane.normal @ hole.axis) < ACROSS]
+    if len(along) != 6:
+        return False
+    away = np.array([(plane.point - hole.point) @ plane.normal for plane in along])
+    return bool(away.min() > 0 and np.ptp(away) <= HEXAGON * away.max())
 
 
 def screwed_flat(known: Known) -> list[Inference]:
@@ -47,6 +89,37 @@ def screwed_flat(known: Known) -> list[Inference]:
                 parts = known.in_order((part, other))
                 evidence = Evidence(EvidenceKind.BOLT_PATTERN, (("axes", float(len(ends))),), text)
                 result.append(Inference(parts, evidence))
+    return result
+
+
+def lone_screws(known: Known) -> list[Inference]:
+    """Infer that bodies turn on a screw that is not drawn: they lie flat on each other, and have one axis in common, a
+    hole that the screw goes through over one that it is screwed into.
+
+    Two screws would hold them; of one alone nothing keeps them from turning, where they are not tied to each other by
+    third ones, as a rail is between two plates.
+    """
+    body, jointed = known.body, known.jointed
+    ties = {frozenset(body[part] for part in pair) for pair in (*known.touching, *known.jointed)}
+    ties |= {frozenset(body[part] for part in pair.parts) for pair in (*known.axes, *known.tapped)}
+    common: dict[Pair, list[CommonAxis]] = {}
+    for pair in (*known.axes, *known.tapped):
+        common.setdefault(frozenset(body[part] for part in pair.parts), []).append(pair)
+    result = []
+    for owners, found in common.items():
+        one, other = found[0].one, found[0].other
+        touching = [each for each in known.contacts if {body[part] for part in each.parts} == owners]
+        lie = [known.lie_flat(*each.parts, one.axis) for each in touching]
+        if len(found) == 1 and found[0].tapped and len(owners) == 2 and owners not in jointed and lie and all(lie):
+            others = connected({*body.values()}, [(*tie,) for tie in ties if tie != owners and len(tie) == 2])
+            if any(owners <= {*group} for group in others):
+                continue
+            wide, narrow = sorted((one, other), key=lambda bore: -bore.radius)
+            parts = known.in_order(found[0].parts)
+            joint = pairs.revolute("-".join(parts), *parts, point=narrow.point, axis=narrow.axis)
+            text = f"a hole of radius {wide.radius:.4g} over one of {narrow.radius:.4g}, as for a screw to turn on"
+            sizes = (("radius", wide.radius), ("clearance", wide.radius - narrow.radius))
+            result.append(Inference.of(joint, Evidence(EvidenceKind.VIRTUAL_PIN, sizes, text)))
     return result
 
 

@@ -83,12 +83,12 @@ def test_outer_rings_of_two_housings_have_no_hinge_about_their_raceways():
     assert {joint.evidence.kind for joint in mechanism.all_joints if joint.freedoms} == {EvidenceKind.BEARING}
 
 
-def test_a_bearing_that_is_one_solid_is_set_into_the_housing():
+def test_a_bearing_that_is_one_solid_belongs_to_the_housing_and_keeps_the_shaft():
     drawn = assembly(HOUSING, SHAFT, part("A", ring(BORE, OUTSIDE, -14, -6)), part("B", ring(BORE, OUTSIDE, 6, 14)))
     mechanism = drawn.mechanism(fixed=["housing"])
     assert {*mechanism.bodies["housing"]} == {"housing", "A", "B"}
     (joint,) = (each for each in mechanism.all_joints if each.freedoms)
-    assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CONTACT
+    assert joint.kind == "revolute" and joint.evidence.kind == EvidenceKind.BEARING
 
 
 def test_a_joint_by_hand_comes_before_a_bearing():

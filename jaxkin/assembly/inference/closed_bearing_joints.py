@@ -1,0 +1,65 @@
+"""What a ball bearing that is drawn as one ring implies: its outside belongs to what it sits in, and in its hole turns
+what is there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from jaxkin.assembly.inference.axes import CommonAxis, engaged
+from jaxkin.assembly.inference.closed_bearings import ClosedBearing
+from jaxkin.assembly.inference.hinge import Hinge
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.slide_stops import Stop
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MAX_LOOSE = 0.1
+"""Clearance of a bearing in its seat, over the radius of that, at most."""
+
+
+def in_closed_bearings(known: Known, found: Sequence[ClosedBearing]) -> list[CommonAxis]:
+    """Find the pins in the holes of bearings: they turn there, and are no body with the ring."""
+    names = {each.part for each in found}
+    return [pair for pair in known.axes if not pair.virtual and pair.other.part in names and pair.one.part not in names]
+
+
+def closed_bearing_bodies(known: Known, found: Sequence[ClosedBearing]) -> list[Inference]:
+    """Join each bearing with what its outside sits in."""
+    result = []
+    for each in found:
+        seats = [pair for pair in known.axes if pair.one is each.outside and not pair.virtual]
+        seats = [pair for pair in seats if pair.clearance <= MAX_LOOSE * pair.other.radius]
+        if seats:
+            seat = max(seats, key=engaged)
+            text = f"{each.part!r} has the size of a ball bearing, and sits in {seat.other.part!r}"
+            result.append(Inference(known.in_order(seat.parts), _evidence(each, text)))
+    return result
+
+
+def closed_bearing_joints(known: Known, found: Sequence[ClosedBearing]) -> list[Hinge]:
+    """Make a revolute joint of each bearing and what turns in it; one for several bearings on an axis of two bodies.
+
+    Of pins that fit exactly it only stops the slide that contacts allow.
+    """
+    body, lines, result = known.body, {}, []
+    of = {each.part: each for each in found}
+    taken = {*known.jointed}
+    for pair in sorted(in_closed_bearings(known, found), key=engaged, reverse=True):
+        owners = frozenset(body[part] for part in pair.parts)
+        exact = any(owners == {body[part] for part in each} for each in known.pinned)
+        others = lines.setdefault(owners, [])
+        if len(owners) < 2 or (owners in taken and not others) or any(pair.one.on_axis_of(line) for line in others):
+            continue
+        others.append(pair.one)
+        parts = known.in_order(pair.parts)
+        joint = pairs.revolute("-".join(parts), *parts, point=pair.other.point, axis=pair.one.axis)
+        text = f"{pair.one.part!r} turns in {pair.other.part!r}, which has the size of a ball bearing"
+        inference = Inference.of(joint, _evidence(of[pair.other.part], text))
+        result.append(Hinge(inference, Stop.BEARING if exact else Stop.NONE))
+    return result
+
+
+def _evidence(bearing: ClosedBearing, text: str) -> Evidence:
+    sizes = (("bore", 2 * bearing.hole.radius), ("outside", 2 * bearing.outside.radius))
+    return Evidence(EvidenceKind.BEARING, sizes, text)

@@ -1,0 +1,36 @@
+"""Short parallel pins with play in holes of another part that lies on theirs: dowels, bosses, threaded inserts."""
+
+from __future__ import annotations
+
+from jaxkin.assembly.inference.axes import engaged
+from jaxkin.assembly.inference.fasteners import beside
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.lines import Line, lines
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+MIN_GUIDE = 2.5
+"""Length in its hole of a pin that guides beside another one, over its radius, at least: what only places a part on
+another one is shorter."""
+
+
+def dowelled(known: Known) -> list[Inference]:
+    """Join bodies that lie flat on each other, across two or more parallel pins of one in holes of the other: pins with
+    play, all of them short. Screws that hold them together are left out of such drawings."""
+    result = []
+    for line in lines(known):
+        pins = [each for each in line.found if not each.virtual]
+        parallel = any(beside(each.one, pins[0].one) for each in pins[1:])
+        short = all(engaged(each) < MIN_GUIDE * each.other.radius for each in pins)
+        if parallel and short and _lie_flat(known, line):
+            one, other = pins[0].parts
+            sizes = (("axes", float(len(pins))), ("clearance", pins[0].clearance))
+            text = f"{len(pins)} short parallel pins of {one!r} in {other!r}, and faces that meet around them"
+            result.append(Inference(known.in_order((one, other)), Evidence(EvidenceKind.BOLT_PATTERN, sizes, text)))
+    return result
+
+
+def _lie_flat(known: Known, line: Line) -> bool:
+    """Tell whether all that two bodies have in contact are plane faces across the pins."""
+    axis = line.first.one.axis
+    return bool(line.touching) and all(known.lie_flat(*contact.parts, axis) for contact in line.touching)

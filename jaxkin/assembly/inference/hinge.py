@@ -1,0 +1,91 @@
+"""The joint of two bodies about a common axis, and how it is told."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from jaxkin.assembly.inference.axes import MAX_TILT, CommonAxis, shared_length
+from jaxkin.assembly.inference.bores import NEAR_LENGTH, SAME_ANGLE, SAME_LENGTH, Bore
+from jaxkin.assembly.inference.inference import Inference
+from jaxkin.assembly.inference.known import Known, Pair
+from jaxkin.assembly.inference.lines import Line
+from jaxkin.assembly.inference.slide_stops import Stop, slide_doubt
+from jaxkin.joints import pairs
+from jaxkin.joints.evidence import Evidence, EvidenceKind
+
+
+class Hinge(NamedTuple):
+    """An inferred joint of two bodies about a common axis."""
+
+    inference: Inference
+    stop: Stop
+    """What is in doubt: see `Stop`."""
+
+
+def hinge(
+    known: Known, line: Line, stop: Stop, free: float | None, room: float | None, touching: bool = False
+) -> Hinge:
+    """Make a revolute joint with a play `free` along the axis, or a cylindrical one without it.
+
+    `stop` is what stops the slide, and `room` the play that faces leave, None without faces on both sides.
+    """
+    pair, hole, exact = line.first, line.first.other, any(line.pins)
+    parts = known.in_order(pair.parts)
+    make = pairs.cylindrical if free is None else pairs.revolute
+    axis = _line(known, pair, line.owners)
+    middle = axis.point + ((hole.point - axis.point) @ axis.axis) * axis.axis
+    joint = make("-".join(parts), *parts, point=middle, axis=axis.axis)
+    sizes = [("radius", hole.radius), ("clearance", pair.clearance), ("offset", pair.offset), ("tilt", pair.tilt)]
+    sizes += [] if free is None else [("play", free)]
+    if pair.virtual:
+        kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
+    else:
+        how = "a clearance" if pair.clearance >= 0 else "an interference"
+        fit = "fits" if exact else f"has {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
+        kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
+    doubt = None if touching else slide_doubt(stop, room, hole.radius)
+    evidence = Evidence(kind, tuple(sizes), f"{text}; {_told(stop, free, room)}", doubt)
+    # faces that stop a pin with play are no second reading: there is no other joint of the two bodies
+    sure = not exact and stop in (Stop.FACES, Stop.SHORT)
+    return Hinge(Inference.of(joint, evidence), Stop.NONE if sure else stop)
+
+
+def _told(stop: Stop, free: float | None, room: float | None) -> str:
+    """Say what stops a slide."""
+    if free is None:
+        return "no face stops its slide"
+    return {
+        Stop.ONE_FACE: f"a face {free:.2g} away and the fastener stop its slide",
+        Stop.CENTRED: "the pin and its holes have one middle, where it is taken to stay",
+        Stop.NO_STROKE: "the pin is no longer than its hole, or little: taken to turn",
+        Stop.SHORT: f"its hole is shorter than wide and would jam on a slide of {room or 0.0:.2g} between faces: "
+        "taken to turn",
+    }.get(stop, f"faces stop its slide, with a play of {free:.2g}")
+
+
+def _line(known: Known, pair: CommonAxis, owners: Pair) -> Bore:
+    """Find the bore whose axis the joint turns about, where those of the two bodies are not quite one.
+
+    It is an axis that parts of both bodies have alike, whatever is off it, such as a bolt. Else it is that of the pin:
+    several links on one pin then turn about one axis, by however much their holes are off. Else it is that of the bore
+    that is inside of the other one, as the eye is in a fork.
+    """
+    if pair.offset <= SAME_LENGTH * pair.other.radius:
+        return pair.one
+    body, near = known.body, (pair.offset + NEAR_LENGTH * pair.other.radius) / pair.one.radius
+    around = [bore for part in known.names if body[part] in owners for bore in known.bores[part]]
+    around = [bore for bore in around if bore.on_axis_of(pair.one, MAX_TILT, near)]
+    around = [bore for bore in around if shared_length(bore, pair.other) > -pair.other.radius]
+    for bore in around:
+        alike = [each for each in around if each.on_axis_of(bore, SAME_ANGLE, SAME_LENGTH)]
+        if {body[each.part] for each in alike} == owners:
+            return bore
+    if not pair.virtual:
+        return pair.one
+    reach = {
+        owner: [end for bore in around if body[bore.part] == owner for end in bore.reach(pair.one.axis)]
+        for owner in owners
+    }
+    return min((pair.one, pair.other), key=lambda bore: np.ptp(reach[body[bore.part]] or [0.0]))

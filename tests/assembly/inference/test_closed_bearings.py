@@ -1,0 +1,81 @@
+"""Ball bearings that are drawn as one ring: by their sizes, in any unit, wherever they lie."""
+
+import numpy as np
+import pytest
+
+from jaxkin.assembly.assembly import Assembly
+from jaxkin.assembly.inference.bores import bores
+from jaxkin.assembly.inference.closed_bearings import SIZES, closed_bearings
+from jaxkin.geometry.units import METRES
+from jaxkin.joints.evidence import EvidenceKind
+from reference.round_parts import anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
+
+# a 608 bearing, 8 x 22 x 7
+BORE, OUTSIDE, WIDTH = 4.0, 11.0, 7.0
+
+
+def bearing(name, low, bore=BORE, outside=OUTSIDE, width=WIDTH):
+    return part(name, ring(bore, outside, low, low + width))
+
+
+def housing(play=0.0):
+    return part("housing", ring(OUTSIDE + play, 20.0, 0.0, 30.0), block((-40, -40, -10), (-20, 40, 40)))
+
+
+def shaft(play=0.0, low=-20.0):
+    return part("shaft", pin(BORE - play, low, 50.0), block((-5, -5, 50), (5, 40, 60)))
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("outer_play", [0.0, 0.1, -0.02])
+@pytest.mark.parametrize("inner_play", [0.0, 0.1])
+def test_a_shaft_turns_in_its_bearings_and_they_belong_to_the_housing(seed, outer_play, inner_play):
+    """However it fits; a shaft without a collar slides on its bearings by exact contacts, and does not."""
+    drawn = anywhere(
+        assembly(housing(outer_play), shaft(inner_play), bearing("one", 0), bearing("other", 23)),
+        seed,
+        scaled_at_random=False,
+    )
+    mechanism = drawn.mechanism(fixed=["housing"])
+    assert owners(mechanism)["one"] == owners(mechanism)["other"] == owners(mechanism)["housing"]
+    (joint,) = moving(mechanism)
+    assert joint.kind == "revolute" and joint.evidence.kind == EvidenceKind.BEARING
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_spacer_in_a_bearing_goes_with_the_shaft(seed):
+    """A ring that is tight in the hole of the bearing, and has play on its rod, is no bush of the bearing."""
+    spacer = part("spacer", ring(2.2, BORE, 8.0, 11.5))
+    rod = part("rod", pin(2.0, -30.0, 60.0), block((-5, -5, -40), (5, 5, -30)))
+    mechanism = anywhere(
+        assembly(housing(), rod, spacer, bearing("bearing", 8.0)), seed, scaled_at_random=False
+    ).mechanism(fixed=["housing"])
+    body = owners(mechanism)
+    assert body["bearing"] == body["housing"] != body["spacer"]
+    assert kind_of(mechanism, "spacer", "housing") == "revolute"
+
+
+@pytest.mark.parametrize("unit", ["mm", "m", "in"])
+def test_a_bearing_is_known_by_its_size_in_any_unit(unit):
+    def found(bore, outside, width):
+        scale = 1e-3 / METRES[unit]
+        drawn = part("ring", ring(bore * scale / 2, outside * scale / 2, 0.0, width * scale))
+        return bool(Assembly((drawn,), unit, "drawn.step")._measured.closed_bearings)
+
+    for bore, outside, width in ((8, 22, 7), (17, 40, 12), (6.35, 12.7, 4.7625), (3, 10, 4), (8.02, 22.05, 7.02)):
+        assert found(bore, outside, width)
+    # a bush, a washer, a collar, a piston of the proportions of a bearing
+    for bore, outside, width in ((8, 10, 12), (8.4, 16, 1.6), (8, 22, 12), (16, 44, 14)):
+        assert not found(bore, outside, width)
+
+
+def test_catalogued_rings_are_thick_enough_for_balls():
+    """Balls leave no room in a ring whose section is narrower than a quarter of its width."""
+    bore, outside, width = SIZES.T
+    assert np.all(outside > 1.2 * bore) and np.all(outside - bore > 0.5 * width)
+    assert len(np.unique(SIZES, axis=0)) == len(SIZES)
+
+
+def test_what_has_other_bores_is_no_bearing():
+    flange = part("flange", ring(BORE, OUTSIDE, 0, WIDTH), ring(0.5, 1.0, 0, WIDTH, at=(7.5, 0.0)))
+    assert not closed_bearings([flange], {"flange": bores(flange)})

@@ -1,0 +1,130 @@
+"""Machines whose makers leave screws and pins out of the drawing, or draw parts with points and play, to be printed."""
+
+import numpy as np
+import pytest
+import trimesh
+
+from jaxkin.geometry.surfaces import Cylinder, Plane
+from jaxkin.joints.evidence import EvidenceKind
+from reference.round_parts import across, anywhere, assembly, block, kind_of, moving, owners, part, pin, ring
+
+
+def solid(mesh):
+    """Faces of a mesh, each facet a plane."""
+    faces = []
+    for facet, normal in zip(mesh.facets, mesh.facets_normal, strict=True):
+        triangles = mesh.triangles[facet]
+        faces.append((Plane(triangles[0, 0], normal), triangles))
+    return faces
+
+
+def prism(outline, low, high):
+    """A prism over a convex outline in x and z, from y = `low` to `high`."""
+    corners = [(x, y, z) for x, z in outline for y in (low, high)]
+    return solid(trimesh.convex.convex_hull(np.array(corners, float)))
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("half", "told"), [(19.7, "faces stop its slide"), (5.0, "no longer than its hole")])
+def test_a_point_between_two_plates_stops_a_slide_as_a_face_does(seed, half, told):
+    """A plate that runs out into edges above and below, on an axle whose ends are in two plates."""
+    plates = [ring(2.05, 30.0, -25.0, -20.0), ring(2.05, 30.0, 20.0, 25.0), block((30, -5, -25), (35, 5, 25))]
+    leg = prism([(2.5, half), (2.5, -half), (60, 10), (60, -10)], -1.0, 1.0)
+    drawn = assembly(part("base", *plates), part("leg", pin(2.0, -25, 25), leg))
+    (joint,) = moving(anywhere(drawn, seed).mechanism(fixed=["base"]))
+    assert joint.kind == "revolute" and told in joint.evidence.text
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("length", "kind"), [(12.0, "revolute"), (80.0, "cylindrical")])
+def test_what_is_as_long_as_its_pin_has_no_stroke(seed, length, kind):
+    """A wheel on the end of its axle, with nothing that keeps it there, turns; on a long rod it slides, too."""
+    car = part("car", block((-20, -10, -60), (20, 10, -40)), pin(3.0, -40.0, length - 40.0))
+    wheel = part("wheel", ring(3.3, 12.0, -38.0, -28.0), block((12, -2, -38), (18, 2, -28)))
+    assert kind_of(anywhere(assembly(car, wheel), seed).mechanism(fixed=["car"]), "car", "wheel") == kind
+
+
+def plate(name, low, high, holes, radius):
+    """A plate with bushes round its holes, which lie on the plate below or above."""
+    return part(name, *(ring(radius, radius + 4, low, high, at) for at in holes))
+
+
+HOLES = [(0.0, 0.0), (40.0, 0.0)]
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize(("length", "count"), [(4.0, 1), (14.0, 2)])
+def test_short_dowels_place_a_part_and_long_pins_guide_it(seed, length, count):
+    """Bosses with play in holes, faces that meet around them: a slide would lift the part off two radii later."""
+    lid = [pin(3.0, -length, 2.0, at) for at in HOLES] + [ring(3.1, 9.0, 0.0, 2.0, at) for at in HOLES]
+    drawn = assembly(plate("base", -15, 0, HOLES, 3.2), part("lid", *lid))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    assert len(mechanism.bodies) == count
+    assert [str(joint.kind) for joint in moving(mechanism)] == ["prismatic"] * (count - 1)
+
+
+def nut(low, high, radius=4.0, at=(0.0, 0.0)):
+    """A hexagonal nut with its hole."""
+    angles = np.radians(60 * np.arange(6))
+    outline = 7.0 * np.column_stack([np.cos(angles), np.sin(angles)]) + at
+    hexagon = trimesh.convex.convex_hull(np.array([(*corner, z) for corner in outline for z in (low, high)]))
+    sides = [each for each in solid(hexagon) if abs(each[0].normal[2]) < 0.5]
+    return [*sides, *ring(radius, radius + 0.5, low, high, at)[:3]]
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_nut_on_no_screw_belongs_to_the_hole_that_it_is_on(seed):
+    """In a recess that is a little wider; a round spacer on the same holes is left to turn."""
+    base = part("base", ring(4.0, 20.0, 0.0, 10.0))
+    drawn = assembly(base, part("nut", nut(10.05, 16.0)), part("wheel", ring(4.0, 15.0, -6.0, 0.0)))
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    body = owners(mechanism)
+    assert body["nut"] == body["base"] != body["wheel"]
+    assert any("its screw is not drawn" in note for note in mechanism.notes)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("holes", [HOLES[:1], HOLES])
+def test_on_one_screw_that_is_not_drawn_a_lever_turns_and_two_hold_it(seed, holes):
+    """A hole that the screw goes through over one that it is screwed into."""
+    arm = block((-60, -4, 0), (-7, 4, 4))
+    lever = part("lever", arm, *(ring(1.7, 8.0, 0.0, 4.0, at) for at in holes))
+    drawn = assembly(part("base", *(ring(1.25, 9.0, -10.0, 0.0, at) for at in holes)), lever)
+    mechanism = anywhere(drawn, seed).mechanism(fixed=["base"])
+    if len(holes) == 1:
+        (joint,) = moving(mechanism)
+        assert joint.kind == "revolute" and joint.evidence.kind == EvidenceKind.VIRTUAL_PIN
+    else:
+        assert len(mechanism.bodies) == 1
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_short_wheel_with_play_that_lies_on_nothing_turns_on_its_pin(seed):
+    """A planet, printed in its carrier: no nut, which would lie on something, and has no play."""
+    carrier = part("carrier", pin(4.6, 0.0, 20.0), ring(4.6, 30.0, -5.0, 0.0), ring(4.6, 30.0, 20.0, 25.0))
+    planet = part("planet", ring(5.0, 11.0, 4.0, 16.0))
+    mechanism = anywhere(assembly(carrier, planet), seed).mechanism(fixed=["carrier"])
+    assert kind_of(mechanism, "carrier", "planet") == "revolute"
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_block_that_fits_its_rod_between_the_ends_that_hold_it_slides(seed):
+    """Ends are drawn with play, for the printer; the linear bearing is not."""
+    ends = [
+        part(f"end {k}", across(ring(4.25, 12.0, x, x + 20.0)), block((x, -20, -30), (x + 20, 20, -12)))
+        for k, x in enumerate((-150.0, 130.0))
+    ]
+    rod = part("rod", across(pin(4.0, -150, 150)))
+    slide = part("block", across(ring(4.0, 12.0, -15, 15)), block((-20, -15, 12), (20, 15, 30)))
+    mechanism = anywhere(assembly(*ends, rod, slide), seed).mechanism(fixed=["end 0", "end 1"])
+    assert owners(mechanism)["rod"] != owners(mechanism)["block"]
+    assert kind_of(mechanism, "rod", "block") == "cylindrical"
+
+
+def test_drawn_solids_are_what_tests_say():
+    """Facets of a prism look outwards, and a nut has six sides."""
+    middle = np.array([30.0, 0.0, 0.0])
+    for surface, triangles in prism([(2.5, 20), (2.5, -20), (60, 10), (60, -10)], -1, 1):
+        assert (triangles.mean(axis=(0, 1)) - middle) @ surface.normal > 0
+    sides = [surface for surface, _ in nut(0, 6) if isinstance(surface, Plane) and abs(surface.normal[2]) < 0.5]
+    assert len(sides) == 6 and sum(isinstance(surface, Cylinder) for surface, _ in nut(0, 6)) == 1
