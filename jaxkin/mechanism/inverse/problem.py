@@ -142,9 +142,9 @@ class Problem:
         """
         from scipy.spatial.transform import Rotation
 
-        closure, jacobian, transforms, rates = (
-            np.asarray(each) for each in _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
-        )
+        with jax.enable_x64(True):  # on the host numbers have double precision always, as those of numpy beside them
+            found = _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
+        closure, jacobian, transforms, rates = (np.asarray(each) for each in found)
         errors, slopes = [], []
         for aim in self.aims:
             if isinstance(aim, JointAim):
