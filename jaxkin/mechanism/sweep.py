@@ -29,7 +29,7 @@ from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
 from jaxkin.solve.execution.programs import by_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.solve.status import ClosureTolerance, default_tolerance, rounding_residual
+from jaxkin.solve.status import ClosureTolerance, default_tolerance, in_doubt, rounding_residual
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -132,8 +132,10 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
     # under `grad` JAX hands arrays of the host through as they are
     arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
     inputs = dict(zip(plan.driven, arrays, strict=True))
-    displacements = found.displacements(plan.freedoms)
-    return Motion(mechanism, inputs, displacements, found.status, found.residual, options=options)
+    displacements, status = found.displacements(plan.freedoms), found.status
+    if plan.at_dead_point:
+        status = in_doubt(status)
+    return Motion(mechanism, inputs, displacements, status, found.residual, options=options)
 
 
 def _of_least_residual(
