@@ -24,6 +24,7 @@ from jaxkin.linkage.joint_motion import transforms
 from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, derivatives, follow, known_motion
 from jaxkin.mechanism.motion import Motion, as_point
+from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import Status
 from jaxkin.topology.structure import Structure
@@ -40,8 +41,9 @@ Rows = tuple[Float[Array, "poses _"], ...]
 class Rates:
     """Derivatives of a motion with respect to time, of one order. A pytree; every array has the poses first.
 
-    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. Those of parts
-    are computed when they are asked for.
+    Rates are zero at poses that did not close, and NaN at NONFINITE poses: `motion.status` tells which. At singular
+    poses they are those of least norm, finite but not those of the branch: `print` names them, by `motion.sigma_min`.
+    Rates of parts are computed when they are asked for.
     """
 
     motion: Motion
@@ -82,12 +84,13 @@ class Rates:
         return dict(zip(self.motion.mechanism.parts, self.matrices[-1], strict=True))
 
     def __str__(self) -> str:
-        """A line a coordinate: its least and its greatest rate, and where."""
+        """A line a coordinate: its least and its greatest rate, and where; and where they are not determined."""
         lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
         for name, row in zip(*self._rows(), strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
                 lines.append(f"  {name}: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
+        lines += [f"  {line}" for line in singular_report(self.motion, self.order)]
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:

@@ -22,7 +22,7 @@ from jaxkin.linkage.loop_class import LoopClass
 from jaxkin.linkage.solve_order import Group, keep_freedoms_together, order_by_counting, solve_order
 from jaxkin.mechanism.collect import DisplacementSources
 from jaxkin.mechanism.formula_sweep import FormulaSweep
-from jaxkin.mobility.infeasible_drive import InfeasibleDrive, infeasible_drive
+from jaxkin.mobility.infeasible_drive import InfeasibleDrive, dead_point, infeasible_drive
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
 from jaxkin.solve.closed_form.assembled_axes import Axes, assembled_axes
 from jaxkin.solve.closed_form.group_formulas import why_not_all
@@ -78,6 +78,8 @@ class DrivePlan(NamedTuple):
     """Loop groups that are solved; they do not depend on each other."""
     infeasible: InfeasibleDrive | None
     """Why the loops cannot follow the drive; None where they can, or where that is not sure."""
+    at_dead_point: bool = False
+    """Whether the assembled pose is a dead point of the drive; False where numbers are traced."""
     by_formula: FormulaSweep | None = None
     """The sweep of all loop groups by one program; None where one of them has no formula, or numbers are traced."""
 
@@ -127,8 +129,10 @@ def _plan_drive(linkage: Linkage, keys: Sequence[str]) -> DrivePlan:
             _driven_loop_group(linkage, on_host if judged else None, number, tuple(places[i] for i in inputs), inputs)
         )
     freedoms = tuple(joint.freedoms for joint in linkage.joints)
-    infeasible = infeasible_drive(linkage, places) if judged and not traced(linkage) else None
-    return DrivePlan(driven, freedoms, tuple(loop_groups), infeasible)
+    if not judged or traced(linkage):
+        return DrivePlan(driven, freedoms, tuple(loop_groups), None)
+    infeasible, dead = infeasible_drive(linkage, places), dead_point(linkage, places) is not None
+    return DrivePlan(driven, freedoms, tuple(loop_groups), infeasible, dead)
 
 
 def _driven_loop_group(

@@ -21,7 +21,7 @@ from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms, point_path
 from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, limit_report
 from jaxkin.mechanism.pose_error import check
-from jaxkin.mobility.infeasible_drive import undriven_freedoms
+from jaxkin.mobility.infeasible_drive import dead_point, undriven_freedoms
 from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.status import Status, is_closed_on_branch
 
@@ -209,10 +209,13 @@ def tally(
 
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
     lines += [f"  {counts[status]:>6}  {status.name}: {status.message}" for status in Status if counts[status]]
+    driven = [coordinate(mechanism.linkage, name) for name in inputs]
+    if counts[Status.STALLED] and (why := dead_point(mechanism.linkage, driven)):
+        lines.append(f"  {why}")
     for status, which in ((Status.CLOSED, "closed"), (Status.MISFIT, "misfit")):
         if counts[status]:
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
-    if free := undriven_freedoms(mechanism.linkage, [coordinate(mechanism.linkage, name) for name in inputs]):
+    if free := undriven_freedoms(mechanism.linkage, driven):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
     lines += [f"  {line}" for line in limit_report(beyond, mechanism.unit, inputs)]
     lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]

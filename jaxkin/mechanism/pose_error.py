@@ -8,7 +8,9 @@ import numpy as np
 from jaxtyping import Bool
 
 from jaxkin._traced import traced
+from jaxkin.linkage.coordinates import coordinate
 from jaxkin.mechanism.joint_limits import breaches, limit_report
+from jaxkin.mobility.infeasible_drive import dead_point
 from jaxkin.solve.status import SEVERITY, Status
 
 if TYPE_CHECKING:
@@ -58,5 +60,8 @@ def _message(motion: Motion) -> str:
             inputs = ", ".join(f"{name} = {float(values[first]):.6g}" for name, values in motion.inputs.items())
             where = f"first pose {first}" + (f" ({inputs})" if inputs else "")
             lines.append(f"  {count} {each.name}, {where}: {each.message}")
+    linkage = motion.mechanism.linkage
+    if Status.STALLED in wrong and (why := dead_point(linkage, [coordinate(linkage, name) for name in motion.inputs])):
+        lines.append(f"  {why}")
     lines += [f"  {line}" for line in limit_report(limited, motion.mechanism.unit, motion.inputs)]
     return "\n".join(lines)

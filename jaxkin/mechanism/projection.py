@@ -21,10 +21,11 @@ from jaxkin.mechanism.collect import nan_where_not_finite
 from jaxkin.mechanism.joint_limits import with_limited
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mechanism.sweep import closure_tolerance, padded, warn_of_float32
+from jaxkin.mobility.infeasible_drive import dead_point
 from jaxkin.solve.correctors.nearest_pose import NearestPoses
 from jaxkin.solve.execution.programs import project as nearest_poses
 from jaxkin.solve.options import SolverOptions
-from jaxkin.solve.status import SEVERITY, Status
+from jaxkin.solve.status import SEVERITY, Status, in_doubt
 from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
 
 if TYPE_CHECKING:
@@ -54,6 +55,10 @@ class Projection:
         if closed.any():
             far = np.asarray(self.distance)[closed]
             lines.append(f"  moved by {np.median(far):.3g} in the median, {far.max():.3g} at most")
+        linkage = self.motion.mechanism.linkage
+        driven = [coordinate(linkage, name) for name in self.motion.inputs]
+        if np.any(np.asarray(self.motion.status) == Status.STALLED.value) and (why := dead_point(linkage, driven)):
+            lines.append(f"  {why}")
         return "\n".join(lines)
 
 
@@ -109,6 +114,8 @@ def project(
     displacements, status, residual, distance, best = _collect(tuple(solved), every, finite, found)
     if linkage.ideal:  # what closed are the nearest joints that agree
         status = jnp.where(status == Status.CLOSED.value, Status.MISFIT.value, status)
+    if not traced(linkage) and dead_point(linkage, list(held.values())):
+        status = in_doubt(status)
     names = held or coordinates(linkage, mechanism.motors or _first(mechanism))
     inputs = {name: displacements[joint][:, k] for name, (joint, k) in names.items()}
     motion = with_limited(Motion(mechanism, inputs, displacements, status, residual, options=options))

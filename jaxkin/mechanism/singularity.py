@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
+from jaxkin._names import listed
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.first_order import null_space
@@ -19,6 +20,30 @@ from jaxkin.solve.system.from_linkage import Columns, group_joints, group_system
 if TYPE_CHECKING:
     from jaxkin.mechanism.motion import Motion
     from jaxkin.solve.system.loop_system import LoopSystem
+
+DETERMINED = 1e-3
+"""Relative error of rates up to which they count as determined. Those of a parallelogram 1e-5 rad beside its change
+point are right to 3e-6, their second derivatives to no digit."""
+
+
+def singular_report(motion: Motion, order: int) -> list[str]:
+    """Say in words at which closed poses derivatives of an order by time are not determined, if there are any.
+
+    A pose with the smallest singular value s is right to eps / s, its first derivative to eps / s^2, and every further
+    one to as much less again. At the singular pose itself it depends on the branch, which the Jacobian does not tell.
+    """
+    if traced(motion):
+        return []
+    sigma = np.asarray(motion.sigma_min)
+    least = (float(np.finfo(sigma.dtype).eps) / DETERMINED) ** (1 / (order + 1))
+    found = np.flatnonzero(np.asarray(motion.on_branch) & (sigma < least))
+    if not len(found):
+        return []
+    poses = f"{len(found)} pose{'s' * (len(found) > 1)} ({listed([*map(str, found)])})"
+    return [
+        f"not determined at {poses}, singular or nearly so (sigma_min {sigma[found].min():.1e}): leave their inputs "
+        "out, or take others beside them"
+    ]
 
 
 def sigma_min(motion: Motion) -> Float[Array, " poses"]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,8 @@ from jaxtyping import Array, Float
 
 from jaxkin._arguments import by_name
 from jaxkin._traced import inside_trace, traced
+from jaxkin.geometry.movements import is_length
+from jaxkin.geometry.trig import TURN
 from jaxkin.linkage.coordinates import Given, given_values, named, with_finite_inputs
 from jaxkin.mechanism.collect import Collected, DisplacementSources, Solution, collect
 from jaxkin.mechanism.describe import why_infeasible
@@ -27,7 +29,7 @@ from jaxkin.solve.execution.compiler import jit_options
 from jaxkin.solve.execution.known_numbers import KnownRange, Outcome, compile_together
 from jaxkin.solve.execution.programs import by_formulas, solve
 from jaxkin.solve.options import SolverOptions, options_with
-from jaxkin.solve.status import ClosureTolerance, default_tolerance, rounding_residual
+from jaxkin.solve.status import ClosureTolerance, default_tolerance, in_doubt, rounding_residual
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -35,6 +37,10 @@ if TYPE_CHECKING:
 DEFAULT_ROUNDINGS = 16
 """Units of rounding in the residual of a pose that is improved no further if no tolerance is asked for: 3.6e-15
 in float64, where rounding alone leaves about 1e-15 for each elementary motion."""
+FAR_ROUNDINGS = 4
+"""Distance between neighbouring numbers at the largest driven angle that a closed pose may have as its residual, if no
+tolerance is asked for: within the first turn it is the default tolerance of float32. At 100 turns neighbours are 6e-5
+apart there, and poses close no better."""
 
 
 def sweep(
@@ -94,7 +100,7 @@ def _follow(mechanism: Mechanism, drive: Mapping[str, Any], options: SolverOptio
     if plan.infeasible:
         raise ValueError(why_infeasible(mechanism, plan.infeasible))
     known = tolerance is None or not traced(tolerance)
-    asked = closure_tolerance(options.tolerance if known else tolerance)
+    asked = closure_tolerance(options.tolerance if known else tolerance, _largest_angle(plan.driven, values))
     loop_groups = plan.loop_groups if values[0].shape[0] else ()
     followed, finite = with_finite_inputs(values)
     known = known and all(isinstance(each, np.ndarray) for each in followed)
@@ -126,8 +132,10 @@ def _motion(mechanism: Mechanism, plan: DrivePlan, found: Collected, options: So
     # under `grad` JAX hands arrays of the host through as they are
     arrays = (each if isinstance(each, jax.Array) else jnp.asarray(each) for each in found.inputs)
     inputs = dict(zip(plan.driven, arrays, strict=True))
-    displacements = found.displacements(plan.freedoms)
-    return Motion(mechanism, inputs, displacements, found.status, found.residual, options=options)
+    displacements, status = found.displacements(plan.freedoms), found.status
+    if plan.at_dead_point:
+        status = in_doubt(status)
+    return Motion(mechanism, inputs, displacements, status, found.residual, options=options)
 
 
 def _of_least_residual(
@@ -148,19 +156,33 @@ def _of_least_residual(
     return every, found
 
 
-def closure_tolerance(asked: Any) -> ClosureTolerance:
-    """Make the tolerance of a number, known or traced, or for None that of the floating-point precision."""
+def _largest_angle(driven: Iterable[str], values: Sequence[Given]) -> float:
+    """Find the largest driven angle, radians, of numbers that are known; zero where it is within a turn, or traced."""
+    angles = [
+        np.abs(np.asarray(each))
+        for name, each in zip(driven, values, strict=True)
+        if not (is_length(name.rpartition(".")[2]) or traced(each))
+    ]
+    largest = max((np.max(each, initial=0.0, where=np.isfinite(each)) for each in angles), default=0.0)
+    return float(largest) if largest > TURN else 0.0
+
+
+def closure_tolerance(asked: Any, largest_angle: float = 0.0) -> ClosureTolerance:
+    """Make the tolerance of a number, known or traced, or for None that of the floating-point precision, with which
+    angles up to the largest one are told apart."""
     dtype = dtypes.canonicalize_dtype(float)
     if asked is None or isinstance(asked, float):
-        return _known_tolerance(asked, dtype)
+        spacing = 0.0 if asked is not None else float(np.spacing(np.asarray(largest_angle, dtype)))
+        return _known_tolerance(asked, dtype, spacing if FAR_ROUNDINGS * spacing > default_tolerance(dtype) else 0.0)
     return ClosureTolerance(*[jnp.asarray(asked, dtype)] * 2)
 
 
 @lru_cache(maxsize=64)
-def _known_tolerance(asked: float | None, dtype: np.dtype) -> ClosureTolerance:
+def _known_tolerance(asked: float | None, dtype: np.dtype, spacing: float) -> ClosureTolerance:
     """Make the tolerance of a known number: of numbers of the host, since to make arrays of the device takes longer."""
     if asked is None:
-        residuals = default_tolerance(dtype), rounding_residual(dtype, DEFAULT_ROUNDINGS)
+        largest = max(default_tolerance(dtype), FAR_ROUNDINGS * spacing)
+        residuals = largest, rounding_residual(dtype, DEFAULT_ROUNDINGS)
         return ClosureTolerance(*(np.asarray(residual, dtype) for residual in residuals))
     return ClosureTolerance(*[np.asarray(asked, dtype)] * 2)
 

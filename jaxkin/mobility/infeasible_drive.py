@@ -1,9 +1,12 @@
-"""Tell in words which drives the loops of a mechanism cannot follow, and which freedoms a drive leaves undriven."""
+"""Tell in words which drives the loops of a mechanism cannot follow, which are at a dead point in the assembled pose,
+and which freedoms a drive leaves undriven."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from jaxkin._names import listed
 from jaxkin.linkage.first_order import independent
@@ -13,6 +16,9 @@ from jaxkin.mobility.mobility import drivable, independent_subset, names
 
 Coordinate = tuple[int, int]
 """(joint, coordinate)."""
+AT_REST = 1e-6
+"""Rate of a driven coordinate, in a motion of unit norm, below which the assembled pose is its dead point. The pose of
+a limit that was found to rounding, 1e-15, has the root of that."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +92,28 @@ def _surest(found: LoopFreedoms, choices: Sequence[tuple[int, ...]]) -> Sequence
 def _or(linkage: Linkage, found: LoopFreedoms, groups: Sequence[Sequence[int]]) -> str:
     """List the names of columns to choose from, the angles of a ball together."""
     return listed([" with ".join(names(linkage, found, group)) for group in groups])
+
+
+def dead_point(linkage: Linkage, driven: Sequence[Coordinate]) -> str | None:
+    """Tell that driven coordinates are at a dead point in the assembled pose, and what to do; None where none is.
+
+    There the loops move while the drive is at rest to first order, and for each input beside it there are two poses or
+    none: which of two the motion goes to, and whether there is one, the drive does not say.
+    """
+    for found, columns in _driven_groups(linkage, driven):
+        moving = np.linalg.svd(found.at_rest[:, list(columns)], compute_uv=False) > AT_REST
+        if moving.sum() == len(columns) or not _follows(found, columns):
+            continue
+        told = (
+            f"the assembled pose is a dead point of {listed(names(linkage, found, columns))}, where two branches meet"
+        )
+        for group in _choices(found):
+            if len(group) == 1 and group[0] not in columns and np.abs(found.at_rest[:, group[0]]).max() > AT_REST:
+                (name,) = names(linkage, found, group)
+                beside = f"mechanism.at(mechanism.sweep({{{name!r}: [0, 0.01]}}), 1)"
+                return f"{told}: drive {name}, or assemble the mechanism beside it, as {beside} does"
+        return f"{told}: assemble the mechanism beside it, as mechanism.at(motion, index) does"
+    return None
 
 
 def undriven_freedoms(linkage: Linkage, driven: Sequence[Coordinate]) -> tuple[str, ...]:

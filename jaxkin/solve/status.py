@@ -14,6 +14,7 @@
   (`range.polish`). Of several inputs, such a pose is then tried in a straight line (`range.straight_lines`).
 - STALLED in place of CLOSED or JUMPED: the pose is that of a formula, and whether the motion leads to it is in doubt
   (`closed_form.range_by_formula`). Where JAX traces nothing, the continuation solves the range instead.
+- STALLED in place of UNREACHABLE or JUMPED: the assembled pose is a dead point of the drive (`in_doubt`).
 - MISFIT in place of CLOSED: the given joints disagree, the loops were solved with the nearest joints that agree, and
   the residual of the given joints is above the tolerance (`correctors.least_residual`).
 - The worst of several loop groups: see `SEVERITY`.
@@ -144,3 +145,12 @@ def is_closed_on_branch(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
 def is_closed(status: Int[Array, " poses"]) -> Bool[Array, " poses"]:
     """Tell which poses have all loops closed, on whichever branch."""
     return (status == Status.CLOSED.value) | (status == Status.JUMPED.value)
+
+
+def in_doubt(status: Int[Array, " poses"]) -> Int[Array, " poses"]:
+    """Replace UNREACHABLE and JUMPED by STALLED: what follows from a dead point in the assembled pose is not known.
+
+    The residual is stationary there although the loops may close, and of two branches neither is that of the pose.
+    """
+    doubtful = (status == Status.UNREACHABLE.value) | (status == Status.JUMPED.value)
+    return jnp.where(doubtful, Status.STALLED.value, status)

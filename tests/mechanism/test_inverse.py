@@ -1,5 +1,6 @@
 """The inverse problem against closed forms, against `sweep` where targets can be met, and against scipy elsewhere."""
 
+import jax
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
@@ -193,3 +194,11 @@ def test_joints_and_targets_together():
 def test_what_makes_no_problem_is_refused(targets, options, message):
     with pytest.raises(ValueError, match=message):
         jk.inverse(arm(), targets, **options)
+
+
+def test_targets_are_reached_where_jax_computes_in_float32():
+    goal = tips(np.array([[0.5, 0.9, -0.7]]))[0]
+    with jax.enable_x64(False):
+        found = jk.inverse(arm(), {jk.point("c", TIP): flat(goal)})
+    assert found.reached.all() and str(found) == "1 of 1 poses reach their targets"
+    np.testing.assert_allclose(tips(angles(found))[0], goal, atol=1e-6)  # the joints are told in float32

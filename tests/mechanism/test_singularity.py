@@ -4,6 +4,7 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from reference import planar
 from reference.catalogue import parallelogram
 from reference.mechanisms import bennett_linkage, planar_fourbar, rssr_linkage, slider_crank
@@ -16,6 +17,34 @@ def test_zero_at_change_points_only():
     assert np.all(motion.closed)  # assembled at 1 rad: flat at -1 and at pi - 1
     found = np.asarray(motion.sigma_min)
     assert np.all(found[[0, 3]] < 1e-7) and np.all(found[[1, 2, 4]] > 0.05)
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.0, np.pi / 2])
+def test_a_range_that_ends_at_a_change_point_stays_on_its_branch(angle):
+    """The other branch is 0.01 away beside it; rounding of 1e-15 moves a pose by its root."""
+    inputs = np.linspace(0.0, np.pi - angle, 101)
+    motion = parallelogram(angle=angle).sweep({"A": inputs})
+    assert np.all(motion.closed)
+    np.testing.assert_allclose(motion.coordinates["B"][:, 0], inputs, atol=1e-7)
+
+
+@pytest.mark.long
+def test_what_is_not_determined_at_a_change_point_is_told():
+    """Beside it the cranks turn alike: velocities are 1, accelerations 0."""
+    mechanism = parallelogram()
+    own = jk.masses(mechanism, given={"crank A": jk.Mass(2.0, (40.0, 0.0, 0.0)), "crank B": 0, "coupler": 0})
+    for beside, told in ((0.0, True), (1e-3, False)):
+        inputs = np.linspace(0.0, np.pi - 1.0, 31) - beside
+        motion = mechanism.sweep({"A": inputs})
+        rates = jk.velocities(motion, {"A": 1.0})
+        found = rates, jk.accelerations(motion, {"A": 1.0}), jk.drive_forces(motion, own), jk.reactions(motion, own)
+        for each in found:
+            line = next((line for line in str(each).splitlines() if "sigma_min" in line), "")
+            assert ("at 1 pose (30), singular" in line) == told, each
+        assert np.isfinite(np.asarray(rates.coordinates["B"])).all()
+        error = np.abs(np.asarray(rates.coordinates["B"])[:, 0] - 1.0)
+        assert (error[-1] > 0.1) == told  # what is told is so: rates of least norm are not those of the branch
+        assert np.all(error[:-1] < 1e-6)  # eps over the square of 1e-3 and less
 
 
 @pytest.mark.long

@@ -17,6 +17,8 @@ Rows = tuple[Float[Array, "poses _"], ...]
 """Of all joints, in the order of `mechanism.joints`: radians, or the unit of the mechanism."""
 Columns = dict[tuple[int, int], Float[Array, " poses"]]
 """By (joint, coordinate), of some coordinates."""
+ORDER = 2
+"""Of the derivatives of the motion that forces follow from: the accelerations of masses."""
 
 
 class Changes(NamedTuple):

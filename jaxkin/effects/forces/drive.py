@@ -15,7 +15,7 @@ from jax import lax
 from jaxtyping import Array, Float, Int
 
 from jaxkin.effects.forces.balance import carried
-from jaxkin.effects.forces.changes import Changes, Columns, Rows, changes, rows_of
+from jaxkin.effects.forces.changes import ORDER, Changes, Columns, Rows, changes, rows_of
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
@@ -44,6 +44,7 @@ from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, KnownMotion, known_motion
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
@@ -82,6 +83,7 @@ class DriveForces:
         power = np.asarray(self.power)
         if np.any(np.nan_to_num(power)):
             lines.append(f"  {'power':<{width}}  {_range(power, 'W')}")
+        lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         return "\n".join(lines)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Bool, Float
 
@@ -25,10 +26,8 @@ Inputs = Float[np.ndarray, " poses"]
 MAX_STEPS = 60
 """Steps that refine a sign change: halving alone gains a digit in three."""
 WITHIN = 1e-12
-"""Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough."""
-POLE = 1e-6
-"""Drive force at a refined sign change over the larger one beside it, above which it is no equilibrium but a pole: at a
-dead point the force changes its sign through infinity."""
+"""Width of a sign change, or length of a step, over the range of the drive, at which it is refined enough. In float32
+it is the unit of rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,8 +83,9 @@ def equilibrium(
     """Find the displacements of one driven coordinate at which its force vanishes at rest.
 
     `drive` gives the range to search, `{"A": np.linspace(0, 2 * np.pi, 73)}`: equilibria are told apart by its steps,
-    and refined to 1e-12 of it. Other arguments are those of `jk.drive_forces`, for all poses alike. Poses must follow
-    each other on the branch of the assembled pose; no equilibrium is found between poses that are not CLOSED.
+    and refined to 1e-12 of it, in float32 to rounding. Other arguments are those of `jk.drive_forces`, for all poses
+    alike. Poses must follow each other on the branch of the assembled pose; no equilibrium is found between poses that
+    are not CLOSED.
 
     Raises ValueError for drives of several coordinates, for fewer than two poses, inside `jit`, `vmap` and `grad`, and
     as `jk.drive_forces`.
@@ -110,12 +110,12 @@ def equilibrium(
     forces = force(inputs)
     at_zero = np.flatnonzero(forces == 0)
     changing = np.flatnonzero(forces[:-1] * forces[1:] < 0)
-    low, high = inputs[changing], inputs[changing + 1]
-    largest = np.maximum(np.abs(forces[changing]), np.abs(forces[changing + 1]))
-    refined, left = _refined(force, low, high, forces[changing], forces[changing + 1], np.ptp(inputs))
-    kept = np.abs(left) <= POLE * largest
-    values = np.concatenate([inputs[at_zero], refined[kept]])
-    step = 1e-6 * np.ptp(inputs)
+    ends = inputs[changing], inputs[changing + 1], forces[changing], forces[changing + 1]
+    eps = float(jnp.finfo(float).eps)
+    refined, vanishes = _refined(force, *ends, max(WITHIN, eps) * np.ptp(inputs))
+    values = np.concatenate([inputs[at_zero], refined[vanishes]])
+    # of a central difference: the cube root of rounding
+    step = eps ** (1 / 3) * np.ptp(inputs)
     beside = force(np.concatenate([values - step, values + step])) if len(values) else np.zeros(0)
     growing = beside[len(values) :] > beside[: len(values)]
     order = np.argsort(values)
@@ -125,22 +125,24 @@ def equilibrium(
 
 
 def _refined(
-    force: Callable[[Inputs], Inputs], low: Inputs, high: Inputs, at_low: Inputs, at_high: Inputs, width: float
-) -> tuple[Inputs, Inputs]:
+    force: Callable[[Inputs], Inputs], low: Inputs, high: Inputs, at_low: Inputs, at_high: Inputs, within: float
+) -> tuple[Inputs, Bool[np.ndarray, " poses"]]:
     """Refine sign changes, all at once: false position with halved ends (Illinois), halving where that is slow.
 
-    Returns the displacements, and the forces there.
+    Returns the displacements, and whether the force vanishes there. At a dead point it changes its sign through
+    infinity: the ends of the interval, as it narrows, have larger forces, and not smaller ones.
     """
     low, high, at_low, at_high = (each.copy() for each in (low, high, at_low, at_high))
     best, left = np.where(np.abs(at_low) < np.abs(at_high), low, high), np.minimum(np.abs(at_low), np.abs(at_high))
+    first = np.abs(at_low) * np.abs(at_high)
     weights = np.ones((2, len(low)))
     for step in range(MAX_STEPS):
-        if not len(low) or np.all((high - low <= WITHIN * width) | (left == 0)):
+        if not len(low) or np.all((high - low <= within) | (left == 0)):
             break
         one, other = weights[0] * at_low, weights[1] * at_high
         middle = (low * other - high * one) / (other - one)
         middle = np.where((step % 3 == 2) | ~((middle > low) & (middle < high)), (low + high) / 2, middle)
-        if step % 3 != 2 and np.all(np.abs(middle - best) <= WITHIN * width):
+        if step % 3 != 2 and np.all(np.abs(middle - best) <= within):
             break
         here = force(middle)
         better = np.abs(here) < left
@@ -149,4 +151,4 @@ def _refined(
         weights = np.where(below, [np.ones_like(low), weights[1] / 2], [weights[0] / 2, np.ones_like(low)])
         low, at_low = np.where(below, middle, low), np.where(below, here, at_low)
         high, at_high = np.where(below, high, middle), np.where(below, at_high, here)
-    return best, left
+    return best, np.abs(at_low) * np.abs(at_high) < first

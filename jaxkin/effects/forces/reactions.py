@@ -16,7 +16,7 @@ from jaxtyping import Array, Float, Int
 from jaxkin._named import Named
 from jaxkin._names import nearest
 from jaxkin.effects.forces.balance import balance, solve
-from jaxkin.effects.forces.changes import Changes, changes, unmoved
+from jaxkin.effects.forces.changes import ORDER, Changes, changes, unmoved
 from jaxkin.effects.forces.friction import friction
 from jaxkin.effects.forces.friction_result import Friction
 from jaxkin.effects.forces.given import Applied
@@ -45,6 +45,7 @@ from jaxkin.geometry.units import METRES
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.known_motion import Inputs, KnownDrive, known_motion
 from jaxkin.mechanism.motion import Motion
+from jaxkin.mechanism.singularity import singular_report
 from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
@@ -105,6 +106,7 @@ class Reactions:
         if len(order) > MAX_LINES:
             lines.append(f"  and {len(order) - MAX_LINES} more: see .forces and .torques")
         lines += self._what_is_held(max(float(np.nanmax(each)) for each in forces.values()))
+        lines += [f"  {line}" for line in singular_report(self.motion, ORDER)]
         lines += [f"  {line}" for line in (self.friction.lines() if self.friction else ())]
         lines += [f"  {each}" for each in self.undetermined[:MAX_LINES]]
         return "\n".join(lines)

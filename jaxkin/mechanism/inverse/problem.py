@@ -20,6 +20,8 @@ from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.inverse.aims import Aim, JointAim, PartAim
 from jaxkin.mechanism.inverse.step import Bounds, Equations, step
 from jaxkin.mechanism.targets import extent
+from jaxkin.mobility.infeasible_drive import dead_point
+from jaxkin.mobility.loop_freedoms import loop_freedoms
 
 if TYPE_CHECKING:
     from jaxkin.mechanism.mechanism import Mechanism
@@ -43,6 +45,8 @@ CLOSED = 1e-12
 ROUNDED = 1e-14
 """Error, in radians and sizes, that is rounding: a step that leaves no more is right, whatever it was before. Rounding
 would refuse the last steps of inputs to where they rest, which change errors by less."""
+BESIDE = 1e-2
+"""Step off a dead point of a target, radians and sizes: Newton's method has slopes of a hundred there."""
 DAMPING = 1e-3
 """Damping after the first step that is refused."""
 GOOD = 0.5
@@ -87,10 +91,19 @@ class Problem:
 
     def from_assembled(self, bounds: Bounds, iterations: int) -> Solution:
         """Solve from the assembled pose, along targets that move from there to where they are asked for."""
-        x = np.clip(np.zeros((self.poses, len(self.units))), bounds.low, bounds.high)
+        x = np.clip(np.zeros((self.poses, len(self.units))) + self._beside(), bounds.low, bounds.high)
         for stage in range(1, STAGES):
             x = self._iterated(x, bounds, stage / STAGES, STAGE_ITERATIONS)
         return self._solution(self._iterated(x, bounds, 1.0, iterations))
+
+    def _beside(self) -> Float[np.ndarray, " columns"]:
+        """A step off the dead point, if the assembled pose is that of a target: there no step would lead to it."""
+        found = np.zeros(len(self.units))
+        if dead_point(self.linkage, [aim.place for aim in self.aims if isinstance(aim, JointAim)]):
+            for group in loop_freedoms(self.linkage):
+                for rates in group.at_rest[:1]:
+                    found[[self.places.index(place) for place in group.columns]] = BESIDE * rates
+        return found
 
     def from_random(self, bounds: Bounds, iterations: int, count: int, seed: int) -> Iterator[Solution]:
         """Solve from starts at random within the limits; half a turn, or a size, to each side where there are none."""
@@ -142,9 +155,9 @@ class Problem:
         """
         from scipy.spatial.transform import Rotation
 
-        closure, jacobian, transforms, rates = (
-            np.asarray(each) for each in _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
-        )
+        with jax.enable_x64(True):  # on the host numbers have double precision always, as those of numpy beside them
+            found = _evaluated(self.linkage, self.parts, tuple(self.units), jnp.asarray(x))
+        closure, jacobian, transforms, rates = (np.asarray(each) for each in found)
         errors, slopes = [], []
         for aim in self.aims:
             if isinstance(aim, JointAim):

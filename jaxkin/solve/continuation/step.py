@@ -37,7 +37,7 @@ from jaxkin.solve.continuation.fronts import (
     assembled_fronts,
     stopped_at_limit,
 )
-from jaxkin.solve.continuation.input_slopes import input_slopes
+from jaxkin.solve.continuation.input_slopes import input_slopes, slopes_of_branch
 from jaxkin.solve.continuation.predictor import History, predict_state
 from jaxkin.solve.correctors.levenberg_marquardt import (
     LevenbergMarquardtResult,
@@ -157,6 +157,7 @@ def substep(problem: ContinuationProblem, fronts: Fronts, target: Float[Array, "
     final = good | uncertain
     stage = jnp.where(entered, FOLLOWING, jnp.where(lost | attempt.closing, BEYOND_LIMIT, fronts.stage))
     slope = input_slopes(system, found.state, found.closure, attempt.direction)
+    slope = slopes_of_branch(system, slope, ratio, fronts.state, fronts.slope, found.state, attempt.moved)
     last = fronts.history
     width = jnp.where(attempt.moved != 0, attempt.moved, last.width)
     earlier_width = jnp.where(fronts.has_before, last.width, jnp.inf)

@@ -148,11 +148,9 @@ def chain_tables(system: LoopSystem) -> ChainTables:
     rows["ball"] = quaternion[rows["ball"]]
     rods = np.array([of_rods, np.arange(len(by_loop), len(chains))], np.int32)
     first = {tuple(chain.rows): number for number, chain in reversed([*enumerate(chains)])}
-    ways = sorted(first.values())
-    way = np.array([ways.index(first[tuple(chain.rows)]) for chain in chains], np.int32)
-    return ChainTables(
-        **rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods, ways=np.array(ways, int), way=way
-    )
+    ways = np.array(sorted(first.values()), np.int32)
+    way = np.array([list(ways).index(first[tuple(chain.rows)]) for chain in chains], np.int32)
+    return ChainTables(**rows, **ends, source=source[used], used=used, repeats=repeats, rods=rods, ways=ways, way=way)
 
 
 @lru_cache(maxsize=256)

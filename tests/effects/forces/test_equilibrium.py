@@ -1,10 +1,12 @@
 """Equilibria against closed forms, to 1e-9: 1e-12 of the range is refined, and the force is exact to rounding."""
 
+import jax
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 import jaxkin as jk
+from jaxkin.effects.forces.equilibrium import _refined
 from reference.energies import FOURBAR_MASSES, fourbar
 from reference.mechanisms import Z, planar_fourbar
 from reference.planar import fourbar as fourbar_angles
@@ -71,6 +73,33 @@ def test_a_fourbar_stands_where_its_potential_is_extreme():
     expected = [brentq(slope, value - 0.01, value + 0.01, xtol=1e-13) for value in found.values]
     assert len(expected) == 2 and found.stable.sum() == 1
     np.testing.assert_allclose(found.values, expected, atol=1e-9)
+
+
+@pytest.mark.filterwarnings("ignore:jaxkin computes in float32")
+@pytest.mark.parametrize("poses", [25, 400])
+def test_float32_finds_the_same(poses):
+    """The force is off by some 1e-7 of itself, and its zeros by as much: 1e-5 allows for a hundred roundings."""
+    with jax.enable_x64(False):
+        own = jk.masses(pendulum(), given={"arm": jk.Mass(2.0, (0.3, 0.4, 0.0))})
+        found = jk.equilibrium(pendulum(), {"A": np.linspace(-3.0, 3.0, poses)}, own, gravity=(0, -9.81, 0))
+    start = np.arctan2(0.4, 0.3)
+    np.testing.assert_allclose(found.values, [-np.pi / 2 - start, np.pi / 2 - start], atol=1e-5)
+    assert found.stable.tolist() == [True, False]
+
+
+def test_where_a_force_goes_to_infinity_it_does_not_vanish():
+    """At 0.4 there is a pole, at 1.3 a zero; an end of the range may lie beside the pole as nearly as it likes."""
+    ends = np.array([0.0, 0.4 - 1e-15, 1.0])
+    values, vanishes = _refined(
+        lambda x: (x - 1.3) / (x - 0.4),
+        ends,
+        ends + 0.5,
+        (ends - 1.3) / (ends - 0.4),
+        (ends - 0.8) / (ends + 0.1),
+        1e-12,
+    )
+    assert vanishes.tolist() == [False, False, True]
+    np.testing.assert_allclose(values[2], 1.3, atol=1e-12)
 
 
 def test_bad_ranges_are_refused():
