@@ -22,6 +22,7 @@ from jaxkin.effects.pose_plot import save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
@@ -186,13 +187,21 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
             raise ValueError(f"the range of {key!r} must be two numbers, as in (-1.0, 1.0), got {ends!r}") from None
         found[place] = low, high
     for (number, k), (low, high) in found.items():
-        if not low <= 0.0 <= high:
-            joint = mechanism.all_joints[number]
+        joint = mechanism.all_joints[number]
+        slack = rounding(mechanism.all_joints, is_length(joint.coordinates[k]))
+        if not (low <= slack and high >= -slack):
             raise ValueError(
                 f"the assembled pose, 0, is not in the range {low:g} to {high:g} of "
-                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; give another with ranges="
+                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; assemble the mechanism within, as "
+                "mechanism.at(motion, index) does, or give another range with ranges="
             )
+        found[number, k] = min(low, 0.0), max(high, 0.0)
     return found
+
+
+def _full_name(mechanism: Mechanism, place: Place) -> str:
+    joint, k = place
+    return f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}"
 
 
 def _is_length(mechanism: Mechanism, place: Place) -> bool:

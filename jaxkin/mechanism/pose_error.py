@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from jaxkin._traced import traced
-from jaxkin.mechanism.joint_limits import breaches, limit_report
+from jaxkin.mechanism.joint_limits import breaches, first_within, limit_report
 from jaxkin.solve.status import SEVERITY, Status
 
 if TYPE_CHECKING:
@@ -58,5 +58,5 @@ def _message(motion: Motion) -> str:
             inputs = ", ".join(f"{name} = {float(values[first]):.6g}" for name, values in motion.inputs.items())
             where = f"first pose {first}" + (f" ({inputs})" if inputs else "")
             lines.append(f"  {count} {each.name}, {where}: {each.message}")
-    lines += [f"  {line}" for line in limit_report(limited, motion.mechanism.unit, motion.inputs)]
+    lines += [f"  {line}" for line in limit_report(limited, motion.mechanism, motion.inputs, first_within(motion))]
     return "\n".join(lines)
