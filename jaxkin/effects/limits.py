@@ -14,7 +14,7 @@ from jaxtyping import Float
 from jaxkin._arguments import by_name, check_mechanism, several
 from jaxkin._names import listed
 from jaxkin._traced import traced
-from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked
+from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
@@ -157,10 +157,7 @@ def limits(
     for direction in (1.0, -1.0):
         begun = curve.begin(direction)
         if begun is None:
-            raise ValueError(
-                f"the assembled pose is singular: {name} is at a limit there, or branches cross; assemble the "
-                "mechanism beside it, as mechanism.at(motion, index) does"
-            )
+            raise ValueError(why_singular(mechanism, curve, list(driven.values())))
         features = PoseFeatures(loops, idle)
         found.append(find_limit(curve, begun, direction, own, not _is_length(mechanism, place), features))
         if found[-1].repeats:
@@ -197,11 +194,6 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
             )
         found[number, k] = min(low, 0.0), max(high, 0.0)
     return found
-
-
-def _full_name(mechanism: Mechanism, place: Place) -> str:
-    joint, k = place
-    return f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}"
 
 
 def _is_length(mechanism: Mechanism, place: Place) -> bool:
