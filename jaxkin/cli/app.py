@@ -17,6 +17,7 @@ from jaxkin.cli.arguments import (
     Files,
     Fixed,
     Ignore,
+    Loops,
     Out,
     Page,
     PerContact,
@@ -67,6 +68,7 @@ def inspect(
     exact_only: ExactOnly = False,
     no_combine: PerContact = False,
     unit: Unit = None,
+    loops_file: Loops = None,
     seconds: Seconds = None,
     png: Picture = None,
     page: Page = None,
@@ -82,7 +84,7 @@ def inspect(
         from jaxkin.cli import report, written
 
         with progress(2) as step:
-            options = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only, seconds=seconds)
+            options = Options(fixed, rigid, ignore, (), no_combine, unit, exclude, exact_only, (), seconds, loops_file)
             study = run.read(files, options, step)
             run.find_contacts(study, step)
             contacts = study.contacts
@@ -109,7 +111,8 @@ def inspect(
             written.write_page(study, tried, page)
             report.say(f"\nWritten: {page}. Open it in a browser.")
         if study_file:
-            report.say(f"\nWritten: {study_file}. {written.write_study(study, files, tried, study_file)}")
+            said = written.write_study(study, files, tried, study_file, loops_file)
+            report.say(f"\nWritten: {study_file}. {said}")
 
 
 @app.command(epilog="Example:  jaxkin loops fourbar.step --fixed ground --png loops.png")
@@ -123,6 +126,7 @@ def loops(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    loops_file: Loops = None,
     seconds: Seconds = None,
     png: Drawing = None,
 ) -> None:
@@ -133,7 +137,7 @@ def loops(
     with one_line_errors():
         from jaxkin.cli import report
 
-        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, seconds=seconds)
+        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, (), seconds, loops_file)
         with progress(3) as step:
             study = run.found(files, options, step)
         if png:
@@ -156,6 +160,7 @@ def accuracy(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    loops_file: Loops = None,
     seconds: Seconds = None,
     png: WorkPicture = None,
 ) -> None:
@@ -164,7 +169,7 @@ def accuracy(
         from jaxkin.cli import report
         from jaxkin.effects.accuracy import combinations, work_precision
 
-        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, seconds=seconds)
+        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, (), seconds, loops_file)
         with progress(3 + len(combinations())) as step:
             study = run.found(files, options, step)
             work = work_precision(study.mechanism, study.drive, step=step)
@@ -188,6 +193,7 @@ def sweep(
     drive: Drive = [],
     no_combine: PerContact = False,
     unit: Unit = None,
+    loops_file: Loops = None,
     seconds: Seconds = None,
     effects: Effects = [],
 ) -> None:
@@ -198,5 +204,7 @@ def sweep(
     parts. Effects are computed only where they are asked for.
     """
     with one_line_errors():
-        options = Options(fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects, seconds)
+        options = Options(
+            fixed, rigid, ignore, drive, no_combine, unit, exclude, exact_only, effects, seconds, loops_file
+        )
         run.sweep(files, out, options)

@@ -26,6 +26,14 @@ Unit = Annotated[
         "--unit", metavar="UNIT", help="Unit of lengths of STL, OBJ and PLY files, which have none: mm, m, ..."
     ),
 ]
+Loops = Annotated[
+    Path | None,
+    typer.Option(
+        "--loops",
+        metavar="FILE",
+        help="The YAML file that closes the loops of a robot in URDF, which is a tree, and names its motors.",
+    ),
+]
 Seconds = Annotated[
     float | None,
     typer.Option(

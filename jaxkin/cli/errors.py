@@ -21,7 +21,7 @@ def one_line_errors() -> Iterator[None]:
             warnings.showwarning = _say_warning
             yield
     except (ValueError, KeyError, OSError, ImportError) as error:
-        if not _about_input(error):
+        if not about_input(error):
             raise
         # the text of a KeyError is its argument in quotes
         typer.echo(f"jaxkin: {error.args[0] if isinstance(error, KeyError) else error}", err=True)
@@ -41,13 +41,13 @@ def _say_warning(
     typer.echo(f"jaxkin: warning: {message}{origin}", err=True)
 
 
-def _about_input(error: BaseException) -> bool:
+def about_input(error: BaseException) -> bool:
     """Tell whether an error is about the input: files, missing extras, and what jaxkin itself refuses.
 
     An error out of numpy or JAX is a defect, and keeps its traceback.
     """
     if isinstance(error, OSError):
-        return error.__cause__ is None or _about_input(error.__cause__)
+        return error.__cause__ is None or about_input(error.__cause__)
     if not isinstance(error, ValueError | KeyError | ImportError) or (trace := error.__traceback__) is None:
         return False
     while trace.tb_next:

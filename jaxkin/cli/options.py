@@ -30,6 +30,7 @@ class Options:
     exact_only: bool = False
     effects: Sequence[str] = ()
     seconds: float | None = None
+    loops: Path | None = None
 
     def on(self, files: Sequence[Path], progress: Callable[[int, int], None] | None = None) -> Study:
         """Make the study of a file, or of files of one part each, with the options; `progress` is that of `load`."""
@@ -59,6 +60,8 @@ class Options:
         if len(files) == 1 and studies:
             if self.unit:
                 raise ValueError(f'--unit {self.unit}: write unit = "{self.unit}" in {files[0].name}')
+            if self.loops:
+                raise ValueError(f"--loops {self.loops}: write the key loops beside geometry in {files[0].name}")
             return load_study(files[0], seconds=self.seconds, progress=progress)
         if studies:
             raise ValueError(
@@ -66,7 +69,8 @@ class Options:
                 '{ crank = "crank.stl", ... } in it'
             )
         if len(files) == 1:
-            return Study(files[0].name, load(files[0], unit=self.unit, seconds=self.seconds, progress=progress))
+            given = load(files[0], unit=self.unit, seconds=self.seconds, loops=self.loops, progress=progress)
+            return Study(files[0].name, given)
         parts = {file.stem: file for file in files}
         if len(parts) < len(files):
             first: dict[str, Path] = {}
@@ -79,7 +83,7 @@ class Options:
                 f"{one} and {other}: two parts would be called {one.stem!r}; rename a file, or name "
                 "the parts in a study"
             )
-        assembly = load(parts, unit=self.unit, seconds=self.seconds, progress=progress)
+        assembly = load(parts, unit=self.unit, seconds=self.seconds, loops=self.loops, progress=progress)
         return Study(assembly.source, assembly)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from jaxkin.cli.errors import about_input
 from jaxkin.cli.options import Options
 from jaxkin.cli.progress import Steps, progress
 
@@ -27,7 +28,11 @@ MANY_PARTS = 600
 
 
 def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
-    """Write the motion that files and options ask for into a folder, and print what became of it."""
+    """Write the motion that files and options ask for into a folder, and print what became of it.
+
+    An effect that cannot be computed keeps neither the motion nor other effects from being written. Raises ValueError
+    for it at the end.
+    """
     start = time.perf_counter()
     import jax
 
@@ -36,6 +41,7 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
     from jaxkin.io.writers import WRITERS
 
     results: dict[str, Result] = {}
+    failed: dict[str, str] = {}
 
     with progress(3) as step:
         study = found(files, options, step)
@@ -51,7 +57,12 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
             motion = jax.block_until_ready(study.sweep())
             for name in study.effects:
                 step(f"computing {name}")
-                results |= compute(motion, {name: study.effects[name]})
+                try:
+                    results |= compute(motion, {name: study.effects[name]})
+                except ValueError as error:
+                    if not about_input(error):
+                        raise
+                    failed[name] = str(error)
             said, paths = motion, []
             for filename in WRITERS:
                 step(f"writing {filename}")
@@ -67,11 +78,15 @@ def sweep(files: Sequence[Path], out: Path, options: Options) -> None:
         report.print_motion(said)
         for result in results.values():
             report.say(f"\n{result}")
-        report.say(f"\n{missing(study.effects)}" if missing(study.effects) else "")
+        left = missing(said, study.effects)
+        report.say(f"\n{left}" if left else "")
         more = f"Open {out / 'motion.html'} in a browser."
     report.say()
     report.print_files(paths)
     report.say(f"\nWritten in {time.perf_counter() - start:.1f} s. {more}")
+    if failed:
+        reasons = "".join(f"\n  {reason}" for reason in failed.values())
+        raise ValueError(f"not computed: {', '.join(failed)}; all else is written{reasons}")
 
 
 def _streamed(study: Study, out: Path) -> tuple[str, list[Path]]:

@@ -53,14 +53,17 @@ def write_refusal(assembly: Assembly, contacts: Contacts, page: Path, refusal: V
     inspection_page(assembly, page, source=assembly.source, missing=missing, contacts=contacts)
 
 
-def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path) -> str:
-    """Write what was found as a study that names its geometry from where it stands; say what can be done with it."""
+def write_study(
+    study: Study, files: Sequence[Path], tried: Sequence[Proposal], target: Path, loops: Path | None = None
+) -> str:
+    """Write what was found as a study that names its geometry and the file of its loops from where it stands; say what
+    can be done with it."""
     from jaxkin.io.study_drives import small_drive
     from jaxkin.io.study_writer import write_study
 
     if files[0].suffix.lower() == ".toml":
         raise ValueError(f"{files[0].name} is a study already: give the geometry that it names")
-    from_there = [os.path.relpath(file, target.parent).replace(os.sep, "/") for file in files]
+    from_there = [_from(target, file) for file in files]
     parts = dict(zip((file.stem for file in files), from_there, strict=True))
     mechanism = study.mechanism
     names = study.assembly.names if study.assembly else ()
@@ -71,6 +74,7 @@ def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], 
             mechanism,
             target,
             geometry=parts if len(files) > 1 else from_there[0],
+            loops=None if loops is None else _from(target, loops),
             drive=drive,
             exclude=[name for name in names if name not in mechanism.parts],
             proposals=tried,
@@ -78,3 +82,8 @@ def write_study(study: Study, files: Sequence[Path], tried: Sequence[Proposal], 
     if not drive:
         return "Nothing can drive in it yet: see its last line."
     return f"Choose among its lines, then: jaxkin sweep {shlex.quote(str(target))} --out motion"
+
+
+def _from(target: Path, file: Path) -> str:
+    """Name a file as it is found from the folder of another one."""
+    return os.path.relpath(file, target.parent).replace(os.sep, "/")

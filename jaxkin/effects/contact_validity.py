@@ -125,8 +125,9 @@ def contact_validity(motion: Motion) -> ContactValidity:
     mechanism = motion.mechanism
     if not mechanism.solids or not mechanism.contacts:
         raise ValueError(
-            "contact_validity needs the contacts that joints were read from, and this mechanism has none: make it from "
-            "solids, jk.load(files).mechanism(fixed=...)"
+            "contact_validity needs the contacts that joints were read from, and this mechanism has none: those of "
+            "solids, jk.load(files).mechanism(fixed=...), have them; robot files, joints by hand and studies with "
+            "contacts = false have not"
         )
     setting = FaceSetting(mechanism)
     (closed,) = np.nonzero(np.asarray(motion.closed))

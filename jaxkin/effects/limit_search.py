@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,10 @@ from jaxkin.effects.motion_curve import FIRST_STEP, Curve, Here
 from jaxkin.geometry.movements import MOVEMENTS
 from jaxkin.geometry.trig import TURN
 from jaxkin.joints.joint import Joint
+from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
+
+if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
 
 MAX_STEPS = 20_000
 """Most steps in one direction: some 4000 radians and characteristic lengths of all coordinates together."""
@@ -21,6 +25,9 @@ MAX_TURNS = 64
 """Full turns of a drive after which no limit is expected."""
 FARTHEST = 100.0
 """Displacement of a slide after which no limit is expected, characteristic lengths."""
+BESIDE = 0.01
+"""Displacement to a pose beside the limit of a drive that is proposed, radians and characteristic lengths. The drive is
+then 1e-5 to 1e-4 from its limit: far above the 1e-10 to which limits are found."""
 _AT_REST = 1e-6
 """Part of the fastest coordinate, at a lock, below which a coordinate is at rest: rounding over the length of a step is
 some 1e-10."""
@@ -170,3 +177,36 @@ def _kind(joint: Joint, coordinate: int) -> str:
 
 def _and(names: Sequence[str]) -> str:
     return listed(names) if len(names) > 8 else " and ".join([", ".join(names[:-1]), names[-1]] if names[1:] else names)
+
+
+def why_singular(mechanism: Mechanism, curve: Curve, driven: Sequence[tuple[int, int]]) -> str:
+    """Say why no motion of the drive, the first of `driven`, begins at the assembled pose, and what to do.
+
+    At a limit of the drive another coordinate still moves: the fastest one that can be driven in its place, those of
+    joints with one coordinate first. None does where branches cross.
+    """
+    loops, linkage = curve.loops, mechanism.linkage
+    name, *held = [_full_name(mechanism, place) for place in driven]
+    choices = []
+    for column, place in enumerate(loops.columns):
+        drives = [place, *driven[1:]]
+        begun = None if place in driven else Curve(loops, column, curve.held, curve.idle).begin(1.0)
+        if begun is None or infeasible_drive(linkage, drives) is not None or undriven_freedoms(linkage, drives):
+            continue
+        choices.append((mechanism.all_joints[place[0]].freedoms > 1, -abs(begun.tangent[column]), column))
+    if not choices:
+        why, column = "branches cross there, or nothing moves", loops.columns.index(driven[0])
+    else:
+        column = min(choices)[-1]
+        why = f"{name} is at a limit there, and {_full_name(mechanism, loops.columns[column])} still moves"
+    step = [0.0, float(f"{BESIDE * loops.units[column]:.2g}")]
+    drive = {_full_name(mechanism, loops.columns[column]): step, **{each: [0.0, 0.0] for each in held}}
+    return (
+        f"the assembled pose is singular: {why}; assemble the mechanism beside it: "
+        f"mechanism.at(mechanism.sweep({drive}), 1)"
+    )
+
+
+def _full_name(mechanism: Mechanism, place: tuple[int, int]) -> str:
+    joint, k = place
+    return f"{mechanism.all_joints[joint].name}.{mechanism.all_joints[joint].coordinates[k]}"

@@ -14,7 +14,7 @@ from jaxtyping import Float
 from jaxkin._arguments import by_name, check_mechanism, several
 from jaxkin._names import listed
 from jaxkin._traced import traced
-from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked
+from jaxkin.effects.limit_search import CoordinateRange, Found, LimitKind, find_limit, why_locked, why_singular
 from jaxkin.effects.mode_plot import draw_modes
 from jaxkin.effects.mode_search import PoseFeatures
 from jaxkin.effects.motion_curve import Curve
@@ -22,6 +22,7 @@ from jaxkin.effects.pose_plot import save_rows
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.coordinates import coordinate, coordinates
 from jaxkin.mechanism.describe import why_infeasible
+from jaxkin.mechanism.joint_limits import rounding
 from jaxkin.mechanism.motion import Motion
 from jaxkin.mobility.host_closure import ClosedLoops
 from jaxkin.mobility.infeasible_drive import infeasible_drive, undriven_freedoms
@@ -156,10 +157,7 @@ def limits(
     for direction in (1.0, -1.0):
         begun = curve.begin(direction)
         if begun is None:
-            raise ValueError(
-                f"the assembled pose is singular: {name} is at a limit there, or branches cross; assemble the "
-                "mechanism beside it, as mechanism.at(motion, index) does"
-            )
+            raise ValueError(why_singular(mechanism, curve, list(driven.values())))
         features = PoseFeatures(loops, idle)
         found.append(find_limit(curve, begun, direction, own, not _is_length(mechanism, place), features))
         if found[-1].repeats:
@@ -186,12 +184,15 @@ def _ranges(mechanism: Mechanism, given: Mapping[str, Sequence[float]]) -> dict[
             raise ValueError(f"the range of {key!r} must be two numbers, as in (-1.0, 1.0), got {ends!r}") from None
         found[place] = low, high
     for (number, k), (low, high) in found.items():
-        if not low <= 0.0 <= high:
-            joint = mechanism.all_joints[number]
+        joint = mechanism.all_joints[number]
+        slack = rounding(mechanism.all_joints, is_length(joint.coordinates[k]))
+        if not (low <= slack and high >= -slack):
             raise ValueError(
                 f"the assembled pose, 0, is not in the range {low:g} to {high:g} of "
-                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; give another with ranges="
+                f"{joint.name}.{joint.coordinates[k]}: ranges count from there; assemble the mechanism within, as "
+                "mechanism.at(motion, index) does, or give another range with ranges="
             )
+        found[number, k] = min(low, 0.0), max(high, 0.0)
     return found
 
 

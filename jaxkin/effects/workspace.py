@@ -25,7 +25,7 @@ from jaxkin.linkage.joint_motion import part_transforms
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mechanism.describe import why_infeasible
 from jaxkin.mechanism.drive_plan import plan_drive
-from jaxkin.mechanism.joint_limits import with_limited
+from jaxkin.mechanism.joint_limits import beyond_as_assembled, with_limited
 from jaxkin.mechanism.motion import Motion, as_point
 from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.mobility.open_loops import check_closed
@@ -91,6 +91,11 @@ class Workspace:
             f"Workspace of {self.part} over {len(first)} x {len(second)} poses: {said}",
             f"  {one} from {first[0]:.4g} to {first[-1]:.4g}, {other} from {second[0]:.4g} to {second[-1]:.4g}",
         ]
+        if outside := beyond_as_assembled(self.motion.mechanism.all_joints):
+            lines.append(
+                f"  the assembled pose itself is beyond its limits: {outside}; assemble the mechanism within, as "
+                "mechanism.at(motion, index) does, and map it from there"
+            )
         if self.reached.any():
             unit = self.motion.mechanism.unit
             for name, values in zip("xyz", self.points[self.reached].T, strict=True):

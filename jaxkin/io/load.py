@@ -87,6 +87,10 @@ def load(
         raise ValueError(
             f"load reads a file by its path, or a dict of files by part, as in {{'crank': 'crank.stl'}}; got {source!r}"
         )
+    if loops is not None:
+        raise ValueError(
+            f"loops is the YAML file of the loops of a robot in URDF; got a file for each of {len(source)} parts"
+        )
     parts, units = [], {}
     for name, file in source.items():
         if not isinstance(file, str | Path):

@@ -1,7 +1,8 @@
 """Effects by name, as studies and the command line ask for them: only those are computed.
 
 To give an effect a name: a row of `EFFECTS`. A function of a motion whose other arguments have defaults, such as
-`clashes(motion, *, within=None)`, stands there as it is; its keyword arguments are the settings.
+`clashes(motion, *, within=None)`, stands there as it is; its keyword arguments are the settings. Beside it stands what
+it may lack, in the words of a study.
 """
 
 from __future__ import annotations
@@ -9,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from inspect import signature
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from jaxkin._names import closest, nearest
+from jaxkin._names import closest, listed, nearest
 from jaxkin.effects.clashes import clashes
 from jaxkin.effects.contact_validity import contact_validity
 from jaxkin.effects.forces.drive import drive_forces
@@ -35,11 +36,6 @@ class Result(Protocol):
 
 def _rates(motion: Motion, **speeds: float | int) -> dict[str, Result]:
     """Compute velocities and accelerations for constant `speeds` of the drive, degrees and lengths a unit of time."""
-    if not speeds and len(motion.inputs) > 1:
-        raise ValueError(
-            f"rates needs the speeds of the driven coordinates, of which there are {len(motion.inputs)}: write in a "
-            f"study [effects.rates] with {' and '.join(f'{name!r} = 10' for name in motion.inputs)}"
-        )
     given = _in_radians(motion, "rates", speeds) or dict.fromkeys(motion.inputs, 1.0)
     return {"velocities": velocities(motion, given), "accelerations": accelerations(motion, given)}
 
@@ -55,11 +51,6 @@ def _forces(
 
     `density` is that of `jk.masses`: kg/m^3, the name of a material, or either by part; files of robots need none.
     """
-    if density is None and not any(part.inertial for part in motion.mechanism.solids):
-        raise ValueError(
-            "forces needs the density of the parts, in kg/m^3 or the name of a material: write in a study "
-            '[effects.forces] with density = "steel", or density = { crank = 2700, "*" = 7850 }'
-        )
     weights = masses(motion.mechanism, density)
     rates = None if speeds is None else _in_radians(motion, "forces", speeds)
     return {
@@ -84,17 +75,68 @@ def _coordinate_name(motion: Motion, effect: str, name: str) -> str:
     return found[0].rpartition(".")[2]
 
 
-EFFECTS: dict[str, Callable[..., Result | Mapping[str, Result]]] = {
-    "rates": _rates,
-    "clashes": clashes,
-    "contacts": contact_validity,
-    "forces": _forces,
-}
-"""Name of an effect -> a function of a motion and of settings (keyword arguments). The function returns one result,
-whose files have the name of the effect, or several results by the names of their files."""
+def _rates_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
+    if settings or len(motion.inputs) == 1:
+        return ""
+    return (
+        f"the speeds of the driven coordinates, of which there are {len(motion.inputs)}: write in a study "
+        f"[effects.rates] with {' and '.join(f'{name!r} = 10' for name in motion.inputs)}"
+    )
+
+
+def _clashes_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
+    if any(part.is_solid for part in motion.mechanism.solids):
+        return ""
+    return 'solids, and there are none: name their file in a study, geometry = "machine.step"'
+
+
+def _contacts_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
+    if motion.mechanism.contacts:
+        return ""
+    return (
+        "joints that were read from contacts, and there are none: in a study of solids, leave out contacts = false and "
+        "[joints]"
+    )
+
+
+def _forces_lack(motion: Motion, settings: Mapping[str, Any]) -> str:
+    solids = motion.mechanism.solids
+    known = {part.name for part in solids if part.inertial} | {*motion.mechanism.fixed}
+    left = [part for part in motion.mechanism.parts if part not in known]
+    solid = {part.name for part in solids if part.is_solid}
+    if hollow := [part for part in left if part not in solid]:
+        return (
+            f"the mass of {listed(hollow)}, without a solid: no study can say it; jk.masses(..., given=) in Python can"
+        )
+    if not left or settings.get("density") is not None:
+        return ""
+    return (
+        "the density of the parts, in kg/m^3 or the name of a material: write in a study [effects.forces] with "
+        'density = "steel", or density = { crank = 2700, "*" = 7850 }'
+    )
+
 
 Settings = Mapping[str, Mapping[str, Any]]
 """The effects that are asked for by name, each with its settings."""
+
+
+class Effect(NamedTuple):
+    """An effect that has a name."""
+
+    compute: Callable[..., Result | Mapping[str, Result]]
+    """A function of a motion and of settings (keyword arguments). It returns one result, whose files have the name of
+    the effect, or several results by the names of their files."""
+    lack: Callable[[Motion, Mapping[str, Any]], str]
+    """What the effect needs and does not have, for a motion and settings, in words; empty where it can be computed."""
+
+
+EFFECTS = {
+    "rates": Effect(_rates, _rates_lack),
+    "clashes": Effect(clashes, _clashes_lack),
+    "contacts": Effect(contact_validity, _contacts_lack),
+    "forces": Effect(_forces, _forces_lack),
+}
+"""The effects by name."""
 
 
 def known(names: Iterable[str]) -> None:
@@ -112,19 +154,29 @@ def compute(motion: Motion, asked: Settings) -> dict[str, Result]:
     known(asked)
     results: dict[str, Result] = {}
     for name, settings in asked.items():
-        takes = signature(EFFECTS[name]).parameters
+        effect = EFFECTS[name]
+        takes = signature(effect.compute).parameters
         free = any(each.kind is each.VAR_KEYWORD for each in takes.values())
         has = [key for key, each in takes.items() if each.kind is each.KEYWORD_ONLY]
         for key in settings:
             if not free and key not in has:
                 knows = f"it has {', '.join(has)}" if has else "it has none"
                 raise ValueError(f"effect {name!r}: there is no setting {key!r}; {knows}")
-        found = EFFECTS[name](motion, **settings)
+        if lack := effect.lack(motion, settings):
+            raise ValueError(f"{name} needs {lack}")
+        found = effect.compute(motion, **settings)
         results |= found if isinstance(found, Mapping) else {name: found}
     return results
 
 
-def missing(asked: Iterable[str]) -> str:
-    """Name the effects that were not asked for, in a line for the user; empty where all were."""
-    left = [name for name in EFFECTS if name not in asked]
-    return f"Not computed: {', '.join(left)} (--effects {','.join(left)})." if left else ""
+def missing(motion: Motion, asked: Iterable[str]) -> str:
+    """Name the effects that were not asked for, and say what computes them; empty where all were asked for.
+
+    Those that can be computed of the motion are offered as an option of the command line. A line on each of the others
+    says what it lacks.
+    """
+    left = {name: EFFECTS[name].lack(motion, {}) for name in EFFECTS if name not in asked}
+    able = [name for name, lack in left.items() if not lack]
+    offered = f" (--effects {','.join(able)})" if able else ""
+    needs = [f"  {name} needs {lack}" for name, lack in left.items() if lack]
+    return "\n".join([f"Not computed: {', '.join(left)}{offered}.", *needs]) if left else ""

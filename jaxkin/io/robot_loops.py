@@ -8,6 +8,7 @@ SPHERICAL, CARDAN or FIXED.
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,6 +26,9 @@ LOOPS = {"6d": JointKind.FIXED, "3d": JointKind.SPHERICAL}
 
 YAML_KEYS = ("closed_loop", "type", "name_mot", "joint_name", "joint_type")
 """Keys of a file of loops."""
+
+YAML_SUFFIXES = (".yaml", ".yml")
+"""Suffixes of files of loops."""
 
 
 class Loops(NamedTuple):
@@ -61,6 +65,27 @@ def read_loops(path: Path) -> Loops:
         tuple((a, _one_of(kind, RETYPED, name, "joint_type")) for a, kind in zip(retyped, types, strict=True)),
         tuple(notes),
     )
+
+
+def unread_beside(urdf: Path) -> tuple[str, ...]:
+    """Say of each file of loops beside a URDF, with the same stem, that it is not read, and what reads it.
+
+    A YAML file without a key of `YAML_KEYS`, such as one of a controller, or that cannot be read, is none.
+    """
+    found = [each for suffix in YAML_SUFFIXES if (each := urdf.with_suffix(suffix)).is_file() and _has_loops(each)]
+    return tuple(
+        f"{each.name}: this file of loops is beside {urdf.name}, and is not read: give --loops "
+        f"{shlex.quote(str(each))}, in Python jk.load(..., loops={str(each)!r}), or in a study the key loops beside "
+        "geometry"
+        for each in found
+    )
+
+
+def _has_loops(path: Path) -> bool:
+    try:
+        return any(read_yaml(path, YAML_KEYS).get(key) for key in YAML_KEYS)
+    except (ValueError, OSError):
+        return False
 
 
 def _texts(said: dict[str, Value], key: str, name: str) -> list[str]:

@@ -158,6 +158,7 @@ def load_study(
     assembly = load(
         place / source if isinstance(source, str) else {part: place / file for part, file in source.items()},
         seconds=seconds,
+        loops=None if said.loops is None else place / said.loops,
         progress=progress,
     )
     if not assembly.unit:  # formats of meshes that have none

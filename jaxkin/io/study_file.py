@@ -177,6 +177,7 @@ class StudyFile(BaseModel):
 
     model_config = STRICT
     geometry: Annotated[Any, BeforeValidator(_geometry)] = None
+    loops: Annotated[str, Field(min_length=1)] | None = None
     unit: Annotated[str, BeforeValidator(partial(one_of, METRES))] = ""
     rename: dict[str, str] = {}
     fixed: Annotated[list[str], Field(min_length=1)]
@@ -200,7 +201,7 @@ class StudyFile(BaseModel):
         if self.geometry is None:
             if not self.joints:
                 raise ValueError("there is nothing to study: expected geometry, or joints, or both")
-            for key in ("rename", "rigid", "ignore", "exclude", "clearance", "tolerance"):
+            for key in ("loops", "rename", "rigid", "ignore", "exclude", "clearance", "tolerance"):
                 if key in self.model_fields_set:
                     raise ValueError(f"{key} is about parts from files, but no geometry is given; leave it out")
         return self

@@ -45,6 +45,7 @@ def write_study(
     path: Path | str,
     *,
     geometry: str | Mapping[str, str] | None = None,
+    loops: str | None = None,
     drive: Mapping[str, str] | None = None,
     assumptions: Sequence[str] = (),
     exclude: Sequence[str] = (),
@@ -54,6 +55,7 @@ def write_study(
 
     - `geometry`: the file that the solids are from, or files by part, as named from the folder of the study; needed
       where the mechanism has solids.
+    - `loops`: the YAML file of the loops of a robot in URDF, named from there too; needed where it was loaded with one.
     - `drive`: ranges by coordinate as studies have them, `{"A.phi": "0:360:361"}`; without it the coordinates that can
       drive are written as comments to choose from.
     - `assumptions`: lines to add as comments at the top.
@@ -71,7 +73,7 @@ def write_study(
     bodies = Bodies.of(mechanism)
     choices = NONE if proposals is None or not mechanism.solids else find_choices(mechanism, bodies, drive, proposals)
     lines = [
-        *_head(mechanism, geometry, assumptions),
+        *_head(mechanism, geometry, loops, assumptions),
         *_bodies(mechanism, bodies, exclude, choices),
         *_joints(mechanism, choices),
         *_couplings(mechanism),
@@ -81,7 +83,9 @@ def write_study(
         draft.write_text("\n".join([*lines, ""]), "utf-8")
 
 
-def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assumptions: Sequence[str]) -> list[str]:
+def _head(
+    mechanism: Mechanism, geometry: str | Mapping[str, str] | None, loops: str | None, assumptions: Sequence[str]
+) -> list[str]:
     moving = sum(joint.freedoms > 0 for joint in mechanism.all_joints)
     parts = f"{len(mechanism.parts)} parts, {len(mechanism.bodies)} bodies"
     joints = "1 joint that moves" if moving == 1 else f"{moving} joints that move"
@@ -91,6 +95,7 @@ def _head(mechanism: Mechanism, geometry: str | Mapping[str, str] | None, assump
     for note in grouped((kind_of(note.rpartition(": ")[2]), note) for note in (*assumptions, *notes)):
         lines += comment(note)
     lines += ["", f"geometry = {toml(geometry)}"] if mechanism.solids else []
+    lines += [f"loops = {toml(loops)}"] if loops and mechanism.solids else []
     lines += ["contacts = false  # the joints below are all there are"] if mechanism.solids else []
     return lines + ["", f"unit = {toml(mechanism.unit)}"] if mechanism.unit else lines
 

@@ -12,7 +12,7 @@ from jaxkin.geometry.inertial import NONE, Inertial
 from jaxkin.geometry.pose import Pose
 from jaxkin.io.robot_couplings import follower
 from jaxkin.io.robot_inertials import SIX, inertial
-from jaxkin.io.robot_loops import Loops, read_loops
+from jaxkin.io.robot_loops import Loops, read_loops, unread_beside
 from jaxkin.io.robot_model import (
     RobotJoint,
     RobotLink,
@@ -55,7 +55,8 @@ XACRO = ("include", "macro", "property", "if", "unless")
 
 def read_urdf(path: Path, root: Element, loops: Path | None) -> RobotModel:
     """Read a robot with its loops; ValueError, in one line, for what is no tree or not understood."""
-    return _Reader(path.name, root, read_loops(loops) if loops else Loops("")).model()
+    said = read_loops(loops) if loops else Loops("", notes=unread_beside(path))
+    return _Reader(path.name, root, said).model()
 
 
 class _Reader:
@@ -130,7 +131,8 @@ class _Reader:
             if child in above:
                 raise ValueError(
                     f"{self.file}: link {child!r} is the child of two joints, {above[child].get('name')!r} and "
-                    f"{each.get('name')!r}: a URDF is a tree; close the loop in a file of loops, loops='robot.yaml'"
+                    f"{each.get('name')!r}: a URDF is a tree; close the loop in a file of loops, --loops "
+                    "robot.yaml, in Python loops='robot.yaml'"
                 )
             above[child] = each
             below.setdefault(parent, []).append(each)

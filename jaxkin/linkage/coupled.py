@@ -14,13 +14,19 @@ from jaxkin.linkage.linkage import Linkage
 
 
 def coupled(linkage: Linkage, couplings: Sequence[Coupling]) -> Linkage:
-    """Tie coordinates of a linkage by further couplings; ValueError as in `check_couplings`."""
+    """Tie coordinates of a linkage by further couplings; ValueError as in `check_couplings`.
+
+    A part at a joint that is tied, such as a round gear wheel, no longer counts as one that only spins: it cannot move
+    by itself.
+    """
     more = several(couplings, "couplings", "couplings", "[jk.gear(...)]")
     every = check_couplings([*linkage.couplings, *more], linkage.joints)
     ties = tuple(tuple(name.rpartition(".")[0] for name in each.coordinates) for each in every)
     found = replace(linkage.structure, coupled=ties)
     made = Linkage.of(linkage.solved_joints, found, every)
-    return replace(linkage, structure=found, couplings=every, classes=made.classes)
+    tied = {part for joint in linkage.joints if any(joint.name in tie for tie in ties) for part in joint.parts}
+    spinning = tuple(each for each in linkage.spinning if each.name not in tied)
+    return replace(linkage, structure=found, couplings=every, classes=made.classes, spinning=spinning)
 
 
 def counted_from(

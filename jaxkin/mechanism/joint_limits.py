@@ -17,12 +17,17 @@ import numpy as np
 from jax import lax
 from jaxtyping import Array, Float, Int
 
+from jaxkin._names import listed
 from jaxkin.geometry.movements import is_length
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.joints.joint import Joint
+from jaxkin.linkage.coordinates import coordinates
+from jaxkin.mobility.infeasible_drive import undriven_freedoms
 from jaxkin.solve.status import Status
 from jaxkin.solve.system.joints import scaled_frames
 
 if TYPE_CHECKING:
+    from jaxkin.mechanism.mechanism import Mechanism
     from jaxkin.mechanism.motion import Motion
 
 ROUNDING = 1e-6
@@ -142,6 +147,12 @@ def breaches(motion: Motion) -> tuple[Breach, ...]:
     return tuple(found)
 
 
+def first_within(motion: Motion) -> int | None:
+    """Find the first pose that is closed and within all limits; None where there is none."""
+    closed = np.flatnonzero(np.asarray(motion.status) == Status.CLOSED.value)
+    return int(closed[0]) if len(closed) else None
+
+
 def joined(pieces: Sequence[tuple[Sequence[Breach], int]]) -> tuple[Breach, ...]:
     """Join what was found in consecutive motions, each given with its number of poses."""
     found: dict[str, Breach] = {}
@@ -156,10 +167,36 @@ def joined(pieces: Sequence[tuple[Sequence[Breach], int]]) -> tuple[Breach, ...]
     return tuple(found.values())
 
 
-def limit_report(found: Sequence[Breach], unit: str, inputs: Mapping[str, object]) -> list[str]:
-    """Write a line on each coordinate that is beyond its limits, the farthest first, and one on what to do."""
+def rounding(joints: Sequence[Joint], length: bool) -> float:
+    """Tell how far beyond a limit a coordinate of the joints still counts as at it, radians or a length."""
+    if not length:
+        return ROUNDING
+    frames = ([np.asarray(each.frames_1) for each in joints], [np.asarray(each.frames_2) for each in joints])
+    return ROUNDING * float(scaled_frames(frames[0], frames[1], np)[1])
+
+
+def beyond_as_assembled(joints: Sequence[Joint]) -> str:
+    """Name the coordinates whose limits exclude the assembled pose, with these limits; empty where none do."""
+    return listed(
+        [
+            f"{joints[each.joint].name}.{joints[each.joint].coordinates[each.coordinate]}, {each.low:.4g} to "
+            f"{each.high:.4g}"
+            for each in bounds_of(joints)
+            if max(each.low, -each.high) > rounding(joints, each.length)
+        ]
+    )
+
+
+def limit_report(
+    found: Sequence[Breach], mechanism: Mechanism, inputs: Mapping[str, object], within: int | None = None
+) -> list[str]:
+    """Write a line on each coordinate that is beyond its limits, the farthest first, and one on what to do.
+
+    `within` is a pose of the motion that is closed and within all limits, if there is one.
+    """
     if not found:
         return []
+    unit = mechanism.unit
     order = sorted(found, key=lambda each: -each.excess)
     lines = []
     for each in order[:MAX_REPORTED_COORDINATES]:
@@ -172,6 +209,34 @@ def limit_report(found: Sequence[Breach], unit: str, inputs: Mapping[str, object
         )
     if len(order) > MAX_REPORTED_COORDINATES:
         lines.append(f"beyond its limits: {len(order) - MAX_REPORTED_COORDINATES} more: see motion.beyond_limits")
-    name = next(iter(inputs), "joint")
-    lines.append(f"how far a drive can go within all limits: jk.limits(mechanism, {name!r})")
-    return lines
+    return [*lines, *_remedy(order[0].name, mechanism, inputs, within)]
+
+
+def _remedy(worst: str, mechanism: Mechanism, inputs: Mapping[str, object], within: int | None) -> list[str]:
+    """Write the call of `jk.limits` that tells how far a drive can go: that of the worst coordinate, if it is driven.
+
+    All other freedoms are held. From an assembled pose that is itself beyond a limit there is no such range, so that a
+    pose within is assembled first. There is no call where the loops close but for misalignments.
+    """
+    linkage = mechanism.linkage
+    # coordinates of a target are those of a joint that the mechanism of the motion has, and the one that was swept not
+    targets = any(each.evidence and each.evidence.kind is EvidenceKind.TARGET for each in mechanism.all_joints)
+    whole = "motion.mechanism" if targets else "mechanism"
+    outside = beyond_as_assembled(mechanism.all_joints)
+    if outside and within is None:
+        return [
+            f"the assembled pose itself is beyond its limits: {outside}; drive it to a pose within them, and assemble "
+            f"the mechanism there: {whole}.at(motion, index)"
+        ]
+    if linkage.ideal:
+        return []
+    driven = coordinates(linkage, [*inputs] or [worst])
+    drive = worst if worst in driven else next(iter(driven))
+    hold = [*(name for name in driven if name != drive), *undriven_freedoms(linkage, list(driven.values()))]
+    of = f"{drive!r}, hold={hold}" if hold else f"{drive!r}"
+    if outside:
+        return [
+            f"the assembled pose itself is beyond its limits: {outside}; how far a drive can go from pose {within}, "
+            f"which is within: jk.limits({whole}.at(motion, {within}), {of})"
+        ]
+    return [f"how far a drive can go within all limits: jk.limits({whole}, {of})"]

@@ -19,7 +19,7 @@ from jaxkin._names import listed, nearest
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
 from jaxkin.linkage.joint_motion import part_transforms, point_path
-from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, limit_report
+from jaxkin.mechanism.joint_limits import Breach, breaches, excesses, first_within, limit_report
 from jaxkin.mechanism.pose_error import check
 from jaxkin.mobility.infeasible_drive import dead_point, undriven_freedoms
 from jaxkin.solve.options import SolverOptions
@@ -169,7 +169,10 @@ class Motion:
                 f"{', '.join(self.inputs)}: traced by JAX, its numbers are known outside of jit, vmap and grad"
             )
         counts = np.bincount(np.asarray(self.status), minlength=len(Status))
-        told = tally(self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts, breaches(self))
+        within = first_within(self)
+        told = tally(
+            self.mechanism, self.inputs, counts, largest_residuals(self), self.lost_contacts, breaches(self), within
+        )
         if not any(joint.curves for joint in self.mechanism.all_joints):
             return told
         from jaxkin.effects.curve_contacts import curve_contacts
@@ -202,9 +205,10 @@ def tally(
     largest: Float[np.ndarray, " status"],
     lost: Sequence[LostContact],
     beyond: Sequence[Breach],
+    within: int | None = None,
 ) -> str:
     """Tell in words what became of poses: how many of each status, the largest residual of closed ones, limits passed,
-    faces left."""
+    faces left. `within` is that of `limit_report`."""
     from jaxkin.mechanism.lost_contact_report import lost_contact_report
 
     lines = [f"Motion of {len(mechanism.parts)} parts over {counts.sum()} poses, driven by {', '.join(inputs)}"]
@@ -217,7 +221,7 @@ def tally(
             lines.append(f"  largest closure residual of the {which} poses: {largest[status]:.1e}")
     if free := undriven_freedoms(mechanism.linkage, driven):
         lines.append(f"  freedoms without a drive move as little as they can; it could be {listed(free)}")
-    lines += [f"  {line}" for line in limit_report(beyond, mechanism.unit, inputs)]
+    lines += [f"  {line}" for line in limit_report(beyond, mechanism, inputs, within)]
     lines += [f"  {line}" for line in lost_contact_report(lost, mechanism, inputs)]
     return "\n".join(lines)
 

@@ -9,7 +9,7 @@ from jaxtyping import Bool
 
 from jaxkin._traced import traced
 from jaxkin.linkage.coordinates import coordinate
-from jaxkin.mechanism.joint_limits import breaches, limit_report
+from jaxkin.mechanism.joint_limits import breaches, first_within, limit_report
 from jaxkin.mobility.infeasible_drive import dead_point
 from jaxkin.solve.status import SEVERITY, Status
 
@@ -63,5 +63,5 @@ def _message(motion: Motion) -> str:
     linkage = motion.mechanism.linkage
     if Status.STALLED in wrong and (why := dead_point(linkage, [coordinate(linkage, name) for name in motion.inputs])):
         lines.append(f"  {why}")
-    lines += [f"  {line}" for line in limit_report(limited, motion.mechanism.unit, motion.inputs)]
+    lines += [f"  {line}" for line in limit_report(limited, motion.mechanism, motion.inputs, first_within(motion))]
     return "\n".join(lines)

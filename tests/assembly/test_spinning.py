@@ -225,3 +225,23 @@ def test_joints_by_hand_are_not_taken_away():
     made = ringed(range(10))
     given = replace(made, contacts={name: () for name in made.contacts if name != "C"})
     assert "C" in [joint.name for joint in left_at_rest(given).all_joints]
+
+
+WHEELS = """<mujoco><worldbody>
+  <body name="arm"><joint name="a" axis="0 1 0"/><geom type="box" size=".4 .05 .02"/>
+    <body name="wheel" pos=".3 0 0"><joint name="w" axis="0 0 1"/><geom type="sphere" size=".1"/></body></body>
+</worldbody>{}</mujoco>"""
+
+
+def test_a_round_part_that_a_coupling_ties_does_not_spin_by_itself(tmp_path):
+    """A wheel on an arm: two freedoms, of which a coupling leaves one, and that one moves both."""
+    (tmp_path / "free.xml").write_text(WHEELS.format(""))
+    free = jk.load(tmp_path / "free.xml").mechanism().mobility()
+    assert (free.freedoms, free.spinning, free.useful, free.drivable) == (2, ("wheel",), 1, ("a.phi",))
+    tie = '<equality><joint joint1="w" joint2="a" polycoef="0 2 0 0 0"/></equality>'
+    (tmp_path / "tied.xml").write_text(WHEELS.format(tie))
+    tied = jk.load(tmp_path / "tied.xml").mechanism().mobility()
+    assert (tied.freedoms, tied.spinning, tied.useful) == (1, (), 1) and len(tied.drivable) == 1
+    assert "spin" not in str(tied)
+    again = jk.load(tmp_path / "free.xml").mechanism().with_couplings([jk.gear("a", "w", 2.0)]).mobility()
+    assert (again.freedoms, again.spinning, again.useful) == (1, (), 1)

@@ -133,5 +133,5 @@ def test_poses_that_are_not_closed_are_nan(tmp_path):
 def test_a_mechanism_by_hand_has_nothing_to_check_and_says_what_to_do():
     slide = jk.prismatic("slide", "base", "slider", axis=(1, 0, 0))
     motion = jk.Mechanism.build(fixed=["base"], joints=[slide]).sweep({"slide": np.array([0.0, 1.0])})
-    with pytest.raises(ValueError, match=r"has none: make it from solids, jk\.load"):
+    with pytest.raises(ValueError, match=r"has none: those of solids, jk\.load"):
         jk.contact_validity(motion)

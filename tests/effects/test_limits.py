@@ -1,5 +1,7 @@
 """Where a drive locks: against triangles of stretched and folded links, extremes of closed forms, and sweeps."""
 
+import re
+
 import jax
 import numpy as np
 import pytest
@@ -185,10 +187,26 @@ def test_what_has_no_limits_is_refused():
         jk.limits(mechanism, ["A"])  # pyright: ignore[reportArgumentType]
     with pytest.raises(ValueError, match=r"alone does not determine the motion: hold .* as in hold=\['leg 1.z'\]"):
         jk.limits(hexapod(), "leg 0")
-    with pytest.raises(ValueError, match=r"the assembled pose is singular: A.phi is at a limit there"):
-        jk.limits(parallelogram(angle=0.0), "A")
     with pytest.raises(ValueError, match="outside of jit"):
         jax.jit(lambda m: jk.limits(m, "A").upper.value)(mechanism)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("mechanism", "drive", "why", "ends"),
+    [
+        (slider_crank(theta=0.0, crank=30.0, rod=120.0, offset=0.0), "S", "S.z is at a limit there, and B.phi", 60.0),
+        (parallelogram(angle=0.0), "A", "branches cross there", np.inf),
+    ],
+    ids=["slider-crank at its dead point", "flat parallelogram"],
+)
+def test_a_singular_pose_is_left_by_what_the_error_says(mechanism, drive, why, ends):
+    """Beside it the range is found: the slide has twice the crank, the parallelogram makes full turns."""
+    with pytest.raises(ValueError, match=f"^the assembled pose is singular: {why}") as error:
+        jk.limits(mechanism, drive)
+    (call,) = re.findall(r"mechanism\.at\(.*\)$", str(error.value))
+    found = jk.limits(eval(call, {"mechanism": mechanism}), drive)
+    assert found.upper.value - found.lower.value == pytest.approx(ends, abs=1e-9)
 
 
 @pytest.mark.long

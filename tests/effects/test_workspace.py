@@ -101,6 +101,25 @@ def test_poses_beyond_the_limits_of_joints_are_told_apart(tmp_path):
     assert found.plot(tmp_path / "map.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_pose_that_is_assembled_beyond_a_limit_is_told():
+    """No node is within the limits of what is held beyond them."""
+    joints = [
+        jk.revolute(name, *parts, point=(x, 0, 0), axis=Z, limits=limits)
+        for name, parts, x, limits in (
+            ("base", ("ground", "lower"), 0, None),
+            ("elbow", ("lower", "upper"), 2, None),
+            ("wrist", ("upper", "hand"), 3, (0.1, 0.5)),
+        )
+    ]
+    mechanism, grid = jk.Mechanism.build(fixed=["ground"], joints=joints), np.linspace(-0.2, 0.2, 3)
+    found = jk.workspace(mechanism, {"base": grid, "elbow": grid}, "hand", (4.0, 0, 0), hold=["wrist"])
+    assert not found.reached.any()
+    assert "the assembled pose itself is beyond its limits: wrist.phi, 0.1 to 0.5; assemble" in str(found)
+    within = mechanism.at(mechanism.sweep({"wrist": [0.3]}), 0)
+    found = jk.workspace(within, {"base": grid, "elbow": grid}, "hand", (4.0, 0, 0), hold=["wrist"])
+    assert found.reached.all() and "beyond" not in str(found)
+
+
 @pytest.mark.long
 def test_what_limits_part_from_the_assembled_pose_is_not_reached():
     """The limits of an elbow that is not driven: of the nodes within them, only those that a path within leads to."""

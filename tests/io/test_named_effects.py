@@ -11,6 +11,7 @@ from jaxkin.cli.app import app
 from jaxkin.examples import path
 from jaxkin.io import named_effects
 from jaxkin.io.named_effects import EFFECTS, compute, missing
+from reference import mechanisms
 
 STUDY = """
 geometry = "{file}"
@@ -50,12 +51,64 @@ def test_a_study_computes_what_it_asks_for(tmp_path):
 
 @pytest.mark.long
 def test_what_is_off_or_not_named_is_not_computed(tmp_path, monkeypatch):
-    monkeypatch.setitem(named_effects.EFFECTS, "clashes", lambda motion: pytest.fail("clashes were not asked for"))
+    never = EFFECTS["clashes"]._replace(compute=lambda motion: pytest.fail("clashes were not asked for"))
+    monkeypatch.setitem(named_effects.EFFECTS, "clashes", never)
     made = study(tmp_path, rates="false")
     assert list(made.effects) == ["contacts", "clashes"]
-    assert list(compute(made.sweep(), {"contacts": {}})) == ["contacts"]
-    assert missing(["rates", "contacts", "forces"]) == "Not computed: clashes (--effects clashes)."
-    assert missing(EFFECTS) == ""
+    motion = made.sweep()
+    assert list(compute(motion, {"contacts": {}})) == ["contacts"]
+    assert missing(motion, ["rates", "contacts", "forces"]) == "Not computed: clashes (--effects clashes)."
+    assert missing(motion, EFFECTS) == ""
+
+
+@pytest.mark.long
+def test_only_what_can_be_computed_is_offered(tmp_path):
+    """A study that is written from solids has its joints by hand: the option that is offered runs as it stands."""
+    found = CliRunner().invoke(
+        app, ["inspect", str(path("fourbar")), "--fixed", "ground", "--study", str(tmp_path / "study.toml")]
+    )
+    assert found.exit_code == 0, found.output
+    sweep = ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]
+    said = CliRunner().invoke(app, sweep)
+    assert said.exit_code == 0, said.output
+    assert "Not computed: rates, clashes, contacts, forces (--effects rates,clashes)." in said.output
+    assert "contacts needs joints that were read from contacts" in said.output
+    assert "forces needs the density of the parts" in said.output and "[effects.forces]" in said.output
+    assert CliRunner().invoke(app, [*sweep, "--effects", "rates,clashes"]).exit_code == 0
+    # what the lines say is lacking, written into the study
+    text = (tmp_path / "study.toml").read_text()
+    head, drive = text[: text.index("[joints.")], text[text.index("[drive]") :]
+    assert "contacts = false" in head
+    head = head.replace("contacts = false", "contacts = true")
+    (tmp_path / "study.toml").write_text(f'{head}\n{drive}\n[effects]\nforces = {{ density = "steel" }}\n')
+    said = CliRunner().invoke(app, [*sweep, "--effects", "contacts"])
+    assert said.exit_code == 0, said.output
+    assert (tmp_path / "out" / "contacts.csv").stat().st_size and (tmp_path / "out" / "reactions.csv").stat().st_size
+
+
+@pytest.mark.long
+def test_an_effect_that_fails_keeps_nothing_else_from_being_written(tmp_path):
+    study(tmp_path, rates="{ ground-rocker = 1 }")
+    text = (tmp_path / "study.toml").read_text() + 'forces = { density = "stel" }\n'
+    (tmp_path / "study.toml").write_text(text)
+    said = CliRunner().invoke(app, ["sweep", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")])
+    assert said.exit_code == 2
+    assert "not computed: rates, forces; all else is written" in said.stderr
+    assert "'ground-rocker' is not driven" in said.stderr and "no material 'stel'" in said.stderr
+    written = {file.name for file in (tmp_path / "out").iterdir()}
+    assert {"motion.npz", "motion.html", "contacts.csv", "clashes.csv"} <= written
+    assert not written & {"velocities.csv", "reactions.csv"}
+
+
+@pytest.mark.long
+def test_parts_without_solids_and_contacts_are_told_in_words_of_a_study():
+    motion = mechanisms.planar_fourbar().sweep({"A": [0.0, 0.1]})
+    said = missing(motion, ())
+    assert said.splitlines()[0] == "Not computed: rates, clashes, contacts, forces (--effects rates)."
+    assert "clashes needs solids" in said and "the mass of crank, coupler, rocker, without a solid" in said
+    for name in ("clashes", "contacts", "forces"):
+        with pytest.raises(ValueError, match=f"^{name} needs "):
+            compute(motion, {name: {}})
 
 
 @pytest.mark.long

@@ -4,6 +4,7 @@ Limits change no pose, so that all numbers of a motion are exactly those without
 displacements that the closed form knows to rounding, away from the limits themselves.
 """
 
+import re
 from dataclasses import replace
 
 import jax
@@ -85,6 +86,68 @@ def test_the_text_names_the_joint_how_far_and_what_to_do():
         mechanism.sweep({"A": TURN}, throw=True)
     inside = mechanism.sweep({"A": np.linspace(*jk.limits(mechanism, "A").range, 9)})
     assert inside.check() is inside and "LIMITED" not in str(inside)  # the remedy works, up to the limits themselves
+
+
+Z = (0.0, 0.0, 1.0)
+
+
+def arm(*elbow):
+    """An arm of two freedoms whose elbow has limits."""
+    joints = [
+        jk.revolute("shoulder", "ground", "upper", point=(0, 0, 0), axis=Z),
+        jk.revolute("elbow", "upper", "lower", point=(2, 0, 0), axis=Z, limits=elbow),
+    ]
+    return jk.Mechanism.build(fixed=["ground"], joints=joints)
+
+
+def proposed(mechanism, motion):
+    """What the call of `jk.limits` in the text of a motion finds."""
+    (call,) = re.findall(r"jk\.limits\(.*\)$", str(motion), re.MULTILINE)
+    return eval(call, {"jk": jk, "mechanism": mechanism, "motion": motion})
+
+
+def test_the_call_that_the_text_proposes_runs():
+    """The range that it finds is the one that the joint was given, counted from the pose that is assembled."""
+    mechanism, values = arm(-0.5, 1.0), np.linspace(0, 2, 5)
+    motion = mechanism.sweep({"shoulder": values, "elbow": values})  # the coordinate beyond its limits, others held
+    found = proposed(mechanism, motion)
+    assert found.drive == "elbow.phi"
+    np.testing.assert_allclose(found.range, (-0.5, 1.0), rtol=1e-15)
+    mechanism = arm(0.1, 1.0)  # beyond as assembled: from the first pose within, 0.5
+    motion = mechanism.sweep({"shoulder": values, "elbow": values})
+    assert "the assembled pose itself is beyond its limits: elbow.phi, 0.1 to 1;" in str(motion)
+    np.testing.assert_allclose(proposed(mechanism, motion).range, (-0.4, 0.5), rtol=1e-12)
+    motion = mechanism.sweep({"shoulder": values, "elbow": -values})  # no pose is within
+    assert "jk.limits(" not in str(motion) and "drive it to a pose within them" in str(motion)
+
+
+@pytest.mark.long
+def test_the_call_that_is_proposed_for_a_target_runs():
+    """The inputs are then those of a joint that only the mechanism of the motion has.
+
+    Two links of 2 and 1 reach from 1 to 3: along x, with y held, from where they fold up to where they are in line.
+    """
+    tip = np.array([2 + np.cos(1.0), np.sin(1.0), 0.0])
+    joints = [
+        jk.revolute("shoulder", "ground", "upper", point=(0, 0, 0), axis=Z),
+        jk.revolute("elbow", "upper", "lower", point=(2, 0, 0), axis=Z),
+        jk.prismatic("lift", "lower", "hand", axis=Z, limits=(-0.1, 0.1)),
+    ]
+    mechanism = jk.Mechanism.build(fixed=["ground"], joints=joints)
+    motion = mechanism.sweep({jk.point("hand", tip): tip + np.outer(np.linspace(0, 0.2, 5), Z)})
+    assert "beyond its limits: lift.z at 2 poses" in str(motion)
+    found = proposed(mechanism, motion)
+    assert found.upper.kind is found.lower.kind is jk.LimitKind.LOCKS
+    # limits are found to rounding
+    np.testing.assert_allclose(found.range, (-2.0, np.sqrt(9 - np.sin(1.0) ** 2) - tip[0]), rtol=0, atol=1e-9)
+
+
+def test_rounding_beyond_a_limit_is_at_the_limit_for_a_range_as_for_a_sweep():
+    """A pose that is assembled at its limit is beyond by rounding."""
+    found = jk.limits(arm(1e-9, 1.0), "elbow")
+    np.testing.assert_array_equal(found.range, (0.0, 1.0))
+    with pytest.raises(ValueError, match=r"not in the range 0.001 to 1 of elbow\.phi.*mechanism\.at\(motion, index\)"):
+        jk.limits(arm(1e-3, 1.0), "elbow")
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])
