@@ -187,8 +187,8 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
     if pair.virtual:
         kind, text = EvidenceKind.VIRTUAL_PIN, f"equal bores of radius {hole.radius:.4g} without a pin"
     else:
-        how = "clearance" if pair.clearance >= 0 else "interference"
-        fit = "fits" if exact else f"has a {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
+        how = "a clearance" if pair.clearance >= 0 else "an interference"
+        fit = "fits" if exact else f"has {how} of {abs(pair.clearance):.2g} and is {pair.offset:.1g} off"
         kind, text = EvidenceKind.CLEARANCE, f"the pin of radius {pair.one.radius:.4g} {fit}"
     doubt = None if touching else slide_doubt(stop, room, hole.radius)
     evidence = Evidence(kind, tuple(sizes), f"{text}; {ends}", doubt)
