@@ -17,6 +17,7 @@ from jaxkin._grouped import first_of_each, grouped, kind_of
 from jaxkin.assembly.gears import gear_proposals
 from jaxkin.assembly.inference.inference import INFERRED
 from jaxkin.contacts.contact import counted
+from jaxkin.contacts.reason import advises_tolerance
 from jaxkin.geometry.movements import is_length
 from jaxkin.joints.evidence import EvidenceKind
 
@@ -30,6 +31,12 @@ _GEARS = 5
 """Gears that are printed at most, unless all are asked for: planets and gear boxes of assemblies have many alike."""
 _TAKE_GEARS = "take them by mechanism.with_couplings([each.coupling for each in jk.gear_proposals(mechanism)]):"
 """How gears are coupled: from Python, or by [couplings] of a study, which are the equations printed."""
+
+_GIVE_TOLERANCES = (
+    "such tolerances are given in a study, as in tolerance = { length = 0.001 }, or in Python, as in "
+    "assembly.contacts(length=0.001); they hold for all faces"
+)
+"""How to follow the advice of near misses."""
 
 
 def say(text: str = "") -> None:
@@ -63,6 +70,8 @@ def print_near_misses(contacts: Contacts, mechanism: Mechanism | None, verbose: 
     shown = [((miss.state, kind_of(miss.reason)), str(miss)) for miss in (every if verbose else left)]
     for line in grouped(shown, verbose):
         say(f"  {line}")
+    if any(advises_tolerance(line) for _, line in shown):
+        say(f"  {_GIVE_TOLERANCES}")
 
 
 def _not_accounted_for(every: Iterable[NearMiss], mechanism: Mechanism) -> list[NearMiss]:

@@ -40,17 +40,18 @@ def find_contacts(
     """Find all contacts between the parts in their assembled pose.
 
     `length` is the gap up to which surfaces count as touching, in the unit of the parts; by default 1e-5 of the
-    diagonal of the assembly (see `default_length`), so that the unit does not matter. `angle`, radians, is that up to
-    which directions count as parallel. `fit` is the clearance, relative to the radius, up to which a pin fills its hole
-    (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces are in contact only where they
-    touch along a line or at a point. Two faces that miss a state by little more than the tolerances, or meet only along
-    the edge of one of them, are listed in `near_misses`; nothing is guessed. `progress(done, total)` is called after
-    each pair of parts whose boxes meet.
+    diagonal of the assembly (see `default_length`), so that the unit does not matter; a larger one loses no contact.
+    `angle`, radians, is that up to which directions count as parallel. `fit` is the clearance, relative to the radius,
+    up to which a pin fills its hole (e), or a ball its bore (j) or its socket (o); with a larger clearance the surfaces
+    are in contact only where they touch along a line or at a point. Two faces that miss a state by little more than the
+    tolerances, or meet only along the edge of one of them, are listed in `near_misses`; nothing is guessed.
+    `progress(done, total)` is called after each pair of parts whose boxes meet.
     """
     notes = [f"{part.name}: {note}" for part in parts for note in part.notes]
     if sum(bool(part.faces) for part in parts) < 2:
         return Contacts((), notes=tuple(notes))
-    tolerance = Tolerance(default_length(parts) if length is None else length, angle, fit)
+    default = default_length(parts)
+    tolerance = Tolerance(default if length is None else length, angle, fit, least_length=default)
     margin = NEAR * tolerance.length
     parts = tuple(part for part in parts if part.faces)
     boxes = [np.stack([face_box(face) for face in part.faces]) for part in parts]
@@ -131,7 +132,7 @@ def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nea
         touch = state.touch(s1, s2, at)
         if touch is None or not tol.near(touch, s1, s2):
             continue
-        region = contact_region(state.region, touch, *faces, tol.length)
+        region = _region(state, touch, faces, tol)
         if region is not None:
             touch = state.touch(s1, s2, region.centre) or touch
             fits = tol.fits(touch, region.extent, s1, s2)
@@ -144,6 +145,19 @@ def _state(faces: tuple[Face, Face], at: Vector, tol: Tolerance) -> Found | _Nea
         if tol.fits(touch, 0.0, s1, s2):
             break  # what fills its hole is not also a loose pin that leans against it
     return nearest
+
+
+def _region(state: ContactState, touch: Touch, faces: tuple[Face, Face], tol: Tolerance) -> ContactRegion | None:
+    """Find the region that two faces share where their surfaces touch; None if they share none.
+
+    It must be wide and long beside a length: that of the tolerance, or else one that the touch itself fits within.
+    """
+    region = contact_region(state.region, touch, *faces, tol.length)
+    if region is not None and region.inside:
+        return region
+    needed = max(tol.least_length, reach(touch, 0.0 if region is None else region.extent))
+    closer = contact_region(state.region, touch, *faces, needed) if needed < tol.length else None
+    return closer if closer is not None and closer.inside else region
 
 
 def _contact(

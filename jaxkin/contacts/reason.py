@@ -10,6 +10,9 @@ from jaxkin.contacts.tolerance import Tolerance, reach, smaller_radius
 from jaxkin.contacts.touch import Touch
 from jaxkin.geometry.surfaces import Surface
 
+_GIVE = " give "
+"""What the tolerances with which faces would be in contact follow in a reason."""
+
 
 def reason(
     parts: tuple[str, str],
@@ -50,13 +53,18 @@ def reason(
     return "; ".join(clauses) + _advice(options, only=wide and len(clauses) == 1)
 
 
+def advises_tolerance(text: str) -> bool:
+    """Tell whether a reason ends with tolerances to give."""
+    return _GIVE in text
+
+
 def _advice(options: Options, only: bool) -> str:
     """Write the end of the text: the tolerances to give; `only` says that there is nothing to correct in the model."""
     if not options:
         return ""
     given = ", ".join(f"{name}={value:g}" for name, value in options.items())
     guides = " if it guides" if "fit" in options else ""
-    return f"{':' if only else ', or'} give {given}{guides}"
+    return f"{':' if only else ', or'}{_GIVE}{given}{guides}"
 
 
 def _gap(touch: Touch, allowed: float) -> str:

@@ -12,13 +12,15 @@ from jaxkin.geometry.pose import Vector, perpendicular, unit
 from jaxkin.geometry.surfaces import Cone, Cylinder, Plane, Sphere
 
 
-def plane_cone(s1: Plane, s2: Cone, at: Vector) -> Touch:
-    """State (c): a cone lying on a plane along a ruling."""
+def plane_cone(s1: Plane, s2: Cone, at: Vector) -> Touch | None:
+    """State (c): a cone lying on a plane along a ruling; None where the ruling stands on the plane."""
     line = ruling(s2, -s1.normal)
+    rise = float(s1.normal @ line)
+    if abs(rise) > 0.5:
+        return None
     point = foot(at, s2.apex, line)
     height = float(s1.distance(point))
-    rise = float(s1.normal @ line)
-    tilt = float(abs(np.arcsin(np.clip(rise, -1.0, 1.0))))
+    tilt = float(abs(np.arcsin(rise)))
     return Touch(height, tilt, point - height * s1.normal, s1.normal, unit(line - rise * s1.normal))
 
 

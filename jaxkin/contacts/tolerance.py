@@ -34,6 +34,10 @@ class Tolerance:
     """Largest clearance, over the radius, with which a pin fills its hole and a ball its socket."""
     near_length: float = 0.0
     """Largest gap that is reported as a near miss, in the unit of the assembly."""
+    least_length: float = np.inf
+    """Length with which the region of a touch is judged at the strictest, in the unit of the assembly: the default of
+    `length`. Faces touch wherever they do within any length from this one to `length`, so that a larger `length` loses
+    no contact."""
 
     def between(self, one: Part, other: Part) -> Tolerance:
         """Return these tolerances with `near_length` set for two given parts."""

@@ -17,7 +17,7 @@ from jaxkin.design.constraints import in_sequence as in_sequence
 from jaxkin.design.constraints import transmission_within as transmission_within
 from jaxkin.design.measures import stroke as stroke
 from jaxkin.design.measures import transmission_angle as transmission_angle
-from jaxkin.design.objectives import Objective as Objective
+from jaxkin.design.objective import Objective as Objective
 from jaxkin.design.objectives import dwell as dwell
 from jaxkin.design.objectives import function as function
 from jaxkin.design.objectives import guidance as guidance

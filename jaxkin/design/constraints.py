@@ -14,7 +14,18 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from jaxkin.design.measures import STATIC, PartPoint, joint_coordinate, length_now, part_point, transmission_angle
+from jaxkin._arguments import text
+from jaxkin._traced import traced
+from jaxkin.design import given
+from jaxkin.design.measures import (
+    STATIC,
+    PartPoint,
+    driven_values,
+    joint_coordinate,
+    length_now,
+    part_point,
+    transmission_angle,
+)
 from jaxkin.mechanism.motion import Motion
 
 Extras = Mapping[str, Any]
@@ -53,7 +64,9 @@ def full_crank(ground: Key, crank: Key, coupler: Key, rocker: Key) -> Constraint
     The four bars are named as in `with_lengths`. For a rocker that turns fully too (a double crank), name the
     ground first and the crank in its place.
     """
-    return _FullCrank((ground, crank, coupler, rocker))
+    named = {"ground": ground, "crank": crank, "coupler": coupler, "rocker": rocker}
+    g, a, b, c = (given.bar(key, f"full_crank: {argument}") for argument, key in named.items())
+    return _FullCrank((g, a, b, c))
 
 
 @jax.tree_util.register_dataclass
@@ -71,7 +84,7 @@ def grashof(*bars: Key) -> Constraint:
     """Demand that some bar of a four-bar turns fully: the shortest and the longest are no longer than the other two."""
     if len(bars) != 4:
         raise ValueError(f"grashof: name the four bars of a four-bar by their keys as in with_lengths, got {len(bars)}")
-    return _Grashof(bars)
+    return _Grashof(tuple(given.bar(key, "grashof: a bar") for key in bars))
 
 
 @jax.tree_util.register_dataclass
@@ -90,7 +103,12 @@ class _TransmissionWithin(DesignConstraint):
 
 def transmission_within(joint: str, ends: tuple[str, str], least: float, largest: float = np.pi) -> Constraint:
     """Demand that the transmission angle (see `transmission_angle`) stays between two angles, in radians."""
-    return _TransmissionWithin(joint, (ends[0], ends[1]), least, largest)
+    text(joint, "transmission_within: joint")
+    least = given.angle(least, "transmission_within: least", np.pi)
+    largest = given.angle(largest, "transmission_within: largest", np.pi)
+    if not traced((least, largest)) and least > largest:
+        raise ValueError(f"transmission_within: least must not exceed largest, got {least:.6g} and {largest:.6g}")
+    return _TransmissionWithin(joint, given.ends(ends, "transmission_within: ends"), least, largest)
 
 
 @jax.tree_util.register_dataclass
@@ -117,14 +135,20 @@ def in_box(part: str, point: Sequence[float | int] | str, lower: Sequence[float]
     """Demand that a point of a part, given in the assembled pose or as the name of an extra variable, stays within a
     box (x, y, z).
 
-    Use infinity where a side is open.
+    Use infinity where a side is open. Distances to the sides are divided by the range of the numbers of all sides, or
+    by one where there is a single side.
     """
-    low, high = np.asarray(lower, float), np.asarray(upper, float)
-    closed = [(k, 1, low[k]) for k in range(3) if np.isfinite(low[k])]
-    closed += [(k, -1, high[k]) for k in range(3) if np.isfinite(high[k])]
-    axes, signs, sides = (tuple(each) for each in zip(*closed, strict=True)) if closed else ((), (), ())
-    size = max(float(np.ptp(sides)) if len(sides) > 1 else 0.0, 1e-300) or 1.0
-    return _InBox(part_point(part, point), axes, signs, sides, size)
+    low = given.corner(lower, "in_box: lower", "-inf")
+    high = given.corner(upper, "in_box: upper", "inf")
+    if np.any(low > high) or np.any(low == np.inf) or np.any(high == -np.inf):
+        raise ValueError(f"in_box: lower must be below upper, got {lower!r} and {upper!r}")
+    closed = [(k, 1, float(low[k])) for k in range(3) if np.isfinite(low[k])]
+    closed += [(k, -1, float(high[k])) for k in range(3) if np.isfinite(high[k])]
+    if not closed:
+        raise ValueError("in_box: a box that is open on all sides bounds nothing; give at least one finite side")
+    axes, signs, sides = (tuple(each) for each in zip(*closed, strict=True))
+    size = float(np.ptp(sides)) or 1.0
+    return _InBox(part_point(part, point, "in_box"), axes, signs, sides, size)
 
 
 @jax.tree_util.register_dataclass
@@ -135,17 +159,18 @@ class _InSequence(DesignConstraint):
     least: Any
 
     def __call__(self, motion: Motion, extras: Extras):
-        values = motion.inputs[
-            self.joint if self.joint in motion.inputs else next(n for n in motion.inputs if n.startswith(self.joint))
-        ]
+        values = driven_values(motion, self.joint, "in_sequence")
         rest = (2 * jnp.pi - (values[-1] - values[0]))[None]
         return jnp.concatenate([jnp.diff(values) - self.least, rest]) / (2 * jnp.pi)
 
 
 def in_sequence(joint: str, *, least: float = 0.0) -> Constraint:
-    """Demand that the driven displacements rise from pose to pose, by `least` at least, and by no more than one turn in
-    all."""
-    return _InSequence(joint, least)
+    """Demand that the displacements of a driven joint rise from pose to pose, by `least` at least, and by no more than
+    one turn in all.
+
+    The joint is named as in the drive; where it has several coordinates, "joint.coordinate".
+    """
+    return _InSequence(text(joint, "in_sequence: joint"), given.number(least, "in_sequence: least"))
 
 
 @jax.tree_util.register_dataclass
@@ -162,4 +187,5 @@ class _Above(DesignConstraint):
 
 def above(joint: str, least: float, size: float = 1.0) -> Constraint:
     """Demand that a joint's displacement stays at or above a value; `size` makes it a pure number."""
-    return _Above(joint, least, size)
+    text(joint, "above: joint")
+    return _Above(joint, given.number(least, "above: least"), given.positive(size, "above: size"))

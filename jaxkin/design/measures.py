@@ -11,7 +11,10 @@ import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float
 
-from jaxkin._names import nearest
+from jaxkin._arguments import numbers, text
+from jaxkin._names import listed, nearest
+from jaxkin._traced import traced
+from jaxkin.design import given
 from jaxkin.dimensions import lengths
 from jaxkin.linkage.coordinates import coordinate
 
@@ -37,16 +40,23 @@ class PartPoint:
 
     def path(self, motion: Motion, extras: Mapping[str, Any]) -> Float[Array, "poses 3"]:
         """Compute where the point is in every pose; (x, y) is in the plane z = 0."""
-        found = jnp.asarray(self.given if self.extra is None else extras[self.extra], float)
+        if self.extra is None:
+            found = jnp.asarray(self.given, float)
+        else:
+            found = given.extra(extras, self.extra, f"the point of {self.part!r}", ((2,), (3,)))
         return motion.points(self.part, jnp.append(found, 0.0) if found.shape == (2,) else found)
 
 
-def part_point(part: str, point: Any) -> PartPoint:
-    """Make a point of a part, of its coordinates or of the name of an extra variable."""
+def part_point(part: str, point: Any, what: str) -> PartPoint:
+    """Make a point of a part, of its coordinates or of the name of an extra variable; `what` begins messages."""
+    text(part, f"{what}: part")
     if isinstance(point, str):
         return PartPoint(part, point, None)
-    given = np.asarray(point, float)
-    return PartPoint(part, None, np.append(given, 0.0) if given.shape == (2,) else given)
+    expected = "finite numbers (x, y, z) or (x, y), or the name of an extra variable"
+    found = numbers(point, f"{what}: point", expected)
+    if found.shape not in ((2,), (3,)) or not (traced(found) or np.all(np.isfinite(found))):
+        raise ValueError(f"{what}: point must be {expected}, got {point!r}")
+    return PartPoint(part, None, (jnp if traced(found) else np).append(found, 0.0) if found.shape == (2,) else found)
 
 
 def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Float[Array, " poses"]:
@@ -55,13 +65,18 @@ def transmission_angle(motion: Motion, joint: str, ends: tuple[str, str]) -> Flo
     `ends` names the joint at the other end of either link: in a four-bar with coupler B C and rocker C D it is
     `transmission_angle(motion, "C", ("B", "D"))`. A right angle transmits best; at 0 and pi the linkage jams.
     """
-    corner, links = joint_path(motion, joint), []
+    ends = given.ends(ends, "transmission angle: ends")
+    corner, links, held = joint_path(motion, joint), [], set()
+    meeting = set(motion.mechanism.joints[joint].parts)
+    said = f"links {' and '.join(map(repr, motion.mechanism.joints[joint].parts))} that meet at {joint!r}"
     for end in ends:
-        common = set(motion.mechanism.joints[known_joint(motion, end)].parts)
-        if not common & set(motion.mechanism.joints[joint].parts):
-            parts = " and ".join(map(repr, motion.mechanism.joints[joint].parts))
-            raise ValueError(f"joint {end!r} is on neither of the links {parts} that meet at {joint!r}")
+        on = meeting & set(motion.mechanism.joints[known_joint(motion, end)].parts)
+        if not on:
+            raise ValueError(f"joint {end!r} is on neither of the {said}")
+        held |= on
         links.append(joint_path(motion, end) - corner)
+    if joint in ends or len(held) < 2:
+        raise ValueError(f"{ends[0]!r} and {ends[1]!r} must be two other joints, one on each of the {said}")
     cross = jnp.linalg.norm(jnp.cross(*links) + 1e-300, axis=-1)
     return jnp.arctan2(cross, jnp.sum(links[0] * links[1], axis=-1))
 
@@ -92,16 +107,23 @@ def joint_coordinate(motion: Motion, name: str) -> Float[Array, " poses"]:
     return motion.coordinates[linkage.joints[joint].name][:, k]
 
 
+def driven_values(motion: Motion, name: str, what: str) -> Float[Array, " poses"]:
+    """Find the displacements of a driven coordinate by its name; ValueError where it is not driven.
+
+    `what` begins the message.
+    """
+    linkage = motion.mechanism.linkage
+    if name in motion.inputs:  # also those of targets, which are no joints of the linkage
+        return motion.inputs[name]
+    joint, k = coordinate(linkage, name)
+    full = f"{linkage.joints[joint].name}.{linkage.joints[joint].coordinates[k]}"
+    if full not in motion.inputs:
+        raise ValueError(f"{what}: {full!r} is not driven; name what the drive gives, {listed([*motion.inputs])}")
+    return motion.inputs[full]
+
+
 def known_joint(motion: Motion, name: str) -> str:
     """Return the name, if there is such a joint; else ValueError with the nearest."""
     if name not in motion.mechanism.joints:
         raise ValueError(f"there is no joint {name!r}{nearest(name, motion.mechanism.joints)}")
     return name
-
-
-def as_rows(values, what: str, width: int) -> np.ndarray:
-    """Convert numbers to an array (rows, width); ValueError naming what they are for."""
-    array = np.asarray(values, float)
-    if array.ndim != 2 or array.shape[1] != width or not np.all(np.isfinite(array)):
-        raise ValueError(f"{what} must be finite numbers of shape (poses, {width}), got shape {array.shape}")
-    return array

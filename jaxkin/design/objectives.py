@@ -1,82 +1,30 @@
 """Objectives ready to use. Each is a sum of squares, so that Gauss-Newton steps apply, and can be drawn.
 
-An objective is called as `objective(motion, extras)`; `2.0 * path(...) + transmission(...)` is their weighted sum.
 Where a point or a placement is itself to be chosen, give the name of an extra variable in its place.
-
-Objectives are pytrees of their numbers, such as targets and weights: a search with other numbers runs the program that
-was compiled for the first ones.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, Protocol
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Array, Float, Int
 
-from jaxkin.design.measures import STATIC, PartPoint, as_rows, joint_coordinate, part_point, transmission_angle
+from jaxkin._arguments import text, yes_or_no
+from jaxkin.design import given
+from jaxkin.design.measures import STATIC, PartPoint, joint_coordinate, part_point, transmission_angle
 from jaxkin.design.measures import stroke as stroke_between
+from jaxkin.design.objective import Extras, Objective, single
 from jaxkin.mechanism.motion import Motion
 
-Extras = Mapping[str, Any]
 Numbers = Array | np.ndarray
 
-
-class Term(Protocol):
-    """What a motion is asked for, in numbers that are to be zero."""
-
-    def rows(self, motion: Motion, extras: Extras) -> Any:
-        """Compute the numbers whose squares are added up."""
-        ...
-
-    def draw(self, axes: Any, motion: Motion, extras: Extras, style: dict) -> None:
-        """Draw what is wanted and what the motion does into matplotlib axes."""
-        ...
-
-
-class Weighted(NamedTuple):
-    """A term of a sum."""
-
-    weight: Any
-    term: Term
-
-
-@jax.tree_util.register_dataclass
-@dataclass(frozen=True, eq=False)
-class Objective:
-    """A sum of squares over a motion, with what it takes to draw it."""
-
-    terms: tuple[Weighted, ...]
-
-    def residuals(self, motion: Motion, extras: Extras | None = None) -> Float[Array, " rows"]:
-        """Return the numbers whose squares add up to the objective, weights included."""
-        return jnp.concatenate([jnp.sqrt(w) * jnp.ravel(term.rows(motion, extras or {})) for w, term in self.terms])
-
-    def __call__(self, motion: Motion, extras: Extras | None = None) -> Float[Array, ""]:
-        return jnp.sum(self.residuals(motion, extras) ** 2)
-
-    def __add__(self, other: Objective) -> Objective:
-        return replace(self, terms=self.terms + other.terms)
-
-    def __rmul__(self, weight: float | int) -> Objective:
-        if not weight >= 0:
-            raise ValueError(f"the weight of an objective must not be negative, got {weight}")
-        return replace(self, terms=tuple(Weighted(weight * w, term) for w, term in self.terms))
-
-    __mul__ = __rmul__
-
-    def plot(self, axes: Any, motion: Motion, extras: Extras | None = None, **style: Any) -> None:
-        """Draw what is wanted and what the motion does into matplotlib axes: the first term."""
-        for _, term in self.terms[:1]:
-            term.draw(axes, motion, extras or {}, style)
-
-
-def _objective(term: Term) -> Objective:
-    return Objective((Weighted(1.0, term),))
+_WITH_TIMING = "with timing each pose has its target, write timing=False to compare with the nearest place of the path"
+"""What to do about other numbers of targets than of poses."""
 
 
 @jax.tree_util.register_dataclass
@@ -91,7 +39,7 @@ class _Path:
     def traced_path(self, motion: Motion, extras: Extras) -> Float[Array, "poses components"]:
         found = self.point.path(motion, extras)
         if self.placement is not None:
-            x, y, angle = extras[self.placement]
+            x, y, angle = given.extra(extras, self.placement, "path: placement", ((3,),))
             cos, sin = jnp.cos(angle), jnp.sin(angle)
             turned = [cos * found[:, 0] - sin * found[:, 1] + x, sin * found[:, 0] + cos * found[:, 1] + y, found[:, 2]]
             found = jnp.stack(turned, axis=-1)
@@ -100,16 +48,18 @@ class _Path:
     def rows(self, motion: Motion, extras: Extras):
         found = self.traced_path(motion, extras)
         if self.timing:
-            if len(found) != len(self.wanted):
-                raise ValueError(
-                    f"path: {len(self.wanted)} targets but {len(found)} poses; with timing each pose has its target, "
-                    "write timing=False to compare with the nearest place of the path"
-                )
+            given.check_targets(len(self.wanted), len(found), "path", _WITH_TIMING)
             return found - self.wanted
         return _nearest(found, jnp.asarray(self.wanted)) - self.wanted
 
     def draw(self, axes, motion: Motion, extras: Extras, style: dict):
-        found, wanted = np.asarray(self.traced_path(motion, extras)), self.wanted
+        found, wanted = np.asarray(self.traced_path(motion, extras)), np.asarray(self.wanted)
+        if len(self.components) == 1:
+            axes.plot(found[:, 0], **style)
+            axes.plot(wanted[:, 0], "o", color="black", markerfacecolor="none", zorder=0)
+            axes.set_xlabel("pose")
+            axes.set_ylabel("xyz"[self.components[0]])
+            return
         axes.plot(found[:, 0], found[:, 1], **style)
         axes.plot(wanted[:, 0], wanted[:, 1], "o", color="black", markerfacecolor="none", zorder=0)
         axes.set_aspect("equal", adjustable="datalim")
@@ -133,8 +83,11 @@ def path(
     poses. `targets` have the world coordinates named by `components`, x and y by default. `placement` names an extra
     variable (x, y, angle) by which the whole mechanism is moved in the plane x y before it is compared.
     """
-    wanted = as_rows(targets, "path targets", len(components))
-    return _objective(_Path(part_point(part, point), wanted, timing, placement, tuple(components)))
+    chosen = given.components(components, "path: components")
+    wanted = given.rows(targets, "path targets", len(chosen))
+    placed = placement if placement is None else text(placement, "path: placement")
+    timed = yes_or_no(timing, "path: timing")
+    return single(_Path(part_point(part, point, "path"), wanted, timed, placed, chosen))
 
 
 @jax.tree_util.register_dataclass
@@ -146,25 +99,27 @@ class _Function:
 
     def rows(self, motion: Motion, extras: Extras):
         found = joint_coordinate(motion, self.joint)
-        if len(found) != len(self.wanted):
-            raise ValueError(f"function: {len(self.wanted)} targets but {len(found)} poses; give one target a pose")
+        given.check_targets(len(self.wanted), len(found), "function")
         error = found - self.wanted
         return error - error.mean() if self.relative else error
 
     def draw(self, axes, motion: Motion, extras: Extras, style: dict):
-        found, given, wanted = _over_input(axes, motion, self.joint), _input(motion), self.wanted
+        found, inputs, wanted = _over_input(axes, motion, self.joint), _input(motion), self.wanted
         shift = np.mean(found - wanted) if self.relative and len(found) == len(wanted) else 0.0
-        axes.plot(given, found - shift, **style)
+        axes.plot(inputs, found - shift, **style)
         if len(found) == len(wanted):
-            axes.plot(given, wanted, "o", color="black", markerfacecolor="none", zorder=0)
+            axes.plot(inputs, wanted, "o", color="black", markerfacecolor="none", zorder=0)
 
 
 def function(joint: str, targets: Any, *, relative: bool = True) -> Objective:
     """Function generation: the displacement of a joint is to be one number a pose, in radians or lengths.
 
-    With `relative` both are measured from their means: where the output stands at the start does not matter.
+    `targets` are the values of the function at the inputs of the drive, such as `f(angles)`, and not the function. With
+    `relative` both are measured from their means: where the output stands at the start does not matter.
     """
-    return _objective(_Function(joint, np.asarray(targets, float).ravel(), relative))
+    text(joint, "function: joint")
+    wanted = given.row(targets, "function: targets", "f(angles) for a drive by angles")
+    return single(_Function(joint, wanted, yes_or_no(relative, "function: relative")))
 
 
 @jax.tree_util.register_dataclass
@@ -176,6 +131,7 @@ class _Guidance:
 
     def rows(self, motion: Motion, extras: Extras):
         found = self.point.path(motion, extras)[:, :2]
+        given.check_targets(len(self.wanted), len(found), "guidance")
         turn = motion.transforms[self.point.part][:, :3, :3]
         angle = jnp.arctan2(turn[:, 1, 0], turn[:, 0, 0]) - self.wanted[:, 2]
         # 2 sin(half) is the angle for small ones, smooth, and the same for full turns
@@ -198,7 +154,8 @@ def guidance(part: str, point: Sequence[float | int] | str, targets: Any, *, siz
 
     Angles are radians from the assembled pose; their errors are multiplied by `size`, a length.
     """
-    return _objective(_Guidance(part_point(part, point), as_rows(targets, "guidance targets", 3), size))
+    wanted = given.rows(targets, "guidance targets", 3)
+    return single(_Guidance(part_point(part, point, "guidance"), wanted, given.positive(size, "guidance: size")))
 
 
 @jax.tree_util.register_dataclass
@@ -222,7 +179,9 @@ class _Transmission:
 
 def transmission(joint: str, ends: tuple[str, str], *, beyond: float = 0.0) -> Objective:
     """Transmission angle near a right angle: its cosine, as far as it is more than `beyond` (radians) off."""
-    return _objective(_Transmission(joint, (ends[0], ends[1]), beyond))
+    text(joint, "transmission: joint")
+    named, beyond = given.ends(ends, "transmission: ends"), given.angle(beyond, "transmission: beyond", np.pi / 2)
+    return single(_Transmission(joint, named, beyond))
 
 
 @jax.tree_util.register_dataclass
@@ -235,16 +194,15 @@ class _Stroke:
         return (stroke_between(motion, self.joint) - self.wanted)[None] / self.wanted
 
     def draw(self, axes, motion: Motion, extras: Extras, style: dict):
-        found, given = _over_input(axes, motion, self.joint), _input(motion)
-        axes.plot(given, found, **style)
-        axes.fill_between(given, found.min(), found.min() + self.wanted, color="black", alpha=0.1)
+        found, inputs = _over_input(axes, motion, self.joint), _input(motion)
+        axes.plot(inputs, found, **style)
+        axes.fill_between(inputs, found.min(), found.min() + self.wanted, color="black", alpha=0.1)
 
 
 def stroke_of(joint: str, wanted: float) -> Objective:
     """Demand that a joint's stroke, largest minus smallest displacement, is `wanted`; relative error."""
-    if not wanted > 0:
-        raise ValueError(f"the stroke of {joint!r} must be positive, got {wanted}")
-    return _objective(_Stroke(joint, wanted))
+    text(joint, "stroke_of: joint")
+    return single(_Stroke(joint, given.positive(wanted, f"the stroke of {joint!r}")))
 
 
 @jax.tree_util.register_dataclass
@@ -252,24 +210,35 @@ def stroke_of(joint: str, wanted: float) -> Objective:
 class _Dwell:
     joint: str = field(metadata=STATIC)
     poses: Int[Numbers, " poses"]
+    of: int | None = field(metadata=STATIC)
+    """The number of all poses, where a mask named some."""
+    span: tuple[int, int] = field(metadata=STATIC)
+    """The least and the greatest number of a pose: known where the poses themselves are traced."""
 
     def rows(self, motion: Motion, extras: Extras):
-        found = joint_coordinate(motion, self.joint)[self.poses]
+        values = joint_coordinate(motion, self.joint)
+        if self.of not in (None, len(values)):
+            raise ValueError(f"dwell of {self.joint!r}: a mask of {self.of} poses, the motion has {len(values)}")
+        if beyond := [pose for pose in self.span if not -len(values) <= pose < len(values)]:
+            raise ValueError(f"dwell of {self.joint!r}: pose {beyond[0]} is named, the motion has {len(values)}")
+        found = values[self.poses]
         return found - found.mean()
 
     def draw(self, axes, motion: Motion, extras: Extras, style: dict):
-        found, given, poses = _over_input(axes, motion, self.joint), _input(motion), self.poses
-        axes.plot(given, found, **style)
-        if poses.max() < len(given):
-            axes.plot(given[poses], np.full(poses.size, found[poses].mean()), ".", color="black", zorder=0)
+        found, inputs, poses = _over_input(axes, motion, self.joint), _input(motion), self.poses
+        axes.plot(inputs, found, **style)
+        if poses.max() < len(inputs):
+            axes.plot(inputs[poses], np.full(poses.size, found[poses].mean()), ".", color="black", zorder=0)
 
 
 def dwell(joint: str, poses: Any) -> Objective:
     """Demand that a joint stands still in the poses given (indices, or a mask): its deviation from its mean there."""
-    chosen = np.flatnonzero(poses) if np.asarray(poses).dtype == bool else np.asarray(poses, int).ravel()
+    text(joint, "dwell: joint")
+    chosen = given.pose_numbers(poses, f"dwell of {joint!r}: poses")
     if chosen.size < 2:
         raise ValueError(f"dwell of {joint!r}: name at least two poses, got {chosen.size}")
-    return _objective(_Dwell(joint, chosen))
+    mask = len(poses) if np.asarray(poses).dtype == bool else None
+    return single(_Dwell(joint, chosen, mask, (int(chosen.min()), int(chosen.max()))))
 
 
 def _input(motion: Motion) -> np.ndarray:

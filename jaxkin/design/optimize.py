@@ -17,7 +17,7 @@ from jaxkin.design.augmented_lagrangian import MET, Penalty, Verdict, renewed, w
 from jaxkin.design.constraints import Constraint
 from jaxkin.design.lbfgs import bounded
 from jaxkin.design.least_squares import least_squares
-from jaxkin.design.objectives import Objective
+from jaxkin.design.objective import Objective
 from jaxkin.design.optimisers import LBFGS, LevenbergMarquardt, Optimiser
 from jaxkin.design.problem import Problem, design_problem
 from jaxkin.design.result import Optimum, judged_range

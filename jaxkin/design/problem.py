@@ -18,7 +18,7 @@ from jaxtyping import Array, Float
 
 from jaxkin.design.augmented_lagrangian import Penalty
 from jaxkin.design.constraints import Constraint, DesignConstraint, constraint_name
-from jaxkin.design.objectives import Objective
+from jaxkin.design.objective import Objective
 from jaxkin.design.own_functions import own_function
 from jaxkin.design.penalty import closure_gaps
 from jaxkin.design.variables import Variables

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from jaxkin._files import whole
-from jaxkin.design.objectives import Objective
+from jaxkin.design.objective import Objective
 from jaxkin.geometry.movements import is_length
 from jaxkin.linkage.record import as_record, from_record
 from jaxkin.mechanism.mechanism import Mechanism

@@ -64,7 +64,7 @@ def _pose(xp, linkage: Linkage, feature: Feature):
 def find_length(linkage: Linkage, key: object) -> Length:
     """Find a length by its name, with its two joints in either order. Raises ValueError with the nearest names."""
     table = length_table(linkage)
-    if not isinstance(key, tuple) or not all(isinstance(name, str) for name in key):
+    if not isinstance(key, tuple) or not key or not all(isinstance(name, str) for name in key):
         example = next(iter(table), ("coupler", "B", "C"))
         raise ValueError(f"a length is named by a part and two of its joints, as {example!r}, got {key!r}")
     row = linkage.structure.row_of.get(key[0], key[0])

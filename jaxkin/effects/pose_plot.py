@@ -4,17 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
 from jaxkin._files import save_figure, whole
 
+NAMED = 12
+"""Lines of one axes that have a colour, a style and a name: more are not told apart."""
+_STYLES = ("-", "--", "-.", ":")
+"""Styles of lines, which change with the ten colours: lines that lie on each other are seen, and none looks like
+another."""
+_COLUMNS = 3
+"""Columns of a legend at most."""
+
 
 def draw_lines(
     names: Sequence[str],
     rows: Float[np.ndarray, "rows poses"],
-    label: str,
+    label: str | Sequence[str],
     title: str,
     path: Path,
     *,
@@ -22,33 +31,61 @@ def draw_lines(
     along: str = "pose",
     marks: Sequence[tuple[float, str]] = (),
 ) -> Path:
-    """Draw one line a row over the poses into a picture file; returns its path. `label` says what the numbers are.
+    """Draw one line a row over the poses into a picture file; returns its path.
 
-    With `at` they are drawn over these numbers instead, which `along` names. `marks` are places on the line of zero,
-    each with a marker of matplotlib.
+    `label` says what the numbers are; given for each row, rows of one label have axes of their own, so that angles and
+    lengths are not drawn to one scale. Of more than `NAMED` rows the largest are named, and the others grey. With `at`
+    they are drawn over these numbers instead, which `along` names. `marks` are places on the line of zero, each with a
+    marker of matplotlib.
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(7.5, 4.8), layout="constrained")
-    axes = figure.add_subplot()
+    labels = [label] * len(names) if isinstance(label, str) else list(label)
+    groups = [[k for k, own in enumerate(labels) if own == each] for each in dict.fromkeys(labels)] or [[]]
+    lines = [-(-min(len(group), NAMED + 1) // _COLUMNS) for group in groups]
+    heights = [max(4.0 if len(groups) > 1 else 4.8, 3.4 + 0.22 * count) for count in lines]
+    figure = Figure(figsize=(7.5, sum(heights)), layout="constrained")
+    panels = figure.subfigures(len(groups), 1, squeeze=False, height_ratios=heights)[:, 0]
     across = np.arange(rows.shape[1]) if at is None else at
-    for name, row in zip(names, rows, strict=True):
-        known = np.pad(np.isfinite(row), 1)
+    for panel, group in zip(panels, groups, strict=True):
+        axes = panel.add_subplot()
+        _lines(axes, across, [names[k] for k in group], rows[group])
+        if len(across):  # all poses are seen, also those of which nothing is known
+            axes.update_datalim([(np.nanmin(across), 0.0), (np.nanmax(across), 0.0)])
+        # zero is where parts touch and where forces change sign: it is always seen
+        axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=1)
+        for place, marker in marks:
+            axes.plot(place, 0.0, marker, color="black")
+        axes.set(xlabel=along, ylabel=labels[group[0]] if group else label)
+        axes.grid(alpha=0.3)
+        if group:
+            panel.legend(
+                fontsize="small",
+                frameon=False,
+                loc="outside lower center",
+                ncols=min(len(group), _COLUMNS),
+                handlelength=3,
+            )
+    figure.axes[0].set_title(title, fontsize="medium")
+    return save_figure(figure, path)
+
+
+def _lines(
+    axes: Any, across: Float[np.ndarray, " poses"], names: Sequence[str], rows: Float[np.ndarray, "rows poses"]
+) -> None:
+    """Draw the rows of one label: the largest in colours with their names, the others grey below them."""
+    sizes = np.abs(np.nan_to_num(rows)).max(axis=1, initial=0.0)
+    largest = np.argsort(-sizes, kind="stable").tolist()
+    named, others = sorted(largest[:NAMED]), largest[NAMED:]
+    for number, k in enumerate(named):
+        known = np.pad(np.isfinite(rows[k]), 1)
         alone = known[1:-1] & ~known[:-2] & ~known[2:]  # no line goes through these: they are dots
         marker = {"marker": "o", "markersize": 4, "markevery": np.flatnonzero(alone).tolist()} if alone.any() else {}
-        axes.plot(across, np.where(known[1:-1], row, np.nan), label=name, **marker)
-    if len(across):  # all poses are seen, also those of which nothing is known
-        axes.update_datalim([(np.nanmin(across), 0.0), (np.nanmax(across), 0.0)])
-    # zero is where parts touch and where forces change sign: it is always seen
-    axes.axhline(0.0, color="0.6", linewidth=0.8, zorder=1)
-    for place, marker in marks:
-        axes.plot(place, 0.0, marker, color="black")
-    axes.set(xlabel=along, ylabel=label)
-    axes.set_title(title, fontsize="medium")
-    axes.grid(alpha=0.3)
-    if names:
-        figure.legend(fontsize="small", frameon=False, loc="outside lower center", ncols=min(len(names), 3))
-    return save_figure(figure, path)
+        style = {"color": f"C{number % 10}", "linestyle": _STYLES[number % len(_STYLES)]}
+        axes.plot(across, np.where(known[1:-1], rows[k], np.nan), label=names[k], **style, **marker)
+    for k in others:
+        said = f"{len(others)} others, {sizes[others[0]]:.3g} at most" if k == others[0] else None
+        axes.plot(across, np.where(np.isfinite(rows[k]), rows[k], np.nan), color="0.75", zorder=1.5, label=said)
 
 
 def save_rows(names: Sequence[str], rows: Float[np.ndarray, "rows poses"], path: Path) -> Path:

@@ -86,33 +86,36 @@ class Rates:
     def __str__(self) -> str:
         """A line a coordinate: its least and its greatest rate, and where; and where they are not determined."""
         lines = [f"{NAMES[self.order]} over {len(self.motion)} poses, for the given ones of {', '.join(self.inputs)}"]
-        for name, row in zip(*self._rows(), strict=True):
+        for name, unit, row in zip(*self._rows(), strict=True):
             if np.isfinite(row).any():
                 low, high = int(np.nanargmin(row)), int(np.nanargmax(row))
-                lines.append(f"  {name}: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
+                lines.append(f"  {name} [{unit}]: from {row[low]:.4g} at pose {low} to {row[high]:.4g} at pose {high}")
         lines += [f"  {line}" for line in singular_report(self.motion, self.order)]
         return "\n".join(lines)
 
     def plot(self, path: str | Path) -> Path:
         """Draw the rates of all joint coordinates over the poses into a picture file; returns its path."""
-        names, rows = self._rows()
-        return draw_lines(names, rows, f"{NAMES[self.order].lower()} of joints", "", Path(path))
+        names, units, rows = self._rows()
+        labels = [f"{NAMES[self.order].lower()} of joints ({unit})" for unit in units]
+        return draw_lines(names, rows, labels, "", Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write them as comma-separated values, a row a pose and a column a joint coordinate; returns the path."""
-        return save_rows(*self._rows(), Path(path))
+        names, units, rows = self._rows()
+        return save_rows([f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)], rows, Path(path))
 
-    def _rows(self) -> tuple[list[str], Float[np.ndarray, "coordinates poses"]]:
-        """Names with units, and rates, of all joint coordinates; NaN at poses that are not closed."""
+    def _rows(self) -> tuple[list[str], list[str], Float[np.ndarray, "coordinates poses"]]:
+        """Names, units and rates of all joint coordinates; NaN at poses that are not closed."""
         closed, mechanism = np.asarray(self.closed), self.motion.mechanism
         per = "time" if self.order == 1 else f"time^{self.order}"
-        names, rows = [], []
+        names, units, rows = [], [], []
         for (joint, rates), made in zip(self.coordinates.items(), mechanism.joints.values(), strict=True):
             for column, coordinate in enumerate(made.coordinates):
                 unit = (mechanism.unit or "length") if is_length(coordinate) else "rad"
-                names.append(f"{joint}.{coordinate} [{unit}/{per}]")
+                names.append(f"{joint}.{coordinate}")
+                units.append(f"{unit}/{per}")
                 rows.append(np.where(closed, np.asarray(rates)[:, column], np.nan))
-        return names, np.stack(rows) if rows else np.zeros((0, len(closed)))
+        return names, units, np.stack(rows) if rows else np.zeros((0, len(closed)))
 
     def points(self, part: str, point: Sequence[float | int] | np.ndarray | Array) -> Float[Array, "poses 3"]:
         """Velocity (acceleration, jerk) of a point of a part, given where it is in the assembled pose; world axes."""

@@ -135,7 +135,8 @@ def _mate(each: ExportedMate, where: Places, metres: float, length: float, notes
     features = [Feature.of(side.kind, side.point / metres, side.axis) for side in each.sides]
     found = mate(each.kind, features[0], features[1], PARALLEL, length) if features[0] and features[1] else None
     if found is None:
-        of = " and ".join(f"a {side.kind or 'nameless feature'}" for side in each.sides)
+        named = [side.kind or "nameless feature" for side in each.sides]
+        of = " and ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in named)
         notes.append(f"{text} of {of}, between {parts[0]!r} and {parts[1]!r}, is not understood; left out")
         return None
     return Constraint(

@@ -3,12 +3,13 @@ and which freedoms a drive leaves undriven."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from jaxkin._names import listed
+from jaxkin.joints.evidence import EvidenceKind
 from jaxkin.linkage.first_order import independent
 from jaxkin.linkage.linkage import Linkage
 from jaxkin.mobility.loop_freedoms import LoopFreedoms, loop_freedoms
@@ -36,7 +37,8 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
 
     A drive is infeasible only if its rates cannot be chosen independently, neither at the assembled pose nor at a pose
     beside it. At a singular pose, where the motion may branch, the solver decides. The coordinates that are proposed
-    instead can be driven at both poses, if there are such coordinates.
+    instead can be driven at both poses, if there are such coordinates. Of a target, all that it prescribes is proposed
+    or nothing, since no part of it can be given alone.
     """
     for found, columns in _driven_groups(linkage, driven):
         if _follows(found, columns):
@@ -45,22 +47,35 @@ def infeasible_drive(linkage: Linkage, driven: Sequence[Coordinate]) -> Infeasib
         if not len(found.motions):
             immobile = tuple(dict.fromkeys(row for pair in found.ends.values() for row in pair))
             return InfeasibleDrive(f"{listed(given)} cannot be driven: {_loops_of(found)} has no freedom", immobile)
-        choices = _choices(found)
-        movable = {column for group in choices for column in group}
+        every, targets = _choices(found), _targets(linkage, found, columns)
+        choices = [group for group in every if not _is_target(linkage, found, group[0])]
+        movable = {column for group in every for column in group}
+        nearly = (
+            f"; jk.inverse meets the target {' and '.join(targets)} as nearly as the loops let it" if targets else ""
+        )
         if stuck := names(linkage, found, [column for column in columns if column not in movable]):
             what = "has no freedom left to it" if len(stuck) == 1 else "have no freedom left to them"
             others = _or(linkage, found, _surest(found, choices))
             instead = f"; what can be driven is {others}" if others else ""
-            return InfeasibleDrive(f"{listed(stuck)} {what} by the loops{instead}", ())
-        kept = independent_subset(found, sorted(columns, key=[c for group in choices for c in group].index))
+            return InfeasibleDrive(f"{listed(stuck)} {what} by the loops{instead}{nearly}", ())
+        whole = _independent_targets(found, targets)
+        of_targets = [column for name in whole for column in targets[name]]
+        order = [column for group in choices for column in group]
+        joints = sorted((column for column in columns if column in order), key=order.index)
+        kept = independent_subset(found, joints, of_targets)
         freedoms = f"{len(found.motions)} freedom{'' if len(found.motions) == 1 else 's'}"
-        if len(kept) < len(found.motions):
-            freedoms += f", {len(kept)} of them for these"
-        instead = f"drive only {listed(names(linkage, found, sorted(kept)))}"
+        if (followed := independent(found.motions, columns, found.thresholds)) < len(found.motions):
+            freedoms += f", {followed} of them for these"
         others = [group for group in _surest(found, choices) if not set(group) & set(kept)]
-        if len(kept) == 1 and others:
-            instead += f", or one of {_or(linkage, found, others)}"
-        return InfeasibleDrive(f"driven {listed(given)}, but {_loops_of(found)} has {freedoms}: {instead}", ())
+        if kept or whole:
+            instead = f"drive only {listed([*whole, *names(linkage, found, sorted(kept))])}"
+            if len(kept) == 1 and not whole and others:
+                instead += f", or one of {_or(linkage, found, others)}"
+        elif len(found.motions) == 1:
+            instead = f"drive one of {_or(linkage, found, others)}"
+        else:
+            instead = f"drive {listed(names(linkage, found, independent_subset(found, order)))}"
+        return InfeasibleDrive(f"driven {listed(given)}, but {_loops_of(found)} has {freedoms}: {instead}{nearly}", ())
     return None
 
 
@@ -69,6 +84,32 @@ def _follows(found: LoopFreedoms, columns: Sequence[int]) -> bool:
     return any(
         independent(motions, columns, found.thresholds) == len(columns) for motions in (found.at_rest, found.motions)
     )
+
+
+def _is_target(linkage: Linkage, found: LoopFreedoms, column: int) -> bool:
+    """Tell whether a column is a coordinate of the joint that stands for a target."""
+    evidence = linkage.joints[found.columns[column][0]].evidence
+    return evidence is not None and evidence.kind is EvidenceKind.TARGET
+
+
+def _targets(linkage: Linkage, found: LoopFreedoms, columns: Sequence[int]) -> dict[str, list[int]]:
+    """List the driven columns of each target by the name of its joint."""
+    targets: dict[str, list[int]] = {}
+    for column in columns:
+        if _is_target(linkage, found, column):
+            targets.setdefault(linkage.joints[found.columns[column][0]].name, []).append(column)
+    return targets
+
+
+def _independent_targets(found: LoopFreedoms, targets: Mapping[str, list[int]]) -> list[str]:
+    """Greedily select targets all of whose rates can be chosen independently."""
+    taken: list[int] = []
+    chosen: list[str] = []
+    for name, group in targets.items():
+        if independent(found.motions, [*taken, *group], found.thresholds) == len(taken) + len(group):
+            taken += group
+            chosen.append(name)
+    return chosen
 
 
 def _choices(found: LoopFreedoms) -> list[tuple[int, ...]]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import cycle
+from math import dist
 from typing import TYPE_CHECKING
 
 from jaxkin.geometry.part import Part
@@ -31,6 +32,13 @@ PALETTE = (
 SHADES = ((1.0, 1.0), (0.55, 1.0), (1.0, 0.6))
 """Share of colour in white, and of light, each time the palette is gone through: three of one colour differ enough."""
 
+DISTINCT = len(PALETTE) * len(SHADES)
+"""Bodies that get colours of their own."""
+
+LEAST_DIFFERENCE = 0.13
+"""Distance of two colours, red, green, blue in 0..1, from which on the boxes of a legend are told apart: those of the
+palette and its shades differ by 0.134 or more."""
+
 
 def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
     """Make the parts of a mechanism to draw, every one with a colour: red, green, blue as on the screen (sRGB), in
@@ -46,6 +54,28 @@ def drawn_parts(mechanism: Mechanism) -> tuple[Part, ...]:
         if not painted.issuperset(parts):
             of_part |= dict.fromkeys(parts, FIXED_COLOR if parts[0] in mechanism.fixed else next(colors))
     return tuple(part if part.color else replace(part, color=of_part[part.name]) for part in solids)
+
+
+def told_apart(parts: Sequence[Part], bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> tuple[Part, ...]:
+    """Colour all parts by their bodies where these colours tell more of the moving bodies apart than their own do.
+
+    What a legend shows of a body is the colour of its first part. CAD systems give most parts one colour, often white.
+    """
+    own = {part.name: part.color for part in parts}
+    by_body = body_colors(bodies, fixed)
+    first = [members[0] for members in bodies.values() if members[0] not in fixed]
+    if _different([own[name] for name in first]) >= _different([by_body[name] for name in first]):
+        return tuple(parts)
+    return tuple(replace(part, color=by_body[part.name]) for part in parts)
+
+
+def _different(colors: Iterable[Color | None]) -> int:
+    """Count colours that can be told apart."""
+    found: list[Color] = []
+    for color in colors:
+        if color is not None and all(dist(color, other) >= LEAST_DIFFERENCE for other in found):
+            found.append(color)
+    return len(found)
 
 
 def body_colors(bodies: Mapping[str, Sequence[str]], fixed: Collection[str]) -> dict[str, Color]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,8 +13,8 @@ from jaxkin._files import whole
 from jaxkin.contacts.contact import Contact
 from jaxkin.contacts.tolerance import default_length
 from jaxkin.geometry.units import unit_name
-from jaxkin.view.callouts import CHAIN, COLORS, MAX_CALLOUTS, draw_axes, draw_contacts, draw_states
-from jaxkin.view.drawing import FIXED_COLOR, PALETTE
+from jaxkin.view.callouts import CHAIN, COLORS, draw_axes, draw_contacts, draw_states
+from jaxkin.view.drawing import DISTINCT, FIXED_COLOR, body_colors, body_label, told_apart
 from jaxkin.view.glass import WIDTH, canvas_of, pale, see_through
 from jaxkin.view.illustration import INK
 from jaxkin.view.regions import Region, region_of
@@ -36,20 +37,19 @@ def draw_inspection(
 ) -> None:
     """Write a picture (PNG) of an assembly with the regions of its contacts, seen through the parts.
 
-    With a mechanism, fixed parts are grey and the axes of its joints are drawn. `contacts` are `assembly.contacts()` by
+    With a mechanism, fixed parts are grey and the axes of its joints are drawn. Parts have the colours of the file, or
+    those of their bodies where these tell more apart. `contacts` are `assembly.contacts()` by
     default, `width` the pixels of the longer side of the drawing. The file appears whole or not at all.
     """
     contacts = assembly.contacts() if contacts is None else contacts
     fixed = mechanism.fixed if mechanism else ()
-    moving = [part.name for part in assembly.parts if part.name not in fixed]
-    colors = {
-        part.name: part.color
-        or (FIXED_COLOR if part.name in fixed else PALETTE[moving.index(part.name) % len(PALETTE)])
-        for part in assembly.parts
-    }
+    bodies = _bodies(assembly, mechanism)
+    by_body = body_colors(bodies, fixed)
+    parts = [replace(part, color=part.color or by_body[part.name]) for part in assembly.parts]
+    colors = {part.name: part.color or FIXED_COLOR for part in told_apart(parts, bodies, fixed)}
     canvas = canvas_of(assembly.parts, fixed, width)
     regions = _regions(assembly, contacts)
-    entries = _legend(contacts, colors, mechanism)
+    entries = _legend(contacts, colors, bodies, mechanism)
     sheet = make_sheet(canvas, 1, 1, entries)
     left, top = sheet.place(0)
     areas = [region.triangles for region, contact in regions if contact.region == "surface"]
@@ -86,16 +86,32 @@ def _regions(assembly: Assembly, contacts: Sequence[Contact]) -> list[tuple[Regi
     return found
 
 
+def _bodies(assembly: Assembly, mechanism: Mechanism | None) -> dict[str, tuple[str, ...]]:
+    """Group the parts of an assembly by the bodies of a mechanism, by the first of each; others are by themselves."""
+    there = {part.name: (part.name,) for part in assembly.parts}
+    bodies = mechanism.bodies.values() if mechanism else ()
+    drawn = [kept for parts in bodies if (kept := tuple(part for part in parts if part in there))]
+    known = {part for parts in drawn for part in parts}
+    return {parts[0]: parts for parts in drawn} | {name: own for name, own in there.items() if name not in known}
+
+
 def _legend(
-    contacts: Sequence[Contact], colors: dict[str, Color], mechanism: Mechanism | None
+    contacts: Sequence[Contact],
+    colors: dict[str, Color],
+    bodies: Mapping[str, Sequence[str]],
+    mechanism: Mechanism | None,
 ) -> list[tuple[Artist, str]]:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     entries: list[tuple[Artist, str]] = []
-    for name, color in list(colors.items())[:MAX_CALLOUTS]:
+    for name, parts in list(bodies.items())[:DISTINCT]:
         fixed = " (fixed)" if mechanism is not None and name in mechanism.fixed else ""
-        entries.append((Patch(facecolor=pale(color), edgecolor=INK, linewidth=0.8), clip(name, 40) + fixed))
+        patch = Patch(facecolor=pale(colors[name]), edgecolor=INK, linewidth=0.8)
+        entries.append((patch, clip(body_label(name, parts), 40) + fixed))
+    if (left := len(bodies) - DISTINCT) > 0:
+        what = "parts" if mechanism is None else "bodies"
+        entries.append((Patch(facecolor="white", edgecolor=INK, linewidth=0.8), f"{left} more {what}"))
     entries += legend_of_regions(contacts)
     if mechanism:
         entries.append((Line2D([], [], **CHAIN), "axis of a joint"))

@@ -12,7 +12,7 @@ from jaxtyping import Float, Int
 from jaxkin.geometry.part import Part
 from jaxkin.geometry.pose import Points
 from jaxkin.view.camera import Displacements, View, choose_view, move
-from jaxkin.view.drawing import drawn_parts
+from jaxkin.view.drawing import drawn_parts, told_apart
 from jaxkin.view.lost_marks import LostMark, lost_marks
 from jaxkin.view.traces import default_marks, given_marks
 
@@ -68,8 +68,8 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
     Raises ValueError for a part that does not exist and for points that are not such.
     """
     mechanism = motion.mechanism
-    parts = drawn_parts(mechanism)
-    fixed = frozenset(mechanism.fixed)
+    bodies, fixed = mechanism.bodies, frozenset(mechanism.fixed)
+    parts = told_apart(drawn_parts(mechanism), bodies, fixed)
     displacements = {part.name: np.asarray(motion.transforms[part.name], float) for part in parts}
     order = np.arange(len(motion))
     if len(motion.inputs) == 1:
@@ -85,7 +85,6 @@ def make_scene(motion: Motion, points: Mapping[str, object] | None = None) -> Sc
     traces = tuple(Trace(part, np.where(kept, move(displacements, part, point), np.nan)) for part, point in marks)
     bounds = _bounds(parts, sample, view, traces)
     lost = lost_marks(motion.lost_contacts, displacements)
-    bodies = mechanism.bodies
     return Scene(
         parts, fixed, bodies, displacements, order, closed, _returns(parts, sample, size), view, traces, lost, bounds
     )

@@ -31,6 +31,8 @@ def test_near_misses_of_contacts_alone_are_listed(capsys):
     report.print_near_misses(contacts, exact, False)
     said = capsys.readouterr().out
     assert "known otherwise" not in said and str(contacts.near_misses[0]) in said
+    # the fit that the near miss advises, and once how it is given
+    assert "give fit=0.05" in said and said.count("tolerance = { length = 0.001 }") == 1
 
 
 def test_nothing_is_said_where_nothing_is_nearly_in_contact(capsys):

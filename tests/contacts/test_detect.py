@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from jaxkin.contacts.detect import find_contacts
+from jaxkin.contacts.rulings import ruling
 from jaxkin.contacts.states import find_state
 from jaxkin.geometry.part import Face
 from jaxkin.geometry.pose import perpendicular, rotation, unit
+from jaxkin.geometry.surfaces import Cone, Cylinder, Plane
 
 X, Y, Z = np.eye(3)
 TURN = (-np.pi, np.pi)
@@ -168,3 +170,34 @@ def test_degenerate_triangles_change_nothing(pair, solids):
     assert [(c.state, c.region) for c in contacts] == [(pair.letter, pair.region)] and not contacts.near_misses
     away = solids.moved(spoiled(pair.face2), translated([0.0, 0.0, 5e-3]))
     detect(solids, spoiled(pair.face1), away)  # whatever is near, nothing divides by zero
+
+
+def strips(solids):
+    """Two flat faces that share a strip of 0.01 times 3."""
+    table = solids.patch(Plane(np.zeros(3), Z), (-1.5, 1.5), (-2, 0), towards=X)
+    return table, solids.patch(Plane(np.zeros(3), -Z), (-1.5, 1.5), (-2, 0.01), towards=X)  # y is upside down
+
+
+def short_line(solids):
+    """A roller whose end, 0.01 long, lies on a table."""
+    table = solids.patch(Plane(np.zeros(3), Z), (-1, 1), (-1, 1))
+    return table, solids.patch(Cylinder(0.5 * Z, Y, 0.5, 1), TURN, (0.99, 2.5))
+
+
+@pytest.mark.parametrize("drawn", [strips, short_line])
+def test_a_larger_length_loses_no_contact(solids, drawn):
+    """Narrow regions are more than noise where the faces touch exactly, whatever is allowed elsewhere."""
+    faces = drawn(solids)
+    for length in (None, 1e-3, 3e-3, 1e-2, 0.1):
+        found = detect(solids, *faces, length=length)
+        assert len(found) == 1, length
+        assert found[0].misfit < 1e-12  # rounding
+
+
+@pytest.mark.parametrize("length", [None, 0.01])
+def test_a_cone_whose_ruling_stands_on_a_plane_is_no_contact_along_it(solids, length):
+    """The projection of such a ruling onto the plane has no direction."""
+    table = solids.patch(Plane(np.zeros(3), Z), (-1, 1), (-1, 1))
+    cone = Cone(0.5 * Z, rotation(Y, 0.5) @ -Z, 0.5, 1)
+    assert not np.any(np.cross(ruling(cone, -Z), Z).round(12))
+    assert not detect(solids, table, solids.patch(cone, TURN, (0.1, 0.6)), length=length)

@@ -1,10 +1,13 @@
 """Objectives and constraints on a motion that is known: zero where it does what is wanted, right elsewhere."""
 
+import traceback
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 
+import jaxkin as jk
 from jaxkin import design
 from jaxkin.design.penalty import closure_gaps
 from reference import planar
@@ -167,3 +170,75 @@ def test_bad_objectives(motion):
         design.grashof(("crnk", "A", "B"), *KEYS[1:])(motion, {})
     with pytest.raises(ValueError, match="four bars"):
         design.grashof(KEYS[0])
+
+
+GOOD = {
+    "path": {"part": "coupler", "point": POINT, "targets": np.zeros((30, 2)), "timing": True, "placement": None},
+    "function": {"joint": "D", "targets": TURN, "relative": True},
+    "guidance": {"part": "coupler", "point": POINT, "targets": np.zeros((30, 3)), "size": 1.0},
+    "transmission": {"joint": "C", "ends": ("B", "D"), "beyond": 0.1},
+    "stroke_of": {"joint": "D", "wanted": 1.0},
+    "dwell": {"joint": "D", "poses": [1, 2, 3]},
+    "full_crank": dict(zip(("ground", "crank", "coupler", "rocker"), KEYS, strict=True)),
+    "transmission_within": {"joint": "C", "ends": ("B", "D"), "least": 0.5, "largest": 2.0},
+    "in_box": {"part": "coupler", "point": POINT, "lower": (0, 0, -1), "upper": (90, 90, np.inf)},
+    "in_sequence": {"joint": "A", "least": 0.0},
+    "above": {"joint": "D", "least": 0.5, "size": 1.0},
+}
+"""Arguments of every function that makes an objective or a constraint."""
+
+WRONG = (None, np.nan, -7.0, "Q", (), (np.nan, 0.0), np.zeros((5, 3)), lambda x: x, {}, ("A", "D"), ["crank", "A", "Q"])
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_wrong_arguments_are_refused_in_words(name, motion):
+    """No argument may end in an error of Python's or numpy's own, or in numbers that are none."""
+    make = getattr(design, name)
+    assert np.all(np.isfinite(make(**GOOD[name])(motion, {})))
+    # a search traces the numbers of an objective: no check may look at them there
+    jax.eval_shape(lambda found: found(motion, {}), make(**GOOD[name]))
+    for argument in GOOD[name]:
+        for wrong in WRONG:
+            try:
+                found = make(**(GOOD[name] | {argument: wrong}))(motion, {})
+            except ValueError as error:
+                raised = traceback.extract_tb(error.__traceback__)[-1]
+                assert "jaxkin" in raised.filename, f"{argument} = {wrong!r}: {error}"
+                continue
+            assert np.all(np.isfinite(found)), (argument, wrong)
+
+
+def test_refused_arguments_say_what_to_give(motion):
+    for make, message in (
+        (lambda: design.in_sequence("D")(motion, {}), r"'D.phi' is not driven; .*A.phi"),
+        (lambda: design.in_box("coupler", POINT, (0, 0), (4, 4)), r"lower must be three numbers \(x, y, z\), -inf"),
+        (lambda: design.in_box("coupler", POINT, 3, 4), "lower must be three numbers"),
+        (lambda: design.transmission_within("D", 0.7, 2.4), r"ends must name the joint .* as in \('B', 'D'\), got 0.7"),
+        (lambda: design.transmission_within("D", ("A", "C"), 40), r"from 0 to 3.14159 radians \(np.radians"),
+        (lambda: design.function("D", lambda x: x), r"one a pose, such as f\(angles\) for a drive by angles"),
+        (lambda: design.path("coupler", POINT, np.zeros((30, 2)), components=(0, 5)), "some of 0, 1, 2"),
+        (
+            lambda: design.path("coupler", "P", np.zeros((30, 2)))(motion, {"Q": POINT}),
+            "no extra variable .P.; there",
+        ),
+        (lambda: design.guidance("coupler", POINT, np.zeros((1, 3)), size=1.0)(motion), "1 targets but 30 poses"),
+        (lambda: design.dwell("D", [1, 30])(motion), "pose 30 is named, the motion has 30"),
+        (lambda: design.dwell("D", np.ones(5, bool))(motion), "a mask of 5 poses, the motion has 30"),
+        (lambda: design.transmission_angle(motion, "C", ("B", "A")), "'A' is on neither"),
+        (lambda: design.transmission_angle(motion, "C", ("B", "C")), "two other joints"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            make()
+
+
+def test_a_name_that_another_begins_with_is_not_taken_for_it():
+    """`in_sequence("A")` judges A, not A2, whichever is driven first."""
+    turning = {"A2": "wheel", "A": "crank"}
+    joints = [jk.revolute(name, "ground", part, point=(0, 0, 0), axis=(0, 0, 1)) for name, part in turning.items()]
+    motion = jk.Mechanism.build(fixed=["ground"], joints=joints).sweep({"A2": -TURN, "A": TURN})
+    assert np.min(design.in_sequence("A")(motion, {})) >= 0 > np.max(design.in_sequence("A2")(motion, {})[:-1])
+
+
+def test_a_box_of_one_side_has_finite_values(motion):
+    found = design.in_box("coupler", POINT, (-np.inf, 10.0, -np.inf), (np.inf,) * 3)(motion, {})
+    np.testing.assert_allclose(found, np.asarray(motion.points("coupler", POINT))[:, 1] - 10.0, atol=1e-12)  # rounding

@@ -3,14 +3,22 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
+from matplotlib.colors import to_hex
 
 from jaxkin.effects import pose_plot
 
 
-def test_what_is_known_at_one_pose_only_is_a_dot_within_all_poses(monkeypatch):
+@pytest.fixture
+def drawn(monkeypatch):
+    """The figures that would be written."""
+    figures = []
+    monkeypatch.setattr(pose_plot, "save_figure", lambda figure, path: figures.append(figure) or path)
+    return figures
+
+
+def test_what_is_known_at_one_pose_only_is_a_dot_within_all_poses(drawn):
     """A line needs two poses: without a marker a clearance known at one pose would not be seen."""
-    drawn = []
-    monkeypatch.setattr(pose_plot, "save_figure", lambda figure, path: drawn.append(figure) or path)
     rows = np.full((2, 7), np.nan)
     rows[0, 3], rows[1, 2:5], rows[1, 6] = 0.5, 1.0, 2.0
     pose_plot.draw_lines(["alone", "both"], rows, "clearance (mm)", "no clash", Path("clashes.png"))
@@ -20,3 +28,28 @@ def test_what_is_known_at_one_pose_only_is_a_dot_within_all_poses(monkeypatch):
     assert both.get_markevery() == [6]
     low, high = axes.get_xlim()
     assert low <= 0 and high >= 6
+
+
+def test_numbers_of_different_units_have_axes_of_their_own(drawn):
+    """An angle of 0.1 is seen beside a length of 100."""
+    rows = np.outer([100.0, 0.1, 50.0], np.linspace(0, 1, 5))
+    pose_plot.draw_lines(["s", "phi", "t"], rows, ["(mm)", "(rad)", "(mm)"], "", Path("rates.png"))
+    lengths, angles = drawn[0].axes
+    assert [axes.get_ylabel() for axes in (lengths, angles)] == ["(mm)", "(rad)"]
+    assert [line.get_label() for line in lengths.lines[:2]] == ["s", "t"]
+    assert angles.lines[0].get_label() == "phi"
+    assert angles.get_ylim()[1] < 1 < lengths.get_ylim()[1]
+
+
+def test_of_many_lines_the_largest_are_named_and_told_apart(drawn):
+    """The others are grey, and the legend says how many and how large they are."""
+    sizes = np.arange(1.0, 41.0)[::-1]
+    names = [f"joint {size:g}" for size in sizes]
+    pose_plot.draw_lines(names, np.outer(-sizes, np.ones(4)), "force (N)", "", Path("forces.png"))
+    (axes,) = drawn[0].axes
+    handles, labels = axes.get_legend_handles_labels()
+    assert labels == [*names[: pose_plot.NAMED], "28 others, 28 at most"]
+    looks = {(to_hex(line.get_color()), line.get_linestyle()) for line in handles}
+    assert len(looks) == pose_plot.NAMED + 1
+    grey = [line for line in axes.lines if line.get_color() == "0.75"]
+    assert len(grey) == 28 and all(line.get_zorder() < handles[0].get_zorder() for line in grey)

@@ -1,5 +1,7 @@
 """Inverse kinematics by drives that are no joints, against closed forms, and back by the actuators."""
 
+import re
+
 import jax
 import jax.numpy as jnp
 import numpy as np
@@ -127,7 +129,10 @@ def test_one_pose_and_the_velocities_of_a_path():
 @pytest.mark.parametrize(
     ("drive", "said"),
     [
-        (lambda: {jk.pose("b"): np.tile(np.eye(4), (3, 1, 1))}, "driven b pose.x, .* has 2 freedoms: drive only"),
+        (
+            lambda: {jk.pose("b"): np.tile(np.eye(4), (3, 1, 1))},
+            "driven b pose.x, .* has 2 freedoms: drive A.phi, B.phi; jk.inv",
+        ),
         (
             lambda: {jk.point("b", (1.5, 2, 0)): np.zeros((3, 2))},
             r"expected an array of shape \(poses, 3\), got .*3, 2",
@@ -142,3 +147,26 @@ def test_one_pose_and_the_velocities_of_a_path():
 def test_targets_that_make_no_sense(drive, said):
     with pytest.raises(ValueError, match=said):
         fivebar().sweep(drive())
+
+
+TIP = jk.point("b", (1.5, 2, 0))
+HELD = {TIP: [[1.5, 2.0, 0.0]], jk.pose("b"): np.eye(4)[None], jk.orientation("b"): np.eye(3)[None], "A": [0.0]}
+
+
+@pytest.mark.parametrize(
+    "keys", [(jk.pose("b"),), (TIP, "A"), (jk.orientation("b"), TIP), ("A", "E", jk.orientation("b"))], ids=str
+)
+def test_what_is_proposed_in_place_of_a_target_can_be_typed(keys):
+    """No coordinate of a target alone, which no drive can name; and `jk.inverse` takes the targets as they are."""
+    mechanism, values = fivebar(), HELD | {"E": [0.0]}
+    with pytest.raises(ValueError) as error:
+        mechanism.sweep({key: values[key] for key in keys})
+    said = re.search(r"freedoms: drive (?:only )?(.*); jk\.inverse meets the target", str(error.value))
+    assert said is not None
+    typed = {key.joint: key for key in HELD if isinstance(key, jk.Target)}
+    proposed = [name for name in typed if name in said[1]]
+    joints = [name for name in re.findall(r"\b([A-E])\.phi", said[1])]
+    drive = {typed[name]: HELD[typed[name]] for name in proposed} | {name: [0.0] for name in joints}
+    assert drive and mechanism.sweep({key: np.asarray(value) for key, value in drive.items()}).closed.all()
+    # the assembled pose meets all of them: to rounding
+    assert jk.inverse(mechanism, {key: values[key] for key in keys}).errors.max() < 1e-9

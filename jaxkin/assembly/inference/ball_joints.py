@@ -18,8 +18,8 @@ def ball_joints(known: Known) -> list[Inference]:
             continue
         tied.add(owners)
         parts = known.in_order(each.parts)
-        how = "clearance" if each.clearance >= 0 else "interference"
-        text = f"the ball of radius {each.ball.radius:.4g} has a {how} of {abs(each.clearance):.2g} in its socket"
+        how = "a clearance" if each.clearance >= 0 else "an interference"
+        text = f"the ball of radius {each.ball.radius:.4g} has {how} of {abs(each.clearance):.2g} in its socket"
         sizes = (("radius", each.hole.radius), ("clearance", each.clearance), ("offset", each.offset))
         evidence = Evidence(EvidenceKind.CLEARANCE, sizes, f"{text} and is {each.offset:.1g} off")
         joint = pairs.spherical("-".join(parts), *parts, point=each.ball.centre)

@@ -89,11 +89,8 @@ class DriveForces:
 
     def plot(self, path: str | Path) -> Path:
         """Draw the forces over the poses into a picture file; returns its path."""
-        names = [f"{name} ({self.units[name]})" for name in self.forces]
-        label = " or ".join(
-            {"N m": "torque (N m)", "N": "force (N)"}[unit] for unit in dict.fromkeys(self.units.values())
-        )
-        return draw_lines(names, self._rows(), label, "drive forces", Path(path))
+        labels = [{"N m": "torque (N m)", "N": "force (N)"}[self.units[name]] for name in self.forces]
+        return draw_lines([*self.forces], self._rows(), labels, "drive forces", Path(path))
 
     def save(self, path: str | Path) -> Path:
         """Write forces and power as comma-separated values, one row a pose; returns the path."""

@@ -50,7 +50,7 @@ from jaxkin.solve.execution.compiler import whole_program
 from jaxkin.solve.status import is_closed_on_branch
 
 MAX_LINES = 12
-"""Joints that a printed result or a picture names at most: more do not fit on a screen."""
+"""Joints that a printed result names at most: more do not fit on a screen."""
 MAX_HELD = 4
 """Coordinates without a drive that a printed result names at most: one idle freedom may show in several."""
 HELD = 1e-6
@@ -125,12 +125,12 @@ class Reactions:
         return [*found[:MAX_HELD], *more]
 
     def plot(self, path: str | Path, joints: Sequence[str] | None = None) -> Path:
-        """Draw the size of the forces of some joints, by default of the most loaded ones; returns the path."""
+        """Draw the size of the forces of some joints, by default of all; returns the path."""
         forces = {name: np.linalg.norm(np.asarray(rows), axis=1) for name, rows in self.forces.items()}
         for name in joints or ():
             if name not in forces:
                 raise ValueError(f"there is no joint {name!r}{nearest(str(name), forces)}")
-        order = list(joints or sorted(forces, key=lambda name: -np.nan_to_num(forces[name]).max())[:MAX_LINES])
+        order = list(joints or forces)
         return draw_lines(order, np.stack([forces[name] for name in order]), "force (N)", "joint reactions", Path(path))
 
     def save(self, path: str | Path) -> Path:

@@ -32,7 +32,8 @@ def test_a_pin_with_play_or_interference_is_a_pin(radius, clearance):
     assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
     assert dict(joint.evidence.sizes)["clearance"] == pytest.approx(clearance)
     np.testing.assert_allclose(np.abs(joint.frames_1[0, :3, 2]), [0, 0, 1], atol=1e-12)
-    assert any(f"{abs(clearance):.2g}" in note and "base-lever" in note for note in mechanism.notes)
+    fit = f"has {'a clearance' if clearance > 0 else 'an interference'} of {abs(clearance):.2g} "
+    assert any(fit in note and "base-lever" in note for note in mechanism.notes)
     assert np.all(mechanism.sweep({f"{joint.name}.phi": np.linspace(0, 1, 5), f"{joint.name}.z": np.zeros(5)}).closed)
 
 
