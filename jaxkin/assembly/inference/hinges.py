@@ -157,7 +157,7 @@ def _hinge(known: Known, line: Line, touching: bool, fastened: bool, kept: Seque
         return [hinge(known, line, Stop.SHORT, 0.0, room)]
     slides = hinge(known, line, Stop.NONE, None, room)
     stop = Stop.CENTRED if centred else Stop.NO_STROKE if _has_no_stroke(pair, reach) else None
-    return [slides] if pair.virtual or stop is None else [slides, hinge(known, line, stop, 0.0, room)]
+    return [slides] if pair.virtual or far or stop is None else [slides, hinge(known, line, stop, 0.0, room)]
 
 
 def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tuple[float | None, float | None]:
@@ -179,7 +179,7 @@ def _room(known: Known, line: Line, touching: bool, kept: Sequence[Line]) -> tup
         rooms = (room, play([*one, *slanted[0]], [*other, *slanted[1]], hole.radius))
         room = min((each for each in rooms if each is not None), default=None)
     between = None if pair.virtual else _between(known, pair, line.found)
-    if between is not None and between <= MAX_PLAY * hole.radius:
+    if between is not None and (between <= MAX_PLAY * hole.radius or not any(line.pins)):
         room = between if room is None else min(room, between)
     return room, near
 

@@ -11,7 +11,7 @@ from jaxkin.geometry.part import moved
 from jaxkin.geometry.surfaces import Sphere
 from reference.round_parts import TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
 
-PIVOT = pin(4.0, 0, 20, (60.0, 0.0))
+PIVOT = pin(4.0, 0, 60, (60.0, 0.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 0.0)), block((68, -3, 5), (100, 3, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
 

@@ -10,7 +10,7 @@ import pytest
 import jaxkin as jk
 from reference.round_parts import anywhere, assembly, block, kind_of, owners, part, pin, ring
 
-PIVOT = pin(4.0, 0, 20, (100.0, 60.0))
+PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 OTHER = part("other lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
 """It turns and slides on the pivot of the base: where nothing moves, inferences are left out until something does."""
 EYE = ring(3.3, 14.0, -3, 0)

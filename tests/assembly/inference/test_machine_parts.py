@@ -13,7 +13,7 @@ from reference.round_parts import anywhere, assembly, block, kind_of, moving, ow
 
 LUGS = [block((-60, -60, -40), (60, 60, -30)), ring(5.0, 12.0, -16, -8), ring(5.0, 12.0, 8, 16)]
 """A base with two lugs about z."""
-PIVOT = pin(4.0, 0, 20, (100.0, 60.0))
+PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 OTHER = part("other lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
 

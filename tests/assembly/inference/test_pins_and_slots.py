@@ -7,7 +7,7 @@ import pytest
 
 from reference.round_parts import across, anywhere, assembly, block, kind_of, owners, part, pin, ring
 
-PIVOT = pin(4.0, 0, 20, (100.0, 60.0))
+PIVOT = pin(4.0, 0, 60, (100.0, 60.0))
 LEVER = part("pivot lever", ring(4.1, 9.0, 5, 15, (100.0, 60.0)), block((108, 57, 5), (140, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
 

@@ -10,7 +10,7 @@ from jaxkin.assembly.inference.bores import bores
 from jaxkin.assembly.inference.fasteners import fasteners
 from reference.round_parts import across, anywhere, assembly, block, moving, owners, part, pin, ring
 
-PIVOT = pin(4.0, 0, 20, (60.0, 60.0))
+PIVOT = pin(4.0, 0, 60, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
 

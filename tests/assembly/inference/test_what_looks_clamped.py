@@ -131,7 +131,7 @@ def test_a_ring_set_into_a_hub_and_clamped_on_its_axle_is_a_bearing(seed, presse
 
 
 @pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize(("thick", "kind"), [(0.5, None), (6.0, "cylindrical")])
+@pytest.mark.parametrize(("thick", "kind"), [(0.5, None), (6.0, "revolute")])
 def test_a_thin_disc_with_much_play_in_a_counterbore_guides_nothing(seed, thick, kind):
     base = part("base", ring(4.0, 14.0, -2, 6), block((14, -4, -20), (20, 4, 6)))
     disc = part("disc", pin(3.5, 6 - thick - 0.1, 5.9), pin(6.0, 5.9, 9), block((-3, -30, 9), (3, 30, 12)))

@@ -11,7 +11,7 @@ from jaxkin.geometry.surfaces import Cone, Plane
 from jaxkin.joints.evidence import EvidenceKind
 from reference.round_parts import SECTIONS, TO_X, anywhere, assembly, block, moving, owners, part, pin, ring
 
-PIVOT = pin(4.0, 0, 20, (60.0, 60.0))
+PIVOT = pin(4.0, 0, 60, (60.0, 60.0))
 LEVER = part("lever", ring(4.1, 9.0, 5, 15, (60.0, 60.0)), block((68, 57, 5), (100, 63, 15)))
 """Something that moves on the pivot of the base: where nothing can, inferences are left out until something does."""
 HOUSING = part("base", ring(16.0, 25.0, -10.0, 10.0), block((-30, -30, -25), (30, 30, -10)))
