@@ -30,6 +30,8 @@ rod that stands in the middle: axles with their wheels have up to 4, the rods of
 MIN_GUIDED = 2.0
 """Length of a hole that slides along a pin, over the radius, at least: one that is shorter than its diameter jams, as a
 drawer does, so that a plate on a rod between two lugs turns on it."""
+LONGEST_HUB = 5.0
+"""Length of the hole of a hub without a stroke, over the radius, at most: what is longer guides, as telescopes do."""
 MIN_TURN = 0.05
 """Radians by which a part turns on a hinge with play before faces beside its axis meet, at least."""
 
@@ -191,7 +193,10 @@ def _reach(found: Sequence[CommonAxis], pair: CommonAxis) -> tuple[float, float]
 
 
 def _has_no_stroke(pair: CommonAxis, reach: tuple[float, float]) -> bool:
-    """Tell whether a pin is about as long as what it is in: a wheel on the end of its axle, an arm on a peg."""
+    """Tell whether a pin is about as long as what it is in, and that is short: a wheel on the end of its axle, an arm
+    on a peg, and no tube in a tube."""
+    if reach[1] - reach[0] > LONGEST_HUB * pair.other.radius:
+        return False
     spans = pair.one.spans_along(pair.one.axis)
     ends = [end for span in spans if span[0] < reach[1] and reach[0] < span[1] for end in span]
     return bool(ends) and abs(max(ends) - min(ends) - (reach[1] - reach[0])) <= MAX_PLAY * pair.other.radius
