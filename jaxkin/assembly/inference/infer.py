@@ -139,8 +139,8 @@ def infer(
     touching = {pair for pair in known.touching if not pair & known.closed}
     drawn = stacks(outside, fastening, touching, known.order)
     every = with_hosts([*drawn, *spacers(known, fastening)], known)
-    while added := bolted_bodies(known, every):
-        known.add(added)
+    while known.add(bolted_bodies(known, every)):
+        pass
     known.add(attached_fasteners(known, every))
     known.add(empty_nuts(known))
     known.add(screwed_bodies(known, every))

@@ -132,11 +132,12 @@ class Known:
             spans.append((float(along.min()), float(along.max())))
         return max(low for low, _ in spans), min(high for _, high in spans)
 
-    def add(self, inferences: Sequence[Inference]) -> None:
-        """Take inferences of parts that are not one body already, one after another.
+    def add(self, inferences: Sequence[Inference]) -> bool:
+        """Take inferences of parts that are not one body already, one after another; tell whether any was taken.
 
         Parts that joints by hand or inferred joints join are left apart, and so are the rings of a bearing.
         """
+        before = len(self.found)
         body = self.body
         jointed = [*self.by_hand, *self.rings, *(frozenset(each.parts) for each in self.found if each.joint)]
         for each in inferences:
@@ -146,6 +147,7 @@ class Known:
                 self.found.append(each)
                 first = min(owners, key=self.order.__getitem__)
                 body = {part: first if owner in owners else owner for part, owner in body.items()}
+        return len(self.found) > before
 
     def _is_neck(self, pair: CommonAxis) -> bool:
         """Tell whether a pin in a hole is the neck of a ball in the opening of its socket: the ball guides it."""

@@ -79,3 +79,16 @@ def test_catalogued_rings_are_thick_enough_for_balls():
 def test_what_has_other_bores_is_no_bearing():
     flange = part("flange", ring(BORE, OUTSIDE, 0, WIDTH), ring(0.5, 1.0, 0, WIDTH, at=(7.5, 0.0)))
     assert not closed_bearings([flange], {"flange": bores(flange)})
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_holes_that_line_up_do_not_lock_what_a_bearing_lets_turn(seed):
+    """A flange in whose pose two holes stand over two of the housing, as if bolts held it: the search for more bolted
+    bodies ends, and the shaft turns."""
+    at = [(15.0, 0.0), (-15.0, 0.0)]
+    below = part("housing", ring(OUTSIDE, 20.0, 0.0, 30.0), *(ring(1.5, 2.5, 20.0, 30.0, each) for each in at))
+    flange = part("shaft", pin(BORE, -20.0, 50.0), *(ring(1.5, 2.5, 30.5, 36.0, each) for each in at))
+    drawn = anywhere(assembly(below, flange, bearing("bearing", 10.0)), seed, scaled_at_random=False)
+    mechanism = drawn.mechanism(fixed=["housing"])
+    (joint,) = moving(mechanism)
+    assert joint.kind == "revolute" and {*mechanism.bodies["housing"]} == {"housing", "bearing"}
