@@ -78,6 +78,10 @@ def slanted_stops(part: Part, axis: Bore) -> list[StopFace]:
 
     Each is a narrow ring about the axis, at the farthest point of the face among its corners and some points on rings.
     """
+    low, high = part.box - axis.point
+    middle, reach = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
+    if np.linalg.norm(np.cross(middle, axis.axis)) - reach > REACH * axis.radius:
+        return []
     found = []
     for face in part.faces:
         if stands_across(face.surface, axis.axis):
@@ -104,6 +108,7 @@ def _beside(triangles: Float[np.ndarray, "triangles 3 3"], axis: Bore) -> Float[
     away = np.linalg.norm(flat, axis=-1)
     low, high = WIDER * axis.radius, REACH * axis.radius
     near = np.all(flat.min(axis=1) <= high, axis=-1) & np.all(flat.max(axis=1) >= -high, axis=-1)
+    near &= away.max(axis=1) > low
     corners = (away > low) & (away <= high)
     found = [np.column_stack([heights[corners], away[corners]])]
     angle, radius = np.meshgrid(np.linspace(0, 2 * np.pi, RING_POINTS, endpoint=False), np.linspace(low, high, RINGS))
