@@ -95,7 +95,7 @@ def _inferred(assembly: Assembly, contacts: Sequence[Contact], said: Said, tubes
     mechanism, found, plainly = made(seats)
     inexact = len(found) > len(seats)
     for _ in range(_ROUNDS):
-        seats += (new := _seats(mechanism, inexact, {each.part for each in assembly._measured.closed_bearings}))
+        seats += (new := _seats(mechanism, inexact, {each.part.name for each in assembly._measured.closed_bearings}))
         if not new:
             break
         other, more, count = made(seats)

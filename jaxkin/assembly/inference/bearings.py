@@ -45,7 +45,7 @@ class Bearing(NamedTuple):
     """Number of balls or rollers."""
 
 
-class _Ring(NamedTuple):
+class Ring(NamedTuple):
     """A body of revolution with a hole."""
 
     part: Part
@@ -64,7 +64,7 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
 
     `bores` are the bores and pins of each part by its name.
     """
-    rings = [ring for part in parts if (ring := _ring(part, [*bores[part.name], *_tapered(part)])) is not None]
+    rings = [ring for part in parts if (ring := ring_of(part, [*bores[part.name], *_tapered(part)])) is not None]
     nested = [(outer, inner) for outer in rings for inner in rings if outer is not inner and _inside(outer, inner)]
     coaxial = {ring.part.name for ring in rings}
     inside = [[part for part in parts if part not in (a.part, b.part) and _between(part, a, b)] for a, b in nested]
@@ -85,12 +85,12 @@ def bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]]) -> list
     return found
 
 
-def _rolls(part: Part, outer: _Ring, inner: _Ring) -> bool:
+def _rolls(part: Part, outer: Ring, inner: Ring) -> bool:
     """Tell whether what is between two rings reaches from one to the other, with its middle beside both: a screw
     through a flange does not, nor what else is on a long hollow axle."""
     away, along = _section(part, outer.hole)
     gap, slack = MAX_GAP * _room(outer, inner), SLACK * outer.outside.radius
-    ends, middle = np.array([_ends(ring, outer.hole) for ring in (outer, inner)]), (along.min() + along.max()) / 2
+    ends, middle = np.array([reach_of(ring, outer.hole) for ring in (outer, inner)]), (along.min() + along.max()) / 2
     beside = ends[:, 0].max() - slack <= middle <= ends[:, 1].min() + slack
     return bool(beside and away.min() <= inner.outside.radius + gap and away.max() >= outer.hole.radius - gap)
 
@@ -119,7 +119,8 @@ def outside_of(found: Sequence[Bearing], axes: Sequence[CommonAxis]) -> list[Com
     ]
 
 
-def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
+def ring_of(part: Part, own: Sequence[Bore]) -> Ring | None:
+    """Make the ring that a part with the bores and pins `own` is; None where it is not round, or has no hole."""
     holes, outsides = [bore for bore in own if bore.hole], [bore for bore in own if not bore.hole]
     if not holes or not outsides:
         return None
@@ -130,7 +131,7 @@ def _ring(part: Part, own: Sequence[Bore]) -> _Ring | None:
     if hole is None or not all(bore.hole for bore in beside):
         return None
     away, _ = _section(part, outside)
-    return _Ring(part, hole, outside, about, not beside) if away.max() <= ROUND * outside.radius else None
+    return Ring(part, hole, outside, about, not beside) if away.max() <= ROUND * outside.radius else None
 
 
 def _tapered(part: Part) -> list[Bore]:
@@ -155,20 +156,20 @@ def _section(part: Part, axis: Bore) -> tuple[np.ndarray, np.ndarray]:
     return np.linalg.norm(corners - np.outer(along, axis.axis), axis=1), along
 
 
-def _inside(outer: _Ring, inner: _Ring) -> bool:
+def _inside(outer: Ring, inner: Ring) -> bool:
     """Tell whether a ring is inside another one, with room for balls, and at the same place of one axis."""
     ratio = inner.outside.radius / outer.hole.radius
     if not THICKEST <= ratio < 1 / ROUND or not inner.outside.on_axis_of(outer.hole):
         return False
-    (low1, high1), (low2, high2) = (_ends(ring, outer.hole) for ring in (outer, inner))
+    (low1, high1), (low2, high2) = (reach_of(ring, outer.hole) for ring in (outer, inner))
     return min(high1, high2) - max(low1, low2) > min(high1 - low1, high2 - low2) / 2
 
 
-def _room(outer: _Ring, inner: _Ring) -> float:
+def _room(outer: Ring, inner: Ring) -> float:
     return outer.hole.radius - inner.outside.radius
 
 
-def _hides_a_bearing(outer: _Ring, inner: _Ring, sure: Sequence[tuple[_Ring, _Ring]]) -> bool:
+def _hides_a_bearing(outer: Ring, inner: Ring, sure: Sequence[tuple[Ring, Ring]]) -> bool:
     """Tell whether a bearing is seated in the one of two rings or on the other: a roller on its bearing, with the
     spacer beside that, is none."""
     return any(
@@ -183,25 +184,26 @@ def _is_seated(pin: Bore, hole: Bore) -> bool:
     return 1 / ROUND < pin.radius / hole.radius < ROUND and pin.on_axis_of(hole)
 
 
-def _ends(ring: _Ring, axis: Bore) -> tuple[float, float]:
+def reach_of(ring: Ring, axis: Bore) -> tuple[float, float]:
+    """Find where a ring begins and ends along an axis, from the point of that."""
     along = _section(ring.part, axis)[1]
     return float(along.min()), float(along.max())
 
 
-def _flush(outer: _Ring, inner: _Ring) -> bool:
+def _flush(outer: Ring, inner: Ring) -> bool:
     if not (outer.plain and inner.plain):
         return False
-    ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
+    ends = np.array([reach_of(ring, outer.hole) for ring in (outer, inner)])
     return bool(np.abs(ends[0] - ends[1]).max() <= FLUSH * np.ptp(ends, axis=1).max())
 
 
-def _between(part: Part, outer: _Ring, inner: _Ring) -> bool:
+def _between(part: Part, outer: Ring, inner: Ring) -> bool:
     """Tell whether a part is inside of the section that both rings make together."""
     reach, slack = outer.outside.radius, SLACK * outer.outside.radius
     middle = part.box.mean(axis=0) - outer.hole.point
     if np.linalg.norm(middle) > 2 * reach + outer.hole.half:  # before all corners are looked at
         return False
     away, along = _section(part, outer.hole)
-    ends = np.array([_ends(ring, outer.hole) for ring in (outer, inner)])
+    ends = np.array([reach_of(ring, outer.hole) for ring in (outer, inner)])
     within = along.min() >= ends[:, 0].min() - slack and along.max() <= ends[:, 1].max() + slack
     return bool(within and away.min() > inner.hole.radius and away.max() < outer.outside.radius)

@@ -6,25 +6,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from jaxkin.assembly.inference.axes import CommonAxis, engaged
-from jaxkin.assembly.inference.closed_bearings import ClosedBearing
+from jaxkin.assembly.inference.bearings import Ring
 from jaxkin.assembly.inference.hinge import Hinge
 from jaxkin.assembly.inference.inference import Inference
 from jaxkin.assembly.inference.known import Known
+from jaxkin.assembly.inference.sleeves import MAX_LOOSE
 from jaxkin.assembly.inference.slide_stops import Stop
 from jaxkin.joints import pairs
 from jaxkin.joints.evidence import Evidence, EvidenceKind
 
-MAX_LOOSE = 0.1
-"""Clearance of a bearing in its seat, over the radius of that, at most."""
 
-
-def in_closed_bearings(known: Known, found: Sequence[ClosedBearing]) -> list[CommonAxis]:
+def in_closed_bearings(known: Known, found: Sequence[Ring]) -> list[CommonAxis]:
     """Find the pins in the holes of bearings: they turn there, and are no body with the ring."""
-    names = {each.part for each in found}
+    names = {each.part.name for each in found}
     return [pair for pair in known.axes if not pair.virtual and pair.other.part in names and pair.one.part not in names]
 
 
-def closed_bearing_bodies(known: Known, found: Sequence[ClosedBearing]) -> list[Inference]:
+def closed_bearing_bodies(known: Known, found: Sequence[Ring]) -> list[Inference]:
     """Join each bearing with what its outside sits in."""
     result = []
     for each in found:
@@ -32,18 +30,18 @@ def closed_bearing_bodies(known: Known, found: Sequence[ClosedBearing]) -> list[
         seats = [pair for pair in seats if pair.clearance <= MAX_LOOSE * pair.other.radius]
         if seats:
             seat = max(seats, key=engaged)
-            text = f"{each.part!r} has the size of a ball bearing, and sits in {seat.other.part!r}"
+            text = f"{each.part.name!r} has the size of a ball bearing, and sits in {seat.other.part!r}"
             result.append(Inference(known.in_order(seat.parts), _evidence(each, text)))
     return result
 
 
-def closed_bearing_joints(known: Known, found: Sequence[ClosedBearing]) -> list[Hinge]:
+def closed_bearing_joints(known: Known, found: Sequence[Ring]) -> list[Hinge]:
     """Make a revolute joint of each bearing and what turns in it; one for several bearings on an axis of two bodies.
 
     Of pins that fit exactly it only stops the slide that contacts allow.
     """
     body, lines, result = known.body, {}, []
-    of = {each.part: each for each in found}
+    of = {each.part.name: each for each in found}
     taken = {*known.jointed}
     for pair in sorted(in_closed_bearings(known, found), key=engaged, reverse=True):
         owners = frozenset(body[part] for part in pair.parts)
@@ -60,6 +58,6 @@ def closed_bearing_joints(known: Known, found: Sequence[ClosedBearing]) -> list[
     return result
 
 
-def _evidence(bearing: ClosedBearing, text: str) -> Evidence:
+def _evidence(bearing: Ring, text: str) -> Evidence:
     sizes = (("bore", 2 * bearing.hole.radius), ("outside", 2 * bearing.outside.radius))
     return Evidence(EvidenceKind.BEARING, sizes, text)

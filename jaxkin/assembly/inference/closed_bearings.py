@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from jaxtyping import Float
 
-from jaxkin.assembly.inference.bearings import ROUND
+from jaxkin.assembly.inference.bearings import Ring, reach_of, ring_of
 from jaxkin.assembly.inference.bores import Bore
 from jaxkin.geometry.part import Part
 
@@ -39,35 +38,17 @@ SIZES: Float[np.ndarray, "sizes 3"] = np.array([row.split() for row in _SIZES.re
 """The same as an array."""
 
 
-class ClosedBearing(NamedTuple):
-    """A bearing that is one part."""
-
-    part: str
-    hole: Bore
-    outside: Bore
-
-
-def closed_bearings(
-    parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], metre: float = 1e-3
-) -> list[ClosedBearing]:
-    """Find the parts that are round, with one hole through them, and have the size of a bearing.
+def closed_bearings(parts: Sequence[Part], bores: Mapping[str, Sequence[Bore]], metre: float = 1e-3) -> list[Ring]:
+    """Find the rings that have nothing beside their hole and the size of a bearing.
 
     `bores` are the bores and pins of each part by its name, and `metre` is the unit of lengths in metres.
     """
-    found = (_closed_bearing(part, bores[part.name], metre) for part in parts)
-    return [each for each in found if each is not None]
+    rings = [ring for part in parts if (ring := ring_of(part, bores[part.name])) is not None]
+    return [ring for ring in rings if ring.plain and _is_catalogued(ring, metre / 1e-3)]
 
 
-def _closed_bearing(part: Part, own: Sequence[Bore], metre: float) -> ClosedBearing | None:
-    holes, outsides = [bore for bore in own if bore.hole], [bore for bore in own if not bore.hole]
-    if not holes or not outsides:
-        return None
-    hole, outside = min(holes, key=lambda bore: bore.radius), max(outsides, key=lambda bore: bore.radius)
-    if not all(bore.on_axis_of(hole) for bore in own):
-        return None
-    corners = part.outermost - hole.point
-    along = corners @ hole.axis
-    away = np.linalg.norm(corners - np.outer(along, hole.axis), axis=1).max()
-    size = np.array([2 * hole.radius, 2 * outside.radius, np.ptp(along)]) * metre / 1e-3
-    known = np.any(np.all(np.abs(size / SIZES - 1) <= SAME_SIZE, axis=1))
-    return ClosedBearing(part.name, hole, outside) if known and away <= ROUND * outside.radius else None
+def _is_catalogued(ring: Ring, millimetres: float) -> bool:
+    """Tell whether a ring has one of `SIZES`; its lengths are in units of so many millimetres."""
+    low, high = reach_of(ring, ring.hole)
+    size = millimetres * np.array([2 * ring.hole.radius, 2 * ring.outside.radius, high - low])
+    return bool(np.any(np.all(np.abs(size / SIZES - 1) <= SAME_SIZE, axis=1)))

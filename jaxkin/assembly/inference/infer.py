@@ -94,7 +94,7 @@ def infer(
     known.add(clamped_on_rings(known, rolling))
     closed = measured.closed_bearings
     known.rings |= {frozenset(pair.parts) for pair in in_closed_bearings(known, closed)}
-    known.closed = {each.part for each in closed}
+    known.closed = {each.part.name for each in closed}
     known.add(closed_bearing_bodies(known, closed))
 
     # shafts and hubs: keys, flats, balls of rod ends, split rings, bushes, screws across

@@ -9,9 +9,9 @@ import numpy as np
 from jaxtyping import Float
 
 from jaxkin.assembly.inference.axes import CommonAxis, common_axes, far_axes
-from jaxkin.assembly.inference.bearings import Bearing, bearings
+from jaxkin.assembly.inference.bearings import Bearing, Ring, bearings
 from jaxkin.assembly.inference.bores import Bore, bores
-from jaxkin.assembly.inference.closed_bearings import ClosedBearing, closed_bearings
+from jaxkin.assembly.inference.closed_bearings import closed_bearings
 from jaxkin.assembly.inference.embedded import depth_inside
 from jaxkin.assembly.inference.stop_faces import StopFace, slanted_stops, stops
 from jaxkin.geometry.part import Part
@@ -43,10 +43,10 @@ class Measured:
         return bearings(self.parts, self.bores)
 
     @cached_property
-    def closed_bearings(self) -> list[ClosedBearing]:
+    def closed_bearings(self) -> list[Ring]:
         """Bearings that are one part each: see `closed_bearings`."""
         taken = {name for each in self.bearings for name in (each.outer, each.inner, *each.between)}
-        return [each for each in closed_bearings(self.parts, self.bores, self._metre) if each.part not in taken]
+        return [each for each in closed_bearings(self.parts, self.bores, self._metre) if each.part.name not in taken]
 
     def axes(self, clearance: float | None) -> list[CommonAxis]:
         """Find the common axes of different parts: see `common_axes`."""
