@@ -33,7 +33,8 @@ STEPS_A_POSE_OF_SEVERAL = 12
 """Steps that `max_steps=None` allows for each pose of several inputs, up to `COUNTED_POSES`: inputs in random order
 take about eight steps a pose."""
 MAX_STEPS_TO_LIMITS = 48
-"""Largest number of steps if limits are not followed: nine of ten ranges without a limit take no more."""
+"""Largest number of steps if limits are not followed: nine of ten ranges without a limit take no more. A program that
+never follows limits has room for as many samples only: to clear room for 1024 takes a tenth of a short sweep."""
 SAME_POSE = 1e-9
 """Largest difference of coordinates, radians or characteristic lengths, of two fronts in one pose in float64: far above
 the residual to which poses of the trace are closed, about 1e-14."""
@@ -109,10 +110,11 @@ def trace_branch(problem: ContinuationProblem, values: Float[Array, " poses"]) -
 
 def _max_steps(problem: ContinuationProblem, poses: int) -> int:
     """Return the largest number of steps to either side of the assembled pose for a number of poses."""
-    if problem.options.max_steps is not None:
-        return problem.options.max_steps
-    each = STEPS_A_POSE if len(problem.system.driven) == 1 else STEPS_A_POSE_OF_SEVERAL
-    return max(LEAST_MAX_STEPS, each * min(poses, COUNTED_POSES))
+    steps = problem.options.max_steps
+    if steps is None:
+        each = STEPS_A_POSE if len(problem.system.driven) == 1 else STEPS_A_POSE_OF_SEVERAL
+        steps = max(LEAST_MAX_STEPS, each * min(poses, COUNTED_POSES))
+    return min(steps, MAX_STEPS_TO_LIMITS) if problem.follow_limits is False else steps
 
 
 def _same_pose(problem: ContinuationProblem, state: State) -> Bool[Array, ""]:
