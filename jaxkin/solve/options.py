@@ -64,8 +64,9 @@ class SolverOptions:
     """Ranges of at least this number of poses are interpolated between a few that were solved, and checked."""
     cores: int | None = None
     """Processor cores that share a long range, at most. None: all that this process may use."""
-    min_shard_poses: int = 2**14
-    """Poses that one core is given, at least: for fewer, tracing the branch to them takes longer than finding them."""
+    min_shard_poses: int | None = None
+    """Poses that one core is given, at least: for fewer, tracing the branch to them takes longer than finding them.
+    None: 16384, and 128 for loops of twenty joints and more."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "tolerance", _positive_number(self.tolerance))
@@ -82,7 +83,7 @@ class SolverOptions:
     @cached_property
     def of_program(self) -> SolverOptions:
         """The options that the code of a program depends on; the others at their defaults."""
-        return replace(self, tolerance=None, formulas=True, cores=None, min_shard_poses=SolverOptions.min_shard_poses)
+        return replace(self, tolerance=None, formulas=True, cores=None, min_shard_poses=None)
 
 
 _defaults = cache(SolverOptions)

@@ -14,6 +14,7 @@ from jaxkin.mechanism.drive_plan import plan_drive
 from jaxkin.mechanism.mechanism import Mechanism
 from jaxkin.solve.execution.cores import shard_count
 from jaxkin.solve.options import SolverOptions
+from reference.catalogue import hexapod
 from reference.mechanisms import planar_fourbar, rssr_linkage
 
 POSES = 3000
@@ -81,7 +82,34 @@ def test_settings_of_a_thread_hold_in_those_of_its_shards():
     assert np.all(motion.closed)
 
 
+def shards(system, poses, **options):
+    """Number of shards of a rising range of so many poses on eight cores."""
+    return shard_count(system, np.linspace(0.0, 1.0, poses)[None], SolverOptions(cores=8, **options))
+
+
 def test_how_many_shards():
     (element,) = plan_drive(planar_fourbar().linkage, ("A",)).loop_groups
-    options = SolverOptions(cores=8, min_shard_poses=1000)
-    assert [shard_count(element.system, poses, options) for poses in (999, 3000, 100_000)] == [1, 3, 8]
+    assert [shards(element.system, poses, min_shard_poses=1000) for poses in (999, 3000, 100_000)] == [1, 3, 8]
+    assert [shards(element.system, poses) for poses in (8000, 2**15)] == [1, 2]
+
+
+def test_short_ranges_of_many_joints_are_shared_by_cores():
+    """The loops of a hexapod have thirty joints; a single input that neither rises nor falls stays in one shard."""
+    legs = tuple(f"leg {number}" for number in range(6))
+    several, single = (plan_drive(hexapod().linkage, driven).loop_groups[0].system for driven in (legs, legs[:1]))
+    assert [shards(several, poses) for poses in (127, 360, 8191, 8192)] == [1, 2, 8, 1]
+    there_and_back = np.concatenate([np.linspace(0.0, 1.0, 180), np.linspace(1.0, 0.0, 180)])[None]
+    assert shard_count(single, there_and_back, SolverOptions(cores=8)) == 1
+    assert shard_count(single, there_and_back[:, :180], SolverOptions(cores=8)) == 1
+    assert shard_count(single, np.sort(there_and_back), SolverOptions(cores=8)) == 2
+
+
+@pytest.mark.long
+def test_shards_of_a_short_range_are_the_range():
+    """Lengths of a few tens: 1e-11 is rounding over the smallest singular value, some 1e-2."""
+    way = np.linspace(0.0, 2 * np.pi, 300)
+    drive = {f"leg {number}": 8.0 * np.sin(way + number) for number in range(6)}
+    whole, split = (hexapod().sweep(drive, options=SolverOptions(cores=cores)) for cores in (1, 2))
+    assert np.all(whole.closed) and np.all(split.closed)
+    for one, other in zip(whole.displacements, split.displacements, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-11)

@@ -26,11 +26,47 @@ from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import turning
 
 
-def shard_count(system: LoopSystem, poses: int, options: SolverOptions) -> int:
-    """Return the number of shards for a range of `poses`: one if the device is no CPU or nothing is driven."""
+MIN_SHARD_POSES = 2**14
+"""Least number of poses of a shard: long ranges are interpolated, at some 0.1 to 0.6 us a pose."""
+MIN_COSTLY_SHARD_POSES = 128
+"""Least number of poses of a shard of a costly system, whose poses take 5 us and more each, before they are
+interpolated: 128 of them take longer than the threads and the joining of their results, some 0.2 ms."""
+COSTLY_JOINTS = 20
+"""Number of joints in the loops of a system, counted once a loop, from which on it is costly: the paper's Fig. 7 has 21
+and a platform on six legs 30, at 8.5 and 5.6 us a pose; systems of up to 16 take at most 1.6 us."""
+
+
+def shard_count(system: LoopSystem, inputs: Float[np.ndarray, "driven poses"], options: SolverOptions) -> int:
+    """Return the number of shards for a range: one if the device is no CPU or nothing is driven.
+
+    A short range whose single input does not rise or fall throughout is left whole: the angles of its balls are counted
+    on from pose to pose in the order given.
+    """
     if not system.driven or not on_cpu():
         return 1
-    return max(1, min(options.cores or available_cores(), poses // options.min_shard_poses))
+    least, poses = options.min_shard_poses, inputs.shape[1]
+    if least is None:
+        costly = sum(map(len, system.loops)) >= COSTLY_JOINTS and (len(inputs) > 1 or is_monotonic(inputs[0]))
+        least = MIN_COSTLY_SHARD_POSES if costly and poses < options.interpolate_from else MIN_SHARD_POSES
+    return max(1, min(options.cores or available_cores(), poses // least))
+
+
+def is_monotonic(values: Float[np.ndarray, " poses"]) -> bool:
+    """Tell whether values rise or fall throughout."""
+    before, after = values[:-1], values[1:]
+    return bool(np.all(after >= before) or np.all(after <= before))
+
+
+def first_shard(system: LoopSystem, inputs: Float[np.ndarray, "driven poses"], count: int) -> tuple:
+    """Return the arguments of the first of `count` shards, with which `run_on_cores` calls its function first."""
+    return _shard(system, inputs, -(-inputs.shape[1] // count), 0) if count > 1 else (inputs,)
+
+
+def _shard(system: LoopSystem, inputs: Float[np.ndarray, "driven poses"], length: int, start: int) -> tuple:
+    """Return the arguments of a shard: its inputs if there is a single input, else all inputs and its first pose."""
+    if len(system.driven) == 1:
+        return (inputs[:, start : start + length],)
+    return inputs, np.asarray(start, np.int32)
 
 
 def run_on_cores(
@@ -51,16 +87,11 @@ def run_on_cores(
     x64 = dtypes.canonicalize_dtype(float) == jnp.float64
     device = getattr(jax.config, "jax_default_device", None)
 
-    def of_shard(start: int):
-        if len(system.driven) == 1:
-            return function(inputs[:, start : start + length])
-        return function(inputs, np.asarray(start, np.int32))
-
     def run(start: int):
         with jax.enable_x64(x64), jax.default_device(device):  # these settings are local to a thread
-            return jax.block_until_ready(of_shard(start))
+            return jax.block_until_ready(function(*_shard(system, inputs, length, start)))
 
-    first = of_shard(0)  # compiled and started by the calling thread
+    first = function(*first_shard(system, inputs, count))  # compiled and started by the calling thread
     return _joined(system, starts[-2] + length - starts[-1], [first, *_threads(count).map(run, starts[1:])])
 
 

@@ -17,7 +17,7 @@ from jaxtyping import Array, Float, Int
 from jaxkin._traced import traced
 from jaxkin.solve.device import on_cpu
 from jaxkin.solve.execution.compiler import count_trace, jit_options
-from jaxkin.solve.execution.cores import available_cores, run_on_cores, shard_count
+from jaxkin.solve.execution.cores import available_cores, first_shard, is_monotonic, run_on_cores, shard_count
 from jaxkin.solve.options import CONTINUATION, SolverOptions
 from jaxkin.solve.range.solve_range import displacements, find_poses, shard
 from jaxkin.solve.status import ClosureTolerance, Status
@@ -56,17 +56,19 @@ class KnownRange(NamedTuple):
     @property
     def shards(self) -> int:
         """Number of shards in which the range is solved."""
-        return shard_count(self.system, self.inputs.shape[1], self.options)
+        return shard_count(self.system, self.inputs, self.options)
 
-    def program(self, follow_limits: bool) -> tuple[Callable[..., Any], Callable[..., Any]]:
-        """Make two functions of a shard and its first pose: one solves it, the other one lowers the program for it."""
-        given = self.system, self.options.of_program, self.joints
+    def solve_shard(
+        self, function: Callable[..., Any], follow_limits: bool, inputs: np.ndarray, start: Any = None
+    ) -> Any:
+        """Call the program of the range, or what lowers it, for one shard and the number of its first pose."""
         settings = {"shard_count": self.shards, "follow_limits": follow_limits}
+        return function(self.system, self.options.of_program, self.joints, inputs, self.tolerance, start, **settings)
 
-        def call(function: Callable[..., Any], inputs: np.ndarray, start: Any = None) -> Any:
-            return function(*given, inputs, self.tolerance, start, **settings)
-
-        return partial(call, _solve_program()), partial(call, _solve_program().lower)
+    def lowered(self) -> Any:
+        """Lower the program that follows no limits for the first shard, and with that for all."""
+        shard = first_shard(self.system, _in_order(self.inputs, self.options.interpolate_from)[0], self.shards)
+        return self.solve_shard(_solve_program().lower, False, *shard)
 
 
 def solve_numbers(asked: KnownRange, limits_ahead: bool) -> tuple[Float[Array, "columns poses"], Outcome]:
@@ -82,8 +84,7 @@ def solve_numbers(asked: KnownRange, limits_ahead: bool) -> tuple[Float[Array, "
     asked = asked._replace(inputs=ordered)
 
     def solved(follow_limits: bool) -> tuple[Float[Array, "columns poses"], Outcome]:
-        solve, _ = asked.program(follow_limits)
-        return run_on_cores(system, solve, ordered, asked.shards)
+        return run_on_cores(system, partial(asked.solve_shard, _solve_program(), follow_limits), ordered, asked.shards)
 
     key = asked.key
     found = None if limits_ahead or key in _limited else solved(follow_limits=False)
@@ -97,13 +98,12 @@ def compile_together(ranges: Iterable[KnownRange]) -> None:
     """Compile the programs of several ranges at the same time, one a core, before these are solved in turn.
 
     JAX keeps what it has compiled for a call of the same arguments. Ranges of equal systems share a program, and a
-    single one is compiled where it is called, as are those in shards and those of traced joints.
+    single one is compiled where it is called, as are those of traced joints.
     """
     new = {
         key: each
         for each in ranges
         if each.options.method == CONTINUATION
-        and each.shards == 1
         and (key := each.key) not in _together
         and key not in _limited
         and not traced(each)
@@ -112,7 +112,7 @@ def compile_together(ranges: Iterable[KnownRange]) -> None:
         return
     with ThreadPoolExecutor(available_cores(), thread_name_prefix="jaxkin") as threads:
         # lowered here, while those before are compiled: Python runs one thread at a time, and settings are local to it
-        compiled = [threads.submit(each.program(False)[1](each.inputs).compile) for each in new.values()]
+        compiled = [threads.submit(each.lowered().compile) for each in new.values()]
     for program in compiled:
         program.result()
     _together.update(new)
@@ -138,8 +138,7 @@ def _in_order(inputs: np.ndarray, interpolate_from: int) -> tuple[np.ndarray, np
     """Sort many poses of a single input, as interpolation needs them, and tell where each is to be put back."""
     if len(inputs) != 1 or inputs.shape[1] < interpolate_from or not on_cpu():
         return inputs, None
-    before, after = inputs[0, :-1], inputs[0, 1:]
-    if np.all(after >= before) or np.all(after <= before):
+    if is_monotonic(inputs[0]):
         return inputs, None
     order = np.argsort(inputs[0], kind="stable")
     places = np.empty_like(order)
