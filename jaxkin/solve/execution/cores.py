@@ -25,7 +25,6 @@ from jaxkin.solve.options import SolverOptions
 from jaxkin.solve.system.loop_system import LoopSystem
 from jaxkin.solve.system.state import turning
 
-
 MIN_SHARD_POSES = 2**14
 """Least number of poses of a shard: long ranges are interpolated, at some 0.1 to 0.6 us a pose."""
 MIN_COSTLY_SHARD_POSES = 128

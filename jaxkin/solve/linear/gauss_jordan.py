@@ -16,8 +16,8 @@ from jaxkin.solve.linear.gram import Damping, Matrix, add_damping, gram_matrix
 
 MAX_GAUSS_JORDAN_ROWS = 8
 """Largest number of rows that are eliminated row by row. Larger systems are halved first: the 22 rows of the paper's
-Fig. 7 at 32 poses take 110 us without halving, 52 us with halves of eleven, 28 us with quarters, which take a quarter of
-a second more to compile; 12 rows take 20 and 9 us."""
+Fig. 7 at 32 poses take 110 us without halving, 52 us with halves of eleven, 28 us with quarters, which take a quarter
+of a second more to compile; 12 rows take 20 and 9 us."""
 
 
 def factor_gauss_jordan(jacobian: Matrix, damping: Damping) -> Callable[[Array], Array]:
