@@ -43,12 +43,12 @@ class Known:
         self.group = _subassemblies(self.parts)
         """The sub-assembly that each part is in, by its path; () for those of the whole assembly."""
         self.rigid = [tuple(group) for group in rigid]
-        self.by_hand = {frozenset(joint.parts) for joint in joints}
+        self.by_hand = dict.fromkeys(frozenset(joint.parts) for joint in joints).keys()
         self.between: dict[Pair, list[Contact]] = {}
         """The exact contacts of each pair of parts."""
         for contact in contacts:
             self.between.setdefault(frozenset(contact.parts), []).append(contact)
-        self.touching = {*self.between}
+        self.touching = self.between.keys()
         self.pinned = {frozenset(contact.parts) for contact in contacts if contact.contact_state.is_pin}
         self.found: list[Inference] = []
         self.sleeves: set[str] = set()

@@ -73,7 +73,7 @@ def guided_on_faces(known: Known) -> list[Hinge]:
     for owners, normals in flat.items():
         if len(owners) < 2 or owners in others or any(_are_across(normal, normals[0]) for normal in normals):
             continue
-        one, other = ([part for part in known.parts if body[part.name] == owner] for owner in owners)
+        one, other = ([part for part in known.parts if body[part.name] == owner] for owner in known.in_order(owners))
         walls = [
             (part, *wall)
             for first, second in ((one, other), (other, one))

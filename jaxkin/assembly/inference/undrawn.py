@@ -80,7 +80,7 @@ def screwed_flat(known: Known) -> list[Inference]:
         normals = [plane.normal for plane in planes if isinstance(plane, Plane)]
         if any(np.linalg.norm(np.cross(normal, normals[0])) > ACROSS for normal in normals):
             continue
-        for part, other in {pair for each in contacts for pair in (each.parts, each.parts[::-1])}:
+        for part, other in dict.fromkeys(pair for each in contacts for pair in (each.parts, each.parts[::-1])):
             holes = [bore for bore in known.bores[part] if bore.hole and id(bore) not in used]
             ends = _covered(known, holes, other, normals[0])
             if len(ends) > 1:
