@@ -102,7 +102,7 @@ def far_axes(bores: Sequence[Bore], near: Sequence[CommonAxis]) -> list[CommonAx
         return []
     known, result = {(id(pair.one), id(pair.other)) for pair in near}, []
     for pair in _coaxial(bores, None):
-        radius = pair.other.radius
+        radius = max(pair.one.radius, pair.other.radius)
         if (id(pair.one), id(pair.other)) in known or pair.offset > MAX_OFFSET * radius:
             continue
         if pair.virtual:
