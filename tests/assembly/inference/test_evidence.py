@@ -146,17 +146,25 @@ def test_parts_are_left_out_and_named_by_patterns():
         drawn.mechanism(fixed=["base"], exclude=["bolt <9>"])
 
 
+ELSEWHERE = np.array([[0.0, 0.6, 0.8, 30.0], [0.0, 0.8, -0.6, -20.0], [-1.0, 0.0, 0.0, 7.0], [0.0, 0.0, 0.0, 1.0]])
+
+
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 2, 0)])
-def test_neither_order_nor_names_nor_place_matter(order):
-    stud, base = part("stud", pin(5.0, -25, 10)), part("base", BASE)
-    lever = part("lever", ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4)))
-    parts = [(base, stud, lever)[k] for k in order]
-    mechanism = assembly(*parts).mechanism(fixed=["base"])
-    assert {frozenset(body) for body in mechanism.bodies.values()} == {
-        frozenset(("base", "stud")),
-        frozenset(("lever",)),
-    }
+@pytest.mark.parametrize("names", [("base", "stud", "lever"), ("z", "m", "a")])
+@pytest.mark.parametrize("pose", [np.eye(4), ELSEWHERE], ids=["here", "elsewhere"])
+def test_neither_order_nor_names_nor_place_matter(order, names, pose):
+    lever = ring(5.0, 12.0, -4, 4), block((11, -3, -4), (40, 3, 4))
+    pieces = [BASE], [pin(4.5, -25, 10)], lever
+    parts = [moved(part(name, *own), pose) for name, own in zip(names, pieces, strict=True)]
+    mechanism = assembly(*(parts[k] for k in order)).mechanism(fixed=[names[0]])
+    assert {frozenset(body) for body in mechanism.bodies.values()} == {frozenset(names[:2]), frozenset(names[2:])}
     assert mechanism.mobility().freedoms == 2
+    joint = joint_of(mechanism, names[1], names[2])
+    assert joint.kind == "cylindrical" and joint.evidence.kind == EvidenceKind.CLEARANCE
+    way = np.sign(pose[2, 2] or pose[1, 2])  # forwards, wherever it is
+    np.testing.assert_allclose(joint.frames_1[0, :3, 2], way * pose[:3, 2], atol=1e-9)
+    offset = np.cross(joint.frames_1[0, :3, 3] - pose[:3, 3], pose[:3, 2])
+    np.testing.assert_allclose(offset, 0.0, atol=1e-9)
 
 
 def test_parts_are_named_by_the_subassemblies_that_they_are_in():
