@@ -44,8 +44,8 @@ def flatted_hubs(known: Known) -> list[Inference]:
             continue
         flats = [
             each.surfaces[0].normal
-            for each in known.contacts
-            if {*each.parts} == {*pair.parts} and each.contact_state.is_flat and isinstance(each.surfaces[0], Plane)
+            for each in known.between[frozenset(pair.parts)]
+            if each.contact_state.is_flat and isinstance(each.surfaces[0], Plane)
         ]
         along = [normal for normal in flats if abs(normal @ pair.one.axis) < ACROSS]
         if along and all(np.linalg.norm(np.cross(normal, along[0])) < ACROSS for normal in along):
